@@ -1,0 +1,154 @@
+//! The bounding volume hierarchy: the door of this crate.
+
+use std::ops::Range;
+
+use thiserror::Error;
+
+use crate::{Geometry, Hit, Ray, Surface, reference};
+
+/// A built hierarchy, with the geometry it was built from.
+#[derive(Debug)]
+pub struct Bvh {
+    geometry: Vec<Geometry>,
+    /// First primitive number of each geometry, and the total at the end.
+    first: Vec<u32>,
+}
+
+/// How to build.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct BuildOptions {
+    /// How much time to spend on a better tree.
+    pub preset: Preset,
+}
+
+/// How much time to spend on a better tree. The preset never changes a result.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Preset {
+    /// Soonest built.
+    Fast,
+    /// The usual choice.
+    #[default]
+    Balanced,
+    /// Fastest to trace.
+    Best,
+    /// Least memory.
+    Compact,
+}
+
+/// Why a hierarchy could not be built.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+pub enum BuildError {
+    /// More primitives than numbers: the caller's fault.
+    #[error("{0} primitives are more than the {max} that can be numbered", max = u32::MAX - 1)]
+    TooMany(u64),
+}
+
+/// What tracing one ray cost. Differs between SIMD levels and presets.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Cost {
+    /// Nodes visited.
+    pub nodes: u32,
+    /// Primitives (or blocks of them) tested.
+    pub primitives: u32,
+}
+
+/// What a hierarchy is made of.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Stats {
+    /// Primitives, infinite ones included.
+    pub primitives: u64,
+    /// Inner nodes.
+    pub nodes: u64,
+    /// Bytes of nodes and leaves, without the geometry's own arrays.
+    pub bytes: u64,
+}
+
+impl Bvh {
+    /// Builds a hierarchy in the current rayon pool; the result does not depend on its size.
+    ///
+    /// # Errors
+    /// [`BuildError::TooMany`].
+    pub fn build(geometry: Vec<Geometry>, _options: BuildOptions) -> Result<Self, BuildError> {
+        let mut first = vec![0];
+        let mut total = 0_u64;
+        for g in &geometry {
+            total += g.len() as u64;
+            if total >= u64::from(u32::MAX) {
+                return Err(BuildError::TooMany(geometry.iter().map(|g| g.len() as u64).sum()));
+            }
+            first.push(total as u32);
+        }
+        Ok(Self { geometry, first })
+    }
+
+    /// The geometry, in the order it was given.
+    pub fn geometry(&self) -> &[Geometry] {
+        &self.geometry
+    }
+
+    /// The primitive numbers of geometry `index`.
+    pub fn primitives(&self, index: usize) -> Range<u32> {
+        self.first[index]..self.first[index + 1]
+    }
+
+    /// Which geometry a primitive number belongs to, and its number within.
+    ///
+    /// # Panics
+    /// If there is no such primitive.
+    pub fn locate(&self, prim: u32) -> (usize, u32) {
+        let index = self.first.partition_point(|&f| f <= prim) - 1;
+        (index, prim - self.first[index])
+    }
+
+    /// The closest hit with `t_min < t < t_max`; at equal `t` the lowest primitive number.
+    pub fn intersect(&self, ray: &Ray) -> Hit {
+        reference::intersect(self, ray)
+    }
+
+    /// Whether anything is hit with `t_min < t < t_max`.
+    pub fn occluded(&self, ray: &Ray) -> bool {
+        self.intersect(ray).is_some()
+    }
+
+    /// [`Bvh::intersect`] for each ray of a bundle: the same bits, faster where the rays are
+    /// coherent.
+    ///
+    /// # Panics
+    /// If `hits` has not the length of `rays`.
+    pub fn intersect_bundle(&self, rays: &[Ray], hits: &mut [Hit]) {
+        assert_eq!(rays.len(), hits.len(), "one hit for each ray");
+        for (ray, hit) in rays.iter().zip(hits) {
+            *hit = self.intersect(ray);
+        }
+    }
+
+    /// [`Bvh::occluded`] for each ray of a bundle.
+    ///
+    /// # Panics
+    /// If `blocked` has not the length of `rays`.
+    pub fn occluded_bundle(&self, rays: &[Ray], blocked: &mut [bool]) {
+        assert_eq!(rays.len(), blocked.len(), "one answer for each ray");
+        for (ray, blocked) in rays.iter().zip(blocked) {
+            *blocked = self.occluded(ray);
+        }
+    }
+
+    /// [`Bvh::intersect`] with what it cost.
+    pub fn intersect_counted(&self, ray: &Ray) -> (Hit, Cost) {
+        (self.intersect(ray), Cost::default())
+    }
+
+    /// The surface at a hit of `ray`.
+    ///
+    /// # Panics
+    /// If `hit` is none.
+    pub fn surface(&self, ray: &Ray, hit: &Hit) -> Surface {
+        reference::surface(self, ray, hit)
+    }
+
+    /// What it is made of.
+    pub fn stats(&self) -> Stats {
+        let primitives = u64::from(self.first[self.geometry.len()]);
+        Stats { primitives, ..Stats::default() }
+    }
+}

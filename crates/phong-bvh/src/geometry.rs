@@ -1,0 +1,95 @@
+//! What rays can meet. All numbers are finite; the caller has checked them.
+
+use glam::{DAffine3, DVec3, Vec3};
+
+/// A batch of primitives. Primitive numbers run through the batches in the order given.
+#[derive(Clone, Debug)]
+pub enum Geometry {
+    /// Indexed triangles; every index is in range. Degenerate ones are never hit.
+    Triangles {
+        /// Corners.
+        positions: Vec<Vec3>,
+        /// Three corners a triangle, counter-clockwise seen from the side of the geometric normal.
+        indices: Vec<[u32; 3]>,
+    },
+    /// Spheres.
+    Spheres(Vec<Sphere>),
+    /// One infinite plane: one primitive.
+    Plane(Plane),
+    /// One curved or flat solid under any invertible transform: one primitive.
+    Solid(Solid),
+}
+
+impl Geometry {
+    /// How many primitives the batch holds.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Triangles { indices, .. } => indices.len(),
+            Self::Spheres(spheres) => spheres.len(),
+            Self::Plane(_) | Self::Solid(_) => 1,
+        }
+    }
+
+    /// Whether the batch holds no primitive.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+/// All points at `radius` from `center`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct Sphere {
+    /// The middle.
+    pub center: Vec3,
+    /// Distance of the surface from the middle; > 0.
+    pub radius: f32,
+}
+
+/// An infinite plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plane {
+    /// A point on it.
+    pub point: DVec3,
+    /// Its unit normal.
+    pub normal: DVec3,
+}
+
+/// A canonical shape under an invertible affine transform.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Solid {
+    /// The shape in its own space.
+    pub shape: Canonical,
+    /// From its own space to the world.
+    pub to_world: DAffine3,
+}
+
+/// Shapes in their own space; transforms make every other one of the kind.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Canonical {
+    /// The unit sphere around the origin: an ellipsoid under an uneven transform.
+    Sphere,
+    /// The unit disc in z = 0, geometric normal +z.
+    Disc,
+    /// [−1, 1]³.
+    Box,
+    /// x² + y² = 1 for 0 ≤ z ≤ 1.
+    Cylinder {
+        /// Whether discs close the ends.
+        capped: bool,
+    },
+    /// A frustum of radius `radius` at z = 0 and `radius_to` at z = 1; both ≥ 0, not both 0.
+    Cone {
+        /// Radius at z = 0.
+        radius: f64,
+        /// Radius at z = 1.
+        radius_to: f64,
+        /// Whether discs close the ends.
+        capped: bool,
+    },
+    /// A ring around the z axis: radius 1 to the middle of the tube, whose radius is `tube` < 1.
+    Torus {
+        /// Radius of the tube.
+        tube: f64,
+    },
+}

@@ -1,0 +1,16 @@
+//! Rays against primitives, eight at a time.
+//!
+//! The door is [`Bvh`]: build it from [`Geometry`], then ask [`Bvh::intersect`] (the closest hit)
+//! or [`Bvh::occluded`] (any hit), for one ray or a bundle. This crate knows no colours, no scene
+//! and no files, and never imports another crate of the project.
+//!
+//! Results are the same bits on every SIMD level, for every build preset and thread count.
+
+mod bvh;
+mod geometry;
+mod ray;
+mod reference;
+
+pub use bvh::{BuildError, BuildOptions, Bvh, Cost, Preset, Stats};
+pub use geometry::{Canonical, Geometry, Plane, Solid, Sphere};
+pub use ray::{Hit, Ray, Surface};

@@ -1,0 +1,30 @@
+//! A scene as data, and everything that reads or writes one.
+//!
+//! The door is [`Scene`]: resolved (no name left to look up), checked, with every default filled
+//! in. This crate knows no rays and no pixels, and never imports another crate of the project.
+//! It never prints, exits or panics on input: reading gives *all* [`Diagnostic`]s as data.
+
+mod camera;
+mod color;
+mod diagnostic;
+mod light;
+mod limits;
+mod material;
+mod mesh;
+mod scene;
+mod shape;
+mod source;
+
+pub use camera::{Camera, CameraKind};
+pub use color::{Rgb, srgb_decode, srgb_encode};
+pub use diagnostic::{Diagnostic, Label, Place, Severity, Span};
+pub use light::{Light, LightKind};
+pub use limits::Limits;
+pub use material::{
+    AmbientRule, Dialect, Distribution, Fresnel, Material, MaterialId, Model, Shadowing, Tint,
+    WardForm,
+};
+pub use mesh::{Mesh, NO_INDEX, Points};
+pub use scene::{Background, FilterKind, Group, GroupId, Image, Object, Reading, Scene};
+pub use shape::Shape;
+pub use source::{Blob, Folder, Memory, Source};

@@ -1,0 +1,44 @@
+//! Bulk geometry in flat arrays: indexed triangles, and spheres at points.
+//!
+//! The renderer takes these arrays by value; nothing copies them.
+
+use glam::{DVec3, Vec2, Vec3};
+
+use crate::Rgb;
+
+/// In `normal_indices` and `uv_indices`: this corner has none (the geometric normal; (0, 0)).
+pub const NO_INDEX: u32 = u32::MAX;
+
+/// Indexed triangles. Every index is in range and every number finite.
+#[derive(Clone, Debug, Default)]
+pub struct Mesh {
+    /// Added, in f64, to every position: data far from the origin keep their detail.
+    pub origin: DVec3,
+    /// Positions relative to `origin`, in scene units.
+    pub positions: Vec<Vec3>,
+    /// Three positions a triangle, counter-clockwise seen from outside.
+    pub indices: Vec<[u32; 3]>,
+    /// Shading normals, any length but 0; empty: the geometric normal everywhere.
+    pub normals: Vec<Vec3>,
+    /// Three normals a triangle, or [`NO_INDEX`]; empty: the same as `indices`.
+    pub normal_indices: Vec<[u32; 3]>,
+    /// Texture coordinates; empty: none.
+    pub uvs: Vec<Vec2>,
+    /// Three texture coordinates a triangle, or [`NO_INDEX`]; empty: the same as `indices`.
+    pub uv_indices: Vec<[u32; 3]>,
+    /// A linear colour a position, which replaces the material's; empty: none.
+    pub colors: Vec<Rgb>,
+    /// A material a triangle (an index into the scene's); empty: the object's for all.
+    pub face_materials: Vec<u32>,
+}
+
+/// A sphere at every point. Radii > 0, every number finite.
+#[derive(Clone, Debug, Default)]
+pub struct Points {
+    /// Added, in f64, to every centre.
+    pub origin: DVec3,
+    /// `[x, y, z, radius]` each, centres relative to `origin`.
+    pub spheres: Vec<[f32; 4]>,
+    /// A linear colour a point, which replaces the material's; empty: none.
+    pub colors: Vec<Rgb>,
+}

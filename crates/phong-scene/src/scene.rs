@@ -1,0 +1,123 @@
+//! The scene: what was written, resolved.
+
+use glam::DAffine3;
+
+use crate::{Camera, Diagnostic, Light, Material, MaterialId, Place, Rgb, Shape};
+
+/// A whole scene, resolved and checked: what the renderer takes.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// The picture's own settings.
+    pub image: Image,
+    /// Where it is taken from.
+    pub camera: Camera,
+    /// The ambient light; `C_a` is this times the material's ambient colour. Linear.
+    pub ambient: Rgb,
+    /// The lights, in the order of the text.
+    pub lights: Vec<Light>,
+    /// The materials; [`MaterialId`] indexes them.
+    pub materials: Vec<Material>,
+    /// The objects, in the order of the text, includes at their place.
+    pub objects: Vec<Object>,
+    /// What instances place; a group's objects are not in `objects`.
+    pub groups: Vec<Group>,
+}
+
+/// What reading gave: a scene unless there was an error, and everything there is to say.
+#[derive(Clone, Debug, Default)]
+pub struct Reading {
+    /// The scene; `None` exactly if a diagnostic is an error.
+    pub scene: Option<Scene>,
+    /// Whether the input was a bare model: camera and lights are automatic.
+    pub bare: bool,
+    /// Errors and warnings, in the order of the text.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// The picture's own settings; the command line overrides them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Image {
+    /// Width and height in pixels, each ≥ 1. Default 960 × 540.
+    pub size: [u32; 2],
+    /// Samples a pixel, ≥ 1. Default 16.
+    pub samples: u32,
+    /// What rays see that hit nothing.
+    pub background: Background,
+    /// How samples are weighted into a pixel. Default box.
+    pub filter: FilterKind,
+    /// Seed of the sampling pattern. Default 0.
+    pub seed: u64,
+    /// Mirror and glass bounces; beyond it a ray brings black. Default 8.
+    pub depth: u32,
+}
+
+impl Default for Image {
+    fn default() -> Self {
+        Self {
+            size: [960, 540],
+            samples: 16,
+            background: Background::Color(Rgb::BLACK),
+            filter: FilterKind::Box,
+            seed: 0,
+            depth: 8,
+        }
+    }
+}
+
+/// What rays see that hit nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Background {
+    /// One linear colour.
+    Color(Rgb),
+    /// From `top` to `bottom` along the picture's height, linearly.
+    Gradient {
+        /// At the upper edge.
+        top: Rgb,
+        /// At the lower edge.
+        bottom: Rgb,
+    },
+    /// Alpha 0; mirrors see black.
+    Transparent,
+}
+
+/// The pixel filter: how a sample's place in (or around) its pixel is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FilterKind {
+    /// Uniform over the pixel.
+    #[default]
+    Box,
+    /// A triangle of radius 1 pixel.
+    Tent,
+    /// A Gaussian of standard deviation ½ pixel, cut at 1.5 pixels.
+    Gaussian,
+    /// Mitchell–Netravali, B = C = ⅓, radius 2 pixels; weights are signed.
+    Mitchell,
+}
+
+/// Index into [`Scene::groups`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct GroupId(pub u32);
+
+/// Shapes to be placed together. A group may hold instances of earlier groups, never of itself.
+#[derive(Clone, Debug)]
+pub struct Group {
+    /// The name in the text.
+    pub name: String,
+    /// Its objects, in the order of the text.
+    pub objects: Vec<Object>,
+}
+
+/// A shape, placed, with its material.
+#[derive(Clone, Debug)]
+pub struct Object {
+    /// What `explain` calls it: `sphere 1`, `mesh 2` (numbered from 1 by kind).
+    pub name: String,
+    /// What it is, in its own space.
+    pub shape: Shape,
+    /// What it is made of.
+    pub material: MaterialId,
+    /// Own space to world; invertible and finite.
+    pub transform: DAffine3,
+    /// Where it was written.
+    pub place: Place,
+}

@@ -1,0 +1,138 @@
+//! Where bytes come from: the only input in this crate.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::fs::File;
+use std::io;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Opens the files a scene is made of.
+pub trait Source: fmt::Debug + Send + Sync {
+    /// Opens `path`, which is written as the scene's author wrote it, joined to the folder of
+    /// the file that names it.
+    ///
+    /// # Errors
+    /// Whatever the system says: not found, not permitted, a folder.
+    fn open(&self, path: &str) -> io::Result<Box<dyn Blob>>;
+}
+
+/// An open file: sized, and readable at any position by several threads at once.
+#[allow(clippy::len_without_is_empty, reason = "an empty file is a file like any other")]
+pub trait Blob: Send + Sync {
+    /// Its length in bytes when it was opened.
+    fn len(&self) -> u64;
+
+    /// Reads up to `buffer.len()` bytes from `offset` on; 0 only at the end.
+    ///
+    /// # Errors
+    /// Whatever the system says.
+    fn read_at(&self, buffer: &mut [u8], offset: u64) -> io::Result<usize>;
+
+    /// Reads from `offset` until `buffer` is full or the file ends; the bytes read.
+    ///
+    /// # Errors
+    /// Whatever the system says.
+    fn read_full(&self, buffer: &mut [u8], offset: u64) -> io::Result<usize> {
+        let mut done = 0;
+        while done < buffer.len() {
+            match self.read_at(&mut buffer[done..], offset + done as u64) {
+                Ok(0) => break,
+                Ok(n) => done += n,
+                Err(e) if e.kind() == io::ErrorKind::Interrupted => {}
+                Err(e) => return Err(e),
+            }
+        }
+        Ok(done)
+    }
+}
+
+/// The file system, with paths as written.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Folder;
+
+impl Source for Folder {
+    fn open(&self, path: &str) -> io::Result<Box<dyn Blob>> {
+        let file = File::open(PathBuf::from(path))?;
+        let meta = file.metadata()?;
+        if meta.is_dir() {
+            return Err(io::Error::new(io::ErrorKind::IsADirectory, "is a folder"));
+        }
+        #[cfg(not(unix))]
+        let file = std::sync::Mutex::new(file);
+        Ok(Box::new(OpenFile { len: meta.len(), file }))
+    }
+}
+
+struct OpenFile {
+    len: u64,
+    /// Unix reads at a position; elsewhere the shared cursor needs a lock.
+    #[cfg(unix)]
+    file: File,
+    #[cfg(not(unix))]
+    file: std::sync::Mutex<File>,
+}
+
+impl Blob for OpenFile {
+    fn len(&self) -> u64 {
+        self.len
+    }
+
+    #[cfg(unix)]
+    fn read_at(&self, buffer: &mut [u8], offset: u64) -> io::Result<usize> {
+        use std::os::unix::fs::FileExt;
+        self.file.read_at(buffer, offset)
+    }
+
+    #[cfg(not(unix))]
+    fn read_at(&self, buffer: &mut [u8], offset: u64) -> io::Result<usize> {
+        use std::io::{Read, Seek, SeekFrom};
+        let mut file = self.file.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        file.seek(SeekFrom::Start(offset))?;
+        file.read(buffer)
+    }
+}
+
+/// Files in memory: for tests, fuzzing, and standard input.
+#[derive(Clone, Debug, Default)]
+pub struct Memory {
+    files: BTreeMap<String, Arc<[u8]>>,
+}
+
+impl Memory {
+    /// No files.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// The same with one more file.
+    #[must_use]
+    pub fn with(mut self, path: impl Into<String>, bytes: impl Into<Arc<[u8]>>) -> Self {
+        self.files.insert(path.into(), bytes.into());
+        self
+    }
+}
+
+impl Source for Memory {
+    fn open(&self, path: &str) -> io::Result<Box<dyn Blob>> {
+        match self.files.get(path) {
+            Some(bytes) => Ok(Box::new(Bytes(Arc::clone(bytes)))),
+            None => Err(io::Error::new(io::ErrorKind::NotFound, "no such file")),
+        }
+    }
+}
+
+struct Bytes(Arc<[u8]>);
+
+impl Blob for Bytes {
+    fn len(&self) -> u64 {
+        self.0.len() as u64
+    }
+
+    fn read_at(&self, buffer: &mut [u8], offset: u64) -> io::Result<usize> {
+        let from = usize::try_from(offset).unwrap_or(usize::MAX).min(self.0.len());
+        let n = buffer.len().min(self.0.len() - from);
+        buffer[..n].copy_from_slice(&self.0[from..from + n]);
+        Ok(n)
+    }
+}

@@ -1,0 +1,8 @@
+//! The renderer: from a [`phong_scene::Scene`] to light, and from light to pixels.
+//!
+//! Rooms, lowest storey first; a room imports only rooms below it: `math`; `reflectance`,
+//! `sampling`, `filter`; `material`, `light`, `camera`; `compile`, `interaction`; `integrator`,
+//! `witness`; `film`, `aov`, `render`; `image`, `explain`, `compare`; `figures`, `fit`.
+
+pub mod math;
+pub mod reflectance;

@@ -1,0 +1,73 @@
+//! The terms a pixel is the sum of.
+
+use std::ops::{Add, AddAssign};
+
+use phong_scene::Rgb;
+
+use crate::math::Dir3;
+
+/// Light that arrives at a point from one light, already tinted by the material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Incident {
+    /// To the light.
+    pub l: Dir3,
+    /// `C_{m,d}`: the light's colour, attenuated, times the material's diffuse colour. No cosine.
+    pub c_d: Rgb,
+    /// `C_{m,s}`: the light's specular colour, attenuated, times the material's specular colour.
+    pub c_s: Rgb,
+}
+
+/// What a pixel is made of, kept apart to the film. Linear, unclamped.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Terms {
+    /// What rays see that hit nothing.
+    pub background: Rgb,
+    /// `k_a C_a`.
+    pub ambient: Rgb,
+    /// `Σ V_m k_d (L_m·N) C_{m,d}`.
+    pub diffuse: Rgb,
+    /// `Σ V_m k_s (R_m·E)^α C_{m,s}`.
+    pub specular: Rgb,
+    /// All that the mirror ray brings, weighted.
+    pub reflection: Rgb,
+    /// All that the refracted ray brings, weighted.
+    pub transmission: Rgb,
+}
+
+impl Terms {
+    /// The names of the terms, in the order they are summed.
+    pub const NAMES: [&str; 6] =
+        ["background", "ambient", "diffuse", "specular", "reflection", "transmission"];
+
+    /// The terms in the order of [`Terms::NAMES`].
+    pub const fn to_array(self) -> [Rgb; 6] {
+        let Self { background, ambient, diffuse, specular, reflection, transmission } = self;
+        [background, ambient, diffuse, specular, reflection, transmission]
+    }
+
+    /// Terms from the order of [`Terms::NAMES`].
+    pub const fn from_array(
+        [background, ambient, diffuse, specular, reflection, transmission]: [Rgb; 6],
+    ) -> Self {
+        Self { background, ambient, diffuse, specular, reflection, transmission }
+    }
+
+    /// The picture: the sum of the terms, in f32, in this very order.
+    pub fn total(self) -> Rgb {
+        self.to_array().into_iter().sum()
+    }
+}
+
+impl Add for Terms {
+    type Output = Self;
+    fn add(self, o: Self) -> Self {
+        let (a, b) = (self.to_array(), o.to_array());
+        Self::from_array(std::array::from_fn(|i| a[i] + b[i]))
+    }
+}
+
+impl AddAssign for Terms {
+    fn add_assign(&mut self, o: Self) {
+        *self = *self + o;
+    }
+}
