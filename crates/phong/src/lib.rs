@@ -4,5 +4,7 @@
 //! `sampling`, `filter`; `material`, `light`, `camera`; `compile`, `interaction`; `integrator`,
 //! `witness`; `film`, `aov`, `render`; `image`, `explain`, `compare`; `figures`, `fit`.
 
+pub mod aov;
+pub mod film;
 pub mod math;
 pub mod reflectance;

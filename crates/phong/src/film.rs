@@ -1,0 +1,294 @@
+//! The film: what has been rendered so far, layer by layer.
+
+use thiserror::Error;
+
+use crate::aov::Aov;
+use crate::reflectance::Terms;
+
+/// A half-open rectangle of pixels of the full picture: `x0 ≤ x < x1`, `y0 ≤ y < y1`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Window {
+    /// Left edge.
+    pub x0: u32,
+    /// Upper edge.
+    pub y0: u32,
+    /// Right edge, not included.
+    pub x1: u32,
+    /// Lower edge, not included.
+    pub y1: u32,
+}
+
+impl Window {
+    /// All of a picture of `size` (width, height).
+    pub const fn full([width, height]: [u32; 2]) -> Self {
+        Self { x0: 0, y0: 0, x1: width, y1: height }
+    }
+
+    /// Pixels across.
+    pub const fn width(&self) -> u32 {
+        self.x1 - self.x0
+    }
+
+    /// Pixels down.
+    pub const fn height(&self) -> u32 {
+        self.y1 - self.y0
+    }
+
+    /// Whether it holds at least one pixel and lies within a picture of `size`.
+    pub const fn fits(&self, [width, height]: [u32; 2]) -> bool {
+        self.x0 < self.x1 && self.y0 < self.y1 && self.x1 <= width && self.y1 <= height
+    }
+}
+
+/// What a layer holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum LayerKind {
+    /// The f32 sum of the terms; linear, unclamped. Where the background is transparent it adds
+    /// nothing, so the values are premultiplied by the alpha.
+    Picture,
+    /// Coverage in [0, 1]; 1 everywhere unless the background is transparent.
+    Alpha,
+    /// One term, an index into [`Terms::NAMES`].
+    Term(usize),
+    /// One arbitrary output variable.
+    Aov(Aov),
+}
+
+impl LayerKind {
+    /// Its name: `picture`, `alpha`, or that of the term or variable.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Picture => "picture",
+            Self::Alpha => "alpha",
+            Self::Term(index) => Terms::NAMES[index],
+            Self::Aov(aov) => aov.name(),
+        }
+    }
+
+    /// Values a pixel.
+    pub const fn channels(self) -> usize {
+        match self {
+            Self::Picture | Self::Term(_) => 3,
+            Self::Alpha => 1,
+            Self::Aov(aov) => aov.channels(),
+        }
+    }
+}
+
+/// One layer of a film.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layer {
+    /// What it holds.
+    pub kind: LayerKind,
+    /// `kind.channels()` values a pixel, rows from top to bottom. 0 where not yet rendered.
+    pub values: Vec<f32>,
+}
+
+/// What has been rendered so far. Pixels are gathered in square tiles, row by row over the window.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Film {
+    /// Width and height of the full picture, of which `window` is a part.
+    pub size: [u32; 2],
+    /// The part of the picture this film holds.
+    pub window: Window,
+    /// Edge of a tile in pixels.
+    pub tile: u32,
+    /// Which tiles are rendered, row by row over the window.
+    pub done: Vec<bool>,
+    /// The picture, the alpha, then what else was asked for.
+    pub layers: Vec<Layer>,
+}
+
+/// Why two films cannot be one.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+pub enum MergeError {
+    /// They are not parts of the same picture: the caller's fault.
+    #[error("the parts differ in {0}: they are not shares of one picture")]
+    Differ(&'static str),
+    /// Both hold this tile.
+    #[error("tile {0} is in more than one part")]
+    Overlap(usize),
+}
+
+impl Film {
+    /// An empty film.
+    pub fn new(size: [u32; 2], window: Window, tile: u32, kinds: &[LayerKind]) -> Self {
+        let pixels = window.width() as usize * window.height() as usize;
+        let layer = |&kind: &LayerKind| Layer { kind, values: vec![0.0; pixels * kind.channels()] };
+        let [across, down] = tiles(&window, tile);
+        Self {
+            size,
+            window,
+            tile,
+            done: vec![false; across as usize * down as usize],
+            layers: kinds.iter().map(layer).collect(),
+        }
+    }
+
+    /// Width in pixels of what it holds.
+    pub fn width(&self) -> u32 {
+        self.window.width()
+    }
+
+    /// Height in pixels of what it holds.
+    pub fn height(&self) -> u32 {
+        self.window.height()
+    }
+
+    /// The layer of a kind, if it was asked for.
+    pub fn layer(&self, kind: LayerKind) -> Option<&Layer> {
+        self.layers.iter().find(|layer| layer.kind == kind)
+    }
+
+    /// The values of the layer at a pixel of the full picture; `None` outside the window.
+    pub fn at(&self, kind: LayerKind, x: u32, y: u32) -> Option<&[f32]> {
+        let w = self.window;
+        if !(w.x0..w.x1).contains(&x) || !(w.y0..w.y1).contains(&y) {
+            return None;
+        }
+        let pixel = (y - w.y0) as usize * w.width() as usize + (x - w.x0) as usize;
+        let n = kind.channels();
+        self.layer(kind).map(|layer| &layer.values[pixel * n..][..n])
+    }
+
+    /// Tiles in the window, whatever is done of them.
+    pub fn tiles(&self) -> usize {
+        self.done.len()
+    }
+
+    /// The pixels of a tile; those at the right and lower edge may be smaller.
+    pub fn tile_window(&self, index: usize) -> Window {
+        let w = self.window;
+        let [across, _] = tiles(&w, self.tile);
+        let (column, row) = (index as u32 % across, index as u32 / across);
+        let (x0, y0) = (w.x0 + column * self.tile, w.y0 + row * self.tile);
+        Window {
+            x0,
+            y0,
+            x1: w.x1.min(x0.saturating_add(self.tile)),
+            y1: w.y1.min(y0.saturating_add(self.tile)),
+        }
+    }
+
+    /// Whether every tile is rendered.
+    pub fn is_complete(&self) -> bool {
+        self.done.iter().all(|&done| done)
+    }
+
+    /// Takes a rendered tile: for each layer, in order, the tile's own rows.
+    ///
+    /// # Panics
+    /// If the layers do not have the sizes that [`Film::tile_window`] and the kinds demand.
+    pub fn put(&mut self, index: usize, values: &[Vec<f32>]) {
+        let part = self.tile_window(index);
+        assert_eq!(values.len(), self.layers.len(), "a tile has the film's layers");
+        for (layer, from) in self.layers.iter_mut().zip(values) {
+            let n = layer.kind.channels();
+            let row = part.width() as usize * n;
+            for (y, from) in (part.y0..part.y1).zip(from.chunks_exact(row)) {
+                let pixel = (y - self.window.y0) as usize * self.window.width() as usize
+                    + (part.x0 - self.window.x0) as usize;
+                layer.values[pixel * n..][..row].copy_from_slice(from);
+            }
+        }
+        self.done[index] = true;
+    }
+
+    /// Takes the tiles of another film of the same picture.
+    ///
+    /// # Errors
+    /// [`MergeError`]; this film is then as it was.
+    pub fn merge(&mut self, other: &Self) -> Result<(), MergeError> {
+        let kinds = |film: &Self| film.layers.iter().map(|l| l.kind).collect::<Vec<_>>();
+        for (same, what) in [
+            (self.size == other.size, "size"),
+            (self.window == other.window, "crop"),
+            (self.tile == other.tile, "tile size"),
+            (kinds(self) == kinds(other), "layers"),
+        ] {
+            if !same {
+                return Err(MergeError::Differ(what));
+            }
+        }
+        if let Some(tile) = (0..self.tiles()).find(|&i| self.done[i] && other.done[i]) {
+            return Err(MergeError::Overlap(tile));
+        }
+        for tile in (0..other.tiles()).filter(|&i| other.done[i]) {
+            self.put(tile, &other.take(tile));
+        }
+        Ok(())
+    }
+
+    /// The values of a tile, for each layer its rows.
+    pub fn take(&self, index: usize) -> Vec<Vec<f32>> {
+        let part = self.tile_window(index);
+        let rows = |layer: &Layer| {
+            let n = layer.kind.channels();
+            let row = part.width() as usize * n;
+            let mut out = Vec::with_capacity(row * part.height() as usize);
+            for y in part.y0..part.y1 {
+                let pixel = (y - self.window.y0) as usize * self.window.width() as usize
+                    + (part.x0 - self.window.x0) as usize;
+                out.extend_from_slice(&layer.values[pixel * n..][..row]);
+            }
+            out
+        };
+        self.layers.iter().map(rows).collect()
+    }
+}
+
+fn tiles(window: &Window, tile: u32) -> [u32; 2] {
+    [window.width().div_ceil(tile), window.height().div_ceil(tile)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const KINDS: [LayerKind; 2] = [LayerKind::Picture, LayerKind::Alpha];
+
+    fn film() -> Film {
+        Film::new([10, 7], Window { x0: 1, y0: 2, x1: 10, y1: 7 }, 4, &KINDS)
+    }
+
+    fn filled(mut film: Film, tiles: impl Iterator<Item = usize>, value: f32) -> Film {
+        for tile in tiles {
+            let w = film.tile_window(tile);
+            let pixels = (w.width() * w.height()) as usize;
+            film.put(tile, &[vec![value; 3 * pixels], vec![1.0; pixels]]);
+        }
+        film
+    }
+
+    #[test]
+    fn tiles_cover_the_window_once() {
+        let film = film();
+        let mut seen = std::collections::BTreeSet::new();
+        for tile in 0..film.tiles() {
+            let w = film.tile_window(tile);
+            for y in w.y0..w.y1 {
+                for x in w.x0..w.x1 {
+                    assert!(seen.insert((x, y)), "({x}, {y}) twice");
+                }
+            }
+        }
+        assert_eq!(seen.len(), 9 * 5);
+    }
+
+    #[test]
+    fn shares_put_together_are_the_whole() {
+        let whole = filled(film(), 0..6, 0.5);
+        let mut merged = filled(film(), (0..6).step_by(2), 0.5);
+        merged.merge(&filled(film(), (1..6).step_by(2), 0.5)).unwrap();
+        assert!(merged.is_complete());
+        assert_eq!(merged, whole);
+    }
+
+    #[test]
+    fn parts_that_overlap_or_differ_are_refused() {
+        let mut a = filled(film(), 0..2, 0.5);
+        assert_eq!(a.merge(&filled(film(), 1..3, 0.5)), Err(MergeError::Overlap(1)));
+        let other = Film::new([10, 7], Window::full([10, 7]), 4, &KINDS);
+        assert_eq!(a.merge(&other), Err(MergeError::Differ("crop")));
+    }
+}
