@@ -2,7 +2,80 @@
 //!
 //! The letters are the lecture's: `n` normal, `l` to the light, `r` its mirror image, `e` to the
 //! eye, `h` halfway; all unit, all away from the surface.
+//!
+//! A light's colour is what a white Lambert surface facing it gives back, so Lambert is
+//! `k_d (L·N) C_d` without a π, and a model known as a BRDF f adds `π f (N·L)`.
 
+pub mod blinn_phong;
+mod lambert;
+pub mod phong;
+mod scale;
 mod terms;
 
+pub use blinn_phong::BlinnPhong;
+pub use lambert::Lambert;
+pub use phong::Phong;
+pub use scale::Switches;
 pub use terms::{Incident, Terms};
+
+use crate::math::Dir3;
+
+/// How a surface answers light: one of the models, with its numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reflectance {
+    /// Diffuse only.
+    Lambert(Lambert),
+    /// `(R·E)^α`, over Lambert.
+    Phong(Phong),
+    /// `(N·H)^α`, over Lambert.
+    BlinnPhong(BlinnPhong),
+}
+
+impl Reflectance {
+    /// What one light adds to the diffuse and the specular term; the other terms are 0.
+    ///
+    /// `n` is the shading normal, on the side of `e`, the direction to the eye; `tangent` gives
+    /// brushed models their grain, need not be perpendicular to `n`, and is ignored by the rest.
+    /// Included: cosine, weights, colours. Not included: visibility, and ambient light.
+    ///
+    /// **A light with L·N ≤ 0 adds nothing**, whatever the model.
+    pub fn shade_light(&self, n: Dir3, tangent: Dir3, e: Dir3, incident: Incident) -> Terms {
+        let _ = tangent;
+        if incident.l.dot(n) <= 0.0 {
+            return Terms::default();
+        }
+        match self {
+            Self::Lambert(model) => model.shade_light(n, incident),
+            Self::Phong(model) => model.shade_light(n, e, incident),
+            Self::BlinnPhong(model) => model.shade_light(n, e, incident),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+    use phong_scene::Rgb;
+
+    use super::*;
+
+    fn dir(x: f32, y: f32, z: f32) -> Dir3 {
+        Dir3::new(Vec3::new(x, y, z)).unwrap()
+    }
+
+    #[test]
+    fn a_light_at_or_below_the_horizon_adds_nothing() {
+        let models = [
+            Reflectance::Lambert(Lambert { k_d: 1.0 }),
+            Reflectance::Phong(Phong::new(1.0, 1.0, 0.0, Switches::default())),
+            Reflectance::BlinnPhong(BlinnPhong::new(1.0, 1.0, 0.0, Switches::default())),
+        ];
+        for model in models {
+            for l in [Dir3::X, dir(1.0, 0.0, -0.01), -Dir3::Z] {
+                let incident = Incident { l, c_d: Rgb::WHITE, c_s: Rgb::WHITE };
+                let terms = model.shade_light(Dir3::Z, Dir3::X, dir(-1.0, 0.0, 0.1), incident);
+                assert_eq!(terms, Terms::default());
+            }
+        }
+    }
+}
