@@ -1,0 +1,170 @@
+//! The command line as typed: nothing here is resolved or opened.
+//!
+//! What belongs to one command only stands in that command's file.
+
+mod values;
+
+use clap::builder::Styles;
+use clap::builder::styling::AnsiColor;
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+pub(crate) use values::{
+    Crop, PictureSize, ShareOf, Vec3Arg, aov, background, crop, share, size, vector,
+};
+
+use crate::command;
+
+const STYLES: Styles = Styles::styled()
+    .header(AnsiColor::Green.on_default().bold())
+    .usage(AnsiColor::Green.on_default().bold())
+    .literal(AnsiColor::Cyan.on_default().bold())
+    .placeholder(AnsiColor::Cyan.on_default());
+
+const EXAMPLES: &str = "\
+Examples:
+  phong render scene.toml                    a picture of a scene, scene.png
+  phong render dragon.ply --view iso         of a bare model, with camera and lights of its own
+  phong check scene.toml                     every problem, with file, line and column
+  phong COMMAND --help                       all about one command
+
+Exit codes: 0 done, 1 the answer is \"no\", 2 the input or the command line is at fault,
+3 something else went wrong, 130 interrupted.";
+
+/// A ray tracer for the Phong reflection model that can explain every pixel.
+#[derive(Debug, Parser)]
+#[command(name = "phong", version, styles = STYLES, after_help = EXAMPLES, max_term_width = 100)]
+#[command(
+    subcommand_required = true,
+    arg_required_else_help = true,
+    disable_help_subcommand = true
+)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+/// Every command; its file in `command/` holds its arguments and what it does.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    Render(Box<command::render::Args>),
+    Explain(command::explain::Args),
+    Figure(command::figure::Args),
+    Eval(command::eval::Args),
+    Fit(command::fit::Args),
+    Compare(command::compare::Args),
+    Grade(command::grade::Args),
+    Check(command::check::Args),
+    Info(command::info::Args),
+    Convert(command::convert::Args),
+    Bench(command::bench::Args),
+    Merge(command::merge::Args),
+    Studio(command::studio::Args),
+    Completions(command::completions::Args),
+    Man(command::man::Args),
+}
+
+/// What to read, and how.
+#[derive(Args, Clone, Debug)]
+pub(crate) struct InputArgs {
+    /// A .toml scene or a bare model (.obj .ply .stl .gltf .glb .pdb .cif .xyz .dat .nff);
+    /// - reads standard input, with --format
+    pub(crate) input: String,
+
+    /// What INPUT is, whatever its name says: toml, obj, ply, stl, ...
+    #[arg(long, value_name = "NAME")]
+    pub(crate) format: Option<String>,
+
+    /// Memory to use at most; over it is an error. Plain bytes, or with k, M or G (powers of 1024)
+    #[arg(long, value_name = "BYTES", value_parser = values::bytes)]
+    pub(crate) max_memory: Option<u64>,
+
+    /// Make warnings errors
+    #[arg(long)]
+    pub(crate) strict: bool,
+}
+
+/// How a bare model is looked at; a scene's camera is moved by the same words.
+#[derive(Args, Clone, Debug, Default)]
+#[command(next_help_heading = "View")]
+pub(crate) struct ViewArgs {
+    /// Where a bare model is seen from [default: iso]
+    #[arg(long, value_name = "SIDE")]
+    pub(crate) view: Option<View>,
+
+    /// Position of the eye
+    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
+    pub(crate) eye: Option<Vec3Arg>,
+
+    /// The point in the middle of the picture
+    #[arg(long, value_name = "X,Y,Z", value_parser = vector, allow_hyphen_values = true)]
+    pub(crate) look_at: Option<Vec3Arg>,
+
+    /// What is up: x, y, z, -x, -y, -z, or a direction (z for data that are Z-up)
+    #[arg(long, value_name = "AXIS", value_parser = values::up, allow_hyphen_values = true)]
+    pub(crate) up: Option<Vec3Arg>,
+
+    /// Vertical field of view in degrees
+    #[arg(long, value_name = "DEGREES", value_parser = values::fov)]
+    pub(crate) fov: Option<f64>,
+
+    /// Colour of a bare model: "#rrggbb", a CSS name, or r,g,b (linear)
+    #[arg(long, value_name = "COLOR", value_parser = values::color)]
+    pub(crate) color: Option<phong_scene::Rgb>,
+}
+
+/// The side a bare model is seen from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum View {
+    Front,
+    Back,
+    Left,
+    Right,
+    Top,
+    Bottom,
+    Iso,
+}
+
+/// How a picture becomes bytes.
+#[derive(Args, Clone, Debug, Default)]
+#[command(next_help_heading = "File")]
+pub(crate) struct EncodingArgs {
+    /// Linear values in a PNG, without the sRGB curve
+    #[arg(long)]
+    pub(crate) linear: bool,
+
+    /// Bits a channel in a PNG [default: 8]
+    #[arg(long, value_name = "8|16")]
+    pub(crate) bits: Option<Bits>,
+
+    /// Stops of exposure in a PNG: every one doubles the light (EXR and PFM keep the light as it is)
+    #[arg(long, value_name = "EV", value_parser = values::exposure, allow_hyphen_values = true)]
+    pub(crate) exposure: Option<f64>,
+
+    /// What OUT is, whatever its name says
+    #[arg(long, value_name = "NAME")]
+    pub(crate) output_format: Option<OutputFormat>,
+}
+
+/// Bits a channel in a PNG.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Bits {
+    #[value(name = "8")]
+    Eight,
+    #[value(name = "16")]
+    Sixteen,
+}
+
+/// A picture file's format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum OutputFormat {
+    Png,
+    Pfm,
+    Exr,
+}
+
+/// Whatever was typed, for a command that this version does not have.
+#[derive(Args, Clone, Debug)]
+pub(crate) struct Anything {
+    #[arg(trailing_var_arg = true, allow_hyphen_values = true, hide = true)]
+    _words: Vec<String>,
+}

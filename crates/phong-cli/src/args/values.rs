@@ -1,0 +1,217 @@
+//! Values of options, from text.
+
+use phong::aov::Aov;
+use phong_scene::{Background, Rgb};
+
+/// Three numbers.
+pub(crate) type Vec3Arg = [f64; 3];
+
+/// Width and height in pixels, each ≥ 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct PictureSize(pub(crate) [u32; 2]);
+
+/// Pixels from (x0, y0) up to but without (x1, y1), not empty.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Crop {
+    pub(crate) x0: u32,
+    pub(crate) y0: u32,
+    pub(crate) x1: u32,
+    pub(crate) y1: u32,
+}
+
+/// Share `index` (from 0) of `count`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct ShareOf {
+    pub(crate) index: u32,
+    pub(crate) count: u32,
+}
+
+/// The largest side of a picture: what EXR and PNG readers commonly take.
+const MAX_SIDE: u32 = 1 << 20;
+
+/// `960x540`.
+pub(crate) fn size(text: &str) -> Result<PictureSize, String> {
+    let sides = text
+        .split_once(['x', 'X', '×'])
+        .and_then(|(w, h)| Some([w.trim().parse::<u32>().ok()?, h.trim().parse::<u32>().ok()?]));
+    match sides {
+        Some([w, h]) if (1..=MAX_SIDE).contains(&w) && (1..=MAX_SIDE).contains(&h) => {
+            Ok(PictureSize([w, h]))
+        }
+        Some(_) => Err(format!("each side must be from 1 to {MAX_SIDE} pixels")),
+        None => Err("write width and height in pixels, like 960x540".to_owned()),
+    }
+}
+
+/// `10,20,110,120`.
+pub(crate) fn crop(text: &str) -> Result<Crop, String> {
+    let numbers: Option<Vec<u32>> = text.split(',').map(|n| n.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some(&[x0, y0, x1, y1]) if x0 < x1 && y0 < y1 => Ok(Crop { x0, y0, x1, y1 }),
+        Some([_, _, _, _]) => {
+            Err("X1 must be more than X0 and Y1 more than Y0: X1 and Y1 lie outside".to_owned())
+        }
+        _ => Err("write four whole numbers, X0,Y0,X1,Y1, like 10,20,110,120".to_owned()),
+    }
+}
+
+/// `0/4`.
+pub(crate) fn share(text: &str) -> Result<ShareOf, String> {
+    let parts = text
+        .split_once('/')
+        .and_then(|(i, n)| Some((i.trim().parse().ok()?, n.trim().parse().ok()?)));
+    match parts {
+        Some((index, count)) if index < count => Ok(ShareOf { index, count }),
+        Some((_, 0)) => Err("a picture has at least one share, 0/1".to_owned()),
+        Some((_, count)) => Err(format!("I counts from 0: the last of {count} is {}", count - 1)),
+        None => Err("write I/N, like 0/4 for the first of four".to_owned()),
+    }
+}
+
+/// `1,2.5,-3`.
+pub(crate) fn vector(text: &str) -> Result<Vec3Arg, String> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(finite).collect();
+    numbers
+        .and_then(|n| Vec3Arg::try_from(n).ok())
+        .ok_or_else(|| "write three numbers, X,Y,Z, like 0,1.5,-4".to_owned())
+}
+
+/// `z`, `-y`, or a direction.
+pub(crate) fn up(text: &str) -> Result<Vec3Arg, String> {
+    let (sign, axis) = text.strip_prefix('-').map_or((1.0, text), |rest| (-1.0, rest));
+    match axis {
+        "x" | "X" => Ok([sign, 0.0, 0.0]),
+        "y" | "Y" => Ok([0.0, sign, 0.0]),
+        "z" | "Z" => Ok([0.0, 0.0, sign]),
+        _ => match vector(text) {
+            Ok([0.0, 0.0, 0.0]) => Err("up cannot be 0,0,0".to_owned()),
+            Ok(direction) => Ok(direction),
+            Err(_) => Err("write x, y, z, -x, -y, -z, or three numbers X,Y,Z".to_owned()),
+        },
+    }
+}
+
+/// Degrees in (0, 180).
+pub(crate) fn fov(text: &str) -> Result<f64, String> {
+    finite(text)
+        .filter(|&degrees| degrees > 0.0 && degrees < 180.0)
+        .ok_or_else(|| "write degrees, more than 0 and less than 180".to_owned())
+}
+
+/// Stops within what f32 can hold.
+pub(crate) fn exposure(text: &str) -> Result<f64, String> {
+    finite(text)
+        .filter(|stops| stops.abs() <= 100.0)
+        .ok_or_else(|| "write a number of stops from -100 to 100, like 1 or -0.5".to_owned())
+}
+
+/// A plain number of bytes, or one with `k`, `M`, `G` or `T`.
+pub(crate) fn bytes(text: &str) -> Result<u64, String> {
+    let text = text.trim();
+    let end = text.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(text.len());
+    let shift = match text[end..].trim() {
+        "" | "B" | "b" => 0,
+        "k" | "K" | "kB" | "KB" | "KiB" => 10,
+        "M" | "m" | "MB" | "MiB" => 20,
+        "G" | "g" | "GB" | "GiB" => 30,
+        "T" | "t" | "TB" | "TiB" => 40,
+        unit => return Err(format!("`{unit}` is no unit: k, M, G or T (powers of 1024)")),
+    };
+    let number: f64 = text[..end].parse().map_err(|_| "write bytes, like 500M or 2G".to_owned())?;
+    Ok((number * (1_u64 << shift) as f64) as u64)
+}
+
+/// `#rrggbb`, or `r,g,b` or one grey (linear).
+pub(crate) fn color(text: &str) -> Result<Rgb, String> {
+    let parts: Option<Vec<f64>> = text.split(',').map(finite).collect();
+    match parts.as_deref() {
+        Some(&[v]) if v >= 0.0 => Ok(Rgb::grey(v as f32)),
+        Some(&[r, g, b]) if r >= 0.0 && g >= 0.0 && b >= 0.0 => {
+            Ok(Rgb::new(r as f32, g as f32, b as f32))
+        }
+        _ => {
+            hex(text).ok_or_else(|| "write \"#rrggbb\", a CSS name, r,g,b or one number".to_owned())
+        }
+    }
+}
+
+/// A colour, or `transparent`.
+pub(crate) fn background(text: &str) -> Result<Background, String> {
+    if text == "transparent" {
+        return Ok(Background::Transparent);
+    }
+    color(text)
+        .map(Background::Color)
+        .map_err(|_| "write \"#rrggbb\", a CSS name, r,g,b, one number, or transparent".to_owned())
+}
+
+/// The name of an arbitrary output variable.
+pub(crate) fn aov(text: &str) -> Result<Aov, String> {
+    Aov::from_name(text.trim())
+        .ok_or_else(|| format!("write one of {}", Aov::ALL.map(Aov::name).join(", ")))
+}
+
+fn hex(text: &str) -> Option<Rgb> {
+    let digits = text.strip_prefix('#').filter(|d| d.len() == 6 && d.is_ascii())?;
+    let byte = |i: usize| u8::from_str_radix(&digits[2 * i..2 * i + 2], 16).ok();
+    Some(Rgb::from_srgb8([byte(0)?, byte(1)?, byte(2)?]))
+}
+
+fn finite(text: &str) -> Option<f64> {
+    text.trim().parse().ok().filter(|v: &f64| v.is_finite())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_size_needs_two_sides_of_at_least_one_pixel() {
+        assert_eq!(size("960x540"), Ok(PictureSize([960, 540])));
+        for wrong in ["960", "0x5", "5x0", "-1x5", "axb", "1x2x3", "5000000x1", ""] {
+            assert!(size(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn a_crop_is_half_open_and_not_empty() {
+        assert_eq!(crop("1,2,3,4"), Ok(Crop { x0: 1, y0: 2, x1: 3, y1: 4 }));
+        for wrong in ["1,2,1,4", "1,2,3,2", "1,2,3", "1,2,3,4,5", "a,b,c,d", "-1,0,1,1"] {
+            assert!(crop(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn shares_count_from_nought() {
+        assert_eq!(share("0/1"), Ok(ShareOf { index: 0, count: 1 }));
+        assert!(share("4/4").unwrap_err().contains("last of 4 is 3"));
+        assert!(share("0/0").is_err());
+        assert!(share("1").is_err());
+    }
+
+    #[test]
+    fn bytes_take_units_of_1024() {
+        assert_eq!(bytes("17"), Ok(17));
+        assert_eq!(bytes("1.5k"), Ok(1536));
+        assert_eq!(bytes("2G"), Ok(2 << 30));
+        for wrong in ["", "k", "2X", "-1", "1e3"] {
+            assert!(bytes(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn up_is_an_axis_or_a_direction() {
+        assert_eq!(up("-z"), Ok([0.0, 0.0, -1.0]));
+        assert_eq!(up("1,2,-3"), Ok([1.0, 2.0, -3.0]));
+        assert!(up("0,0,0").is_err());
+        assert!(up("w").is_err());
+    }
+
+    #[test]
+    fn numbers_must_be_finite() {
+        assert!(vector("1,nan,2").is_err());
+        assert!(vector("inf,0,2").is_err());
+        assert!(fov("180").is_err());
+        assert!(exposure("1000").is_err());
+    }
+}

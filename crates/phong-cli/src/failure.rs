@@ -1,0 +1,85 @@
+//! Why a command did not do what was asked, and the exit code that says so.
+
+use std::io;
+use std::path::Path;
+
+use phong_scene::Diagnostic;
+
+use crate::report;
+
+/// Why a command did not do what was asked.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// The answer is "no", and has been given. Exit code 1.
+    No,
+    /// The command line is at fault. Exit code 2.
+    Usage {
+        message: String,
+        /// The way out.
+        help: Option<String>,
+    },
+    /// The input is at fault. Exit code 2.
+    Input(Vec<Diagnostic>),
+    /// The input is at fault, and that has been told in full. Exit code 2.
+    Told,
+    /// Something else went wrong. Exit code 3.
+    System(String),
+    /// Whoever read standard output has had enough. Nothing to say; exit code 0.
+    ReaderGone,
+}
+
+impl Failure {
+    /// The command line is at fault.
+    pub(crate) fn usage(message: impl Into<String>) -> Self {
+        Self::Usage { message: message.into(), help: None }
+    }
+
+    /// The same with a way out.
+    #[must_use]
+    pub(crate) fn with_help(self, way_out: impl Into<String>) -> Self {
+        match self {
+            Self::Usage { message, .. } => Self::Usage { message, help: Some(way_out.into()) },
+            other => other,
+        }
+    }
+
+    /// A command that this version does not have.
+    pub(crate) fn not_yet(what: &str) -> Self {
+        Self::usage(format!("{what}: not yet"))
+            .with_help("this version does not do it; `phong --help` lists the commands")
+    }
+
+    /// Standard output failed.
+    pub(crate) fn stdout(error: &io::Error) -> Self {
+        match error.kind() {
+            io::ErrorKind::BrokenPipe => Self::ReaderGone,
+            _ => Self::System(format!("cannot write to standard output: {error}")),
+        }
+    }
+
+    /// A file could not be written once work was under way.
+    pub(crate) fn writing(path: &Path, error: &io::Error) -> Self {
+        Self::System(format!("cannot write {}: {error}", path.display()))
+    }
+
+    /// Says what there is to say; the exit code.
+    pub(crate) fn tell(self) -> u8 {
+        match self {
+            Self::No => 1,
+            Self::Usage { message, help } => {
+                report::error(&message, help.as_deref());
+                2
+            }
+            Self::Input(diagnostics) => {
+                report::diagnostics(&diagnostics);
+                2
+            }
+            Self::Told => 2,
+            Self::System(message) => {
+                report::error(&message, None);
+                3
+            }
+            Self::ReaderGone => 0,
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! The only place that talks: diagnostics and words on standard error, data on standard output.
+
+use std::fmt::Write as _;
+use std::io::{self, IsTerminal, Write};
+
+use annotate_snippets::renderer::DecorStyle;
+use annotate_snippets::{AnnotationKind, Element, Group, Level, Origin, Renderer, Snippet};
+use phong_scene::{Diagnostic, Label, Severity, Span};
+
+use crate::failure::Failure;
+
+/// Draws diagnostics on standard error, with carets, and a count after them if there are several.
+pub(crate) fn diagnostics(all: &[Diagnostic]) {
+    let renderer = renderer();
+    let mut text = String::new();
+    for diagnostic in all {
+        draw(&renderer, diagnostic, &mut text);
+    }
+    let errors = all.iter().filter(|d| d.is_error()).count();
+    if all.len() > 1 {
+        let counts = [(errors, "error"), (all.len() - errors, "warning")];
+        let counts: Vec<_> = counts.into_iter().filter(|&(n, _)| n > 0).map(count).collect();
+        let _ = writeln!(text, "{}", counts.join(", "));
+    }
+    write_stderr(&text);
+}
+
+/// One error that is at no place in a file.
+pub(crate) fn error(message: &str, help: Option<&str>) {
+    let mut groups = vec![Group::with_title(Level::ERROR.primary_title(message))];
+    groups.extend(help.map(|help| Group::with_title(Level::HELP.secondary_title(help))));
+    write_stderr(&format!("{}\n", renderer().render(&groups)));
+}
+
+/// A line of talk.
+pub(crate) fn say(line: &str) {
+    write_stderr(&format!("{line}\n"));
+}
+
+/// Data, to standard output, all of it or a failure.
+pub(crate) fn data(bytes: &[u8]) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    out.write_all(bytes).and_then(|()| out.flush()).map_err(|e| Failure::stdout(&e))
+}
+
+/// One JSON object, to standard output.
+pub(crate) fn json(value: &serde_json::Value) -> Result<(), Failure> {
+    data(format!("{value:#}\n").as_bytes())
+}
+
+/// Whether somebody is watching standard error.
+pub(crate) fn is_watched() -> bool {
+    io::stderr().is_terminal()
+}
+
+/// A closed standard error is no reason to stop, let alone to panic.
+fn write_stderr(text: &str) {
+    let _ = io::stderr().lock().write_all(text.as_bytes());
+}
+
+fn renderer() -> Renderer {
+    let unwanted = std::env::var_os("NO_COLOR").is_some_and(|v| !v.is_empty())
+        || std::env::var_os("TERM").is_some_and(|v| v == "dumb");
+    if is_watched() && !unwanted {
+        Renderer::styled().decor_style(DecorStyle::Unicode)
+    } else {
+        Renderer::plain()
+    }
+}
+
+fn draw(renderer: &Renderer, diagnostic: &Diagnostic, text: &mut String) {
+    let level = match diagnostic.severity {
+        Severity::Error => Level::ERROR,
+        Severity::Warning => Level::WARNING,
+    };
+    let mut group = Group::with_title(level.primary_title(diagnostic.message.as_str()));
+    if let Some(span) = &diagnostic.span {
+        group = group.element(element(span, AnnotationKind::Primary, None));
+    }
+    for Label { message, span } in &diagnostic.labels {
+        group = group.element(element(span, AnnotationKind::Context, Some(message)));
+    }
+    if let Some(help) = &diagnostic.help {
+        group = group.element(Element::from(Level::HELP.message(help.as_str())));
+    }
+    let _ = writeln!(text, "{}\n", renderer.render(&[group]));
+}
+
+fn element<'a>(span: &'a Span, kind: AnnotationKind, label: Option<&'a String>) -> Element<'a> {
+    let place = &span.place;
+    if place.line == 0 || span.excerpt.is_empty() {
+        let origin = Origin::path(&*place.file);
+        let origin = if place.line > 0 {
+            origin.line(place.line as usize).char_column(place.column as usize)
+        } else {
+            origin
+        };
+        return origin.into();
+    }
+    let annotation = kind.span(span.range.clone());
+    let annotation = label.map_or(annotation.clone(), |label| annotation.label(label.as_str()));
+    Snippet::source(span.excerpt.as_str())
+        .line_start(place.line as usize)
+        .path(&*place.file)
+        .annotation(annotation)
+        .into()
+}
+
+fn count((n, what): (usize, &str)) -> String {
+    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
+}
