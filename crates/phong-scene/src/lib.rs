@@ -7,6 +7,10 @@
 mod camera;
 mod color;
 mod diagnostic;
+#[allow(dead_code, reason = "`read`, which calls the readers, is the next piece")]
+mod format;
+#[allow(dead_code, reason = "`read`, which calls it for bare models, is the next piece")]
+mod frame;
 mod light;
 mod limits;
 mod material;
@@ -18,13 +22,14 @@ mod source;
 pub use camera::{Camera, CameraKind};
 pub use color::{Rgb, srgb_decode, srgb_encode};
 pub use diagnostic::{Diagnostic, Label, Place, Severity, Span};
+pub use frame::{Side, Up, View};
 pub use light::{Light, LightKind};
 pub use limits::Limits;
 pub use material::{
     AmbientRule, Dialect, Distribution, Fresnel, Material, MaterialId, Model, Shadowing, Tint,
     WardForm,
 };
-pub use mesh::{Mesh, NO_INDEX, Points};
+pub use mesh::{Bounds, Mesh, NO_INDEX, Points};
 pub use scene::{Background, FilterKind, Group, GroupId, Image, Object, Reading, Scene};
 pub use shape::Shape;
 pub use source::{Blob, Folder, Memory, Source};

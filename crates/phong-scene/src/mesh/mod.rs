@@ -2,6 +2,11 @@
 //!
 //! The renderer takes these arrays by value; nothing copies them.
 
+mod bounds;
+mod smooth;
+
+pub use bounds::Bounds;
+
 use glam::{DVec3, Vec2, Vec3};
 
 use crate::Rgb;

@@ -1,0 +1,6 @@
+//! The formats scenes and models come in.
+
+pub(crate) mod model;
+pub(crate) mod mtl;
+pub(crate) mod obj;
+pub(crate) mod ply;
