@@ -7,6 +7,7 @@ mod dir;
 mod elementary;
 mod frame;
 mod pow;
+pub mod wide;
 
 pub use dir::{Dir3, reflect};
 pub use elementary::{acos, asin, atan2, cos, erfc, exp, ln, sin, sin_cos, tan};
