@@ -14,9 +14,9 @@ const ROOMS: &[&str] = &[
     "filter",
     // 3: what a scene is made of, as the renderer holds it
     "texture",
-    "material",
-    "light",
     "camera",
+    "light",
+    "material",
     // 4: a scene made ready, and a point on a surface
     "interaction",
     "compile",
