@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use thiserror::Error;
 
-use crate::{Geometry, Hit, Ray, Surface, reference};
+use crate::{Geometry, Hit, Ray, Surface, reference, surface};
 
 /// A built hierarchy, with the geometry it was built from.
 #[derive(Debug)]
@@ -143,7 +143,7 @@ impl Bvh {
     /// # Panics
     /// If `hit` is none.
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> Surface {
-        reference::surface(self, ray, hit)
+        surface::surface(self, ray, hit)
     }
 
     /// What it is made of.

@@ -8,9 +8,12 @@
 
 mod bvh;
 mod geometry;
+mod primitives;
 mod ray;
 mod reference;
+mod surface;
 
 pub use bvh::{BuildError, BuildOptions, Bvh, Cost, Preset, Stats};
 pub use geometry::{Canonical, Geometry, Plane, Solid, Sphere};
 pub use ray::{Hit, Ray, Surface};
+pub use surface::offset_origin;

@@ -1,8 +1,6 @@
 //! Brute force over every primitive: the oracle of tests and fuzzing.
 
-use glam::{DVec3, Vec2, Vec3};
-
-use crate::{Bvh, Geometry, Hit, Ray, Surface};
+use crate::{Bvh, Geometry, Hit, Ray};
 
 /// The closest hit over all primitives, by trying each.
 pub(crate) fn intersect(bvh: &Bvh, ray: &Ray) -> Hit {
@@ -23,6 +21,7 @@ fn one(geometry: &Geometry, local: usize, ray: &Ray) -> Hit {
     let (o, d) = (ray.origin.as_dvec3(), ray.dir.as_dvec3());
     let inside = |t: f64| (t as f32) > ray.t_min && (t as f32) < ray.t_max;
     let hit = |t: f64, u: f64, v: f64| Hit { t: t as f32, prim: 0, u: u as f32, v: v as f32 };
+    let exact = |t: f32| Hit { t, prim: 0, ..Hit::NONE };
     match geometry {
         Geometry::Triangles { positions, indices } => {
             let [a, b, c] = indices[local].map(|i| positions[i as usize].as_dvec3());
@@ -54,42 +53,7 @@ fn one(geometry: &Geometry, local: usize, ray: &Ray) -> Hit {
                 .find(|&t| inside(t))
                 .map_or(Hit::NONE, |t| hit(t, 0.0, 0.0))
         }
-        Geometry::Plane(plane) => {
-            let t = (plane.point - o).dot(plane.normal) / d.dot(plane.normal);
-            if t.is_finite() && inside(t) { hit(t, 0.0, 0.0) } else { Hit::NONE }
-        }
-        Geometry::Solid(_) => Hit::NONE,
-    }
-}
-
-/// The surface at a hit.
-pub(crate) fn surface(bvh: &Bvh, ray: &Ray, hit: &Hit) -> Surface {
-    let (index, local) = bvh.locate(hit.prim);
-    let (p, ng) = match &bvh.geometry()[index] {
-        Geometry::Triangles { positions, indices } => {
-            let [a, b, c] = indices[local as usize].map(|i| positions[i as usize].as_dvec3());
-            let (u, v) = (f64::from(hit.u), f64::from(hit.v));
-            (a + u * (b - a) + v * (c - a), (b - a).cross(c - a))
-        }
-        Geometry::Spheres(spheres) => {
-            let s = spheres[local as usize];
-            let c = s.center.as_dvec3();
-            let n = (ray.origin.as_dvec3() + f64::from(hit.t) * ray.dir.as_dvec3() - c)
-                .normalize_or(DVec3::Z);
-            (c + f64::from(s.radius) * n, n)
-        }
-        Geometry::Plane(plane) => {
-            let p = ray.origin.as_dvec3() + f64::from(hit.t) * ray.dir.as_dvec3();
-            (p - (p - plane.point).dot(plane.normal) * plane.normal, plane.normal)
-        }
-        Geometry::Solid(_) => (DVec3::ZERO, DVec3::Z),
-    };
-    let ng = ng.normalize_or(DVec3::Z).as_vec3();
-    Surface {
-        p: p.as_vec3(),
-        p_error: p.as_vec3().abs() * 3e-7 + Vec3::splat(1e-7 * hit.t),
-        ng,
-        tangent: ng.any_orthonormal_vector(),
-        uv: Vec2::new(hit.u, hit.v),
+        Geometry::Plane(plane) => plane.intersect(ray).map_or(Hit::NONE, exact),
+        Geometry::Solid(solid) => solid.intersect(ray).map_or(Hit::NONE, exact),
     }
 }
