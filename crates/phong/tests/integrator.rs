@@ -1,0 +1,429 @@
+//! The road of a ray, on scenes small enough to work out by hand.
+
+use glam::{DAffine3, DVec3};
+use phong::aov::Aov;
+use phong::compile::{CompileError, CompileOptions, CompiledScene};
+use phong::film::{Film, LayerKind};
+use phong::reflectance::{Terms, fresnel};
+use phong::render::{Cancel, Cancelled, RenderOptions, Rendered, render};
+use phong_scene::{
+    AmbientRule, Background, Camera, CameraKind, FilterKind, Group, GroupId, Image, Light,
+    LightKind, Material, MaterialId, Mesh, Object, Place, Points, Rgb, Scene, Shape, Tint,
+};
+
+/// One pixel looking down −z from (0, 0, 10) at whatever is added.
+fn scene() -> Scene {
+    Scene {
+        image: Image { size: [1, 1], samples: 1, ..Image::default() },
+        camera: Camera {
+            kind: CameraKind::Orthographic { height: 1e-3 },
+            eye: DVec3::new(0.0, 0.0, 10.0),
+            look_at: DVec3::ZERO,
+            up: DVec3::Y,
+            aperture: 0.0,
+            focus: None,
+        },
+        ambient: Rgb::WHITE,
+        lights: Vec::new(),
+        materials: vec![Material::default()],
+        objects: Vec::new(),
+        groups: Vec::new(),
+    }
+}
+
+fn sun(direction: [f64; 3]) -> Light {
+    let direction = DVec3::from_array(direction);
+    Light {
+        name: "sun".to_owned(),
+        kind: LightKind::Distant { direction, angle: 0.0 },
+        color: Rgb::WHITE,
+        specular_color: Rgb::WHITE,
+        shadows: true,
+        place: Place::default(),
+    }
+}
+
+fn object(shape: Shape) -> Object {
+    Object {
+        name: "thing".to_owned(),
+        shape,
+        material: MaterialId(0),
+        transform: DAffine3::IDENTITY,
+        place: Place::default(),
+    }
+}
+
+fn sphere(center: [f64; 3], radius: f64) -> Object {
+    object(Shape::Sphere { center: DVec3::from_array(center), radius })
+}
+
+fn plane(point: [f64; 3], normal: [f64; 3]) -> Object {
+    let [point, normal] = [point, normal].map(DVec3::from_array);
+    object(Shape::Plane { point, normal })
+}
+
+fn film_with(scene: Scene, change: impl FnOnce(&mut RenderOptions)) -> Film {
+    let mut options = RenderOptions { terms: true, ..RenderOptions::of(&scene.image) };
+    change(&mut options);
+    let compiled = CompiledScene::new(scene, CompileOptions::default()).unwrap();
+    let Rendered { film, .. } =
+        render(&compiled, &options, &|_, _| {}, &Cancel::new()).unwrap();
+    film
+}
+
+/// The terms of the only pixel.
+fn terms(scene: Scene) -> Terms {
+    let film = film_with(scene, |_| {});
+    let term = |i| {
+        let v = film.at(LayerKind::Term(i), 0, 0).unwrap();
+        Rgb::new(v[0], v[1], v[2])
+    };
+    let terms = Terms::from_array(std::array::from_fn(term));
+    let picture = film.at(LayerKind::Picture, 0, 0).unwrap();
+    assert_eq!(picture, terms.total().to_array(), "the terms sum to the picture");
+    terms
+}
+
+fn close(a: Rgb, b: f32) {
+    assert!((a - Rgb::grey(b)).to_array().iter().all(|d| d.abs() < 1e-6), "{a:?}, not {b}");
+}
+
+#[test]
+fn a_sphere_lit_from_the_eye_shows_the_whole_sum() {
+    let mut scene = scene();
+    scene.objects.push(sphere([0.0; 3], 1.0));
+    scene.lights.push(sun([0.0, 0.0, -1.0]));
+    let terms = terms(scene);
+    close(terms.ambient, 0.1 * 0.8);
+    close(terms.diffuse, 0.7 * 0.8);
+    close(terms.specular, 0.3);
+    assert_eq!(terms.background, Rgb::BLACK);
+}
+
+#[test]
+fn lights_add_up_and_their_colour_tints_both_terms() {
+    let mut scene = scene();
+    scene.objects.push(plane([0.0; 3], [0.0, 0.0, 1.0]));
+    scene.lights.push(sun([0.0, 0.0, -1.0]));
+    scene.lights.push(Light {
+        color: Rgb::new(0.5, 0.0, 0.0),
+        specular_color: Rgb::new(0.0, 1.0, 0.0),
+        ..sun([0.0, 0.0, -2.0])
+    });
+    let terms = terms(scene);
+    assert!((terms.diffuse.r - 0.7 * 0.8 * 1.5).abs() < 1e-6);
+    assert!((terms.diffuse.g - 0.7 * 0.8).abs() < 1e-6);
+    assert!((terms.specular.g - 0.6).abs() < 1e-6);
+    assert!((terms.specular.r - 0.3).abs() < 1e-6);
+}
+
+#[test]
+fn what_stands_in_the_way_of_a_light_takes_it_away() {
+    let shadowed = |change: fn(&mut Scene)| {
+        let mut scene = scene();
+        scene.objects.push(plane([0.0; 3], [0.0, 0.0, 1.0]));
+        scene.objects.push(sphere([3.0, 0.0, 3.0], 0.5));
+        scene.lights.push(sun([-1.0, 0.0, -1.0]));
+        change(&mut scene);
+        terms(scene)
+    };
+    assert_eq!(shadowed(|_| {}).diffuse, Rgb::BLACK);
+    close(shadowed(|_| {}).ambient, 0.08);
+    let lit = 0.7 * 0.8 * 0.5_f32.sqrt();
+    close(shadowed(|scene| scene.lights[0].shadows = false).diffuse, lit);
+    close(shadowed(|scene| scene.objects.truncate(1)).diffuse, lit);
+}
+
+#[test]
+fn a_thing_behind_a_point_light_casts_no_shadow() {
+    let mut scene = scene();
+    scene.objects.push(plane([0.0; 3], [0.0, 0.0, 1.0]));
+    scene.objects.push(sphere([6.0, 0.0, 6.0], 0.5));
+    let position = DVec3::new(3.0, 0.0, 3.0);
+    let kind = LightKind::Point { position, attenuation: [0.0, 0.0, 1.0], radius: 0.0 };
+    scene.lights.push(Light { kind, ..sun([0.0, 0.0, -1.0]) });
+    close(terms(scene).diffuse, 0.7 * 0.8 * 0.5_f32.sqrt() / 18.0);
+}
+
+#[test]
+fn shading_is_two_sided_and_a_light_behind_gives_nothing() {
+    let lit = |normal, direction| {
+        let mut scene = scene();
+        scene.objects.push(plane([0.0; 3], normal));
+        scene.lights.push(sun(direction));
+        terms(scene).diffuse
+    };
+    close(lit([0.0, 0.0, 1.0], [0.0, 0.0, -1.0]), 0.56);
+    close(lit([0.0, 0.0, -1.0], [0.0, 0.0, -1.0]), 0.56);
+    assert_eq!(lit([0.0, 0.0, 1.0], [0.0, 0.0, 1.0]), Rgb::BLACK);
+}
+
+#[test]
+fn a_light_below_the_geometric_horizon_gives_nothing_whatever_the_shading_normal() {
+    let mut scene = scene();
+    // A wall seen at a slant whose shading normals face the light behind it.
+    let corner = |x: f64, y: f64| DVec3::new(x, y, -x);
+    scene.objects.push(object(Shape::Triangle {
+        points: [corner(-2.0, -2.0), corner(2.0, -2.0), corner(0.0, 3.0)],
+        normals: Some([DVec3::new(-0.9, 0.0, 1.0); 3]),
+        uv: None,
+    }));
+    scene.lights.push(sun([1.0, 0.0, 0.2]));
+    assert_eq!(terms(scene).diffuse, Rgb::BLACK);
+}
+
+#[test]
+fn a_mirror_brings_what_it_sees_times_its_weight() {
+    let mut scene = scene();
+    scene.image.background = Background::Color(Rgb::new(0.25, 0.5, 1.0));
+    scene.materials[0].reflection = Rgb::grey(0.5);
+    scene.objects.push(plane([0.0; 3], [1.0, 0.0, 1.0]));
+    let terms = terms(scene.clone());
+    assert_eq!(terms.reflection, Rgb::new(0.125, 0.25, 0.5));
+    scene.image.depth = 0;
+    assert_eq!(self::terms(scene).reflection, Rgb::BLACK, "beyond the depth a ray brings black");
+}
+
+#[test]
+fn two_facing_mirrors_end_at_the_depth() {
+    let mut scene = scene();
+    scene.image.depth = 3;
+    scene.ambient = Rgb::WHITE;
+    scene.materials[0] = Material {
+        k_a: 1.0,
+        color: Rgb::WHITE,
+        reflection: Rgb::grey(0.5),
+        ..Material::default()
+    };
+    scene.objects.push(plane([0.0; 3], [0.0, 0.0, 1.0]));
+    scene.objects.push(plane([0.0, 0.0, 11.0], [0.0, 0.0, 1.0]));
+    let terms = terms(scene);
+    assert_eq!(terms.total(), Rgb::grey(1.0 + 0.5 + 0.25 + 0.125));
+}
+
+fn glass(change: fn(&mut Material)) -> Scene {
+    let mut scene = scene();
+    scene.image.background = Background::Color(Rgb::WHITE);
+    scene.materials[0] = Material {
+        k_a: 0.0,
+        k_d: 0.0,
+        k_s: 0.0,
+        reflection: Rgb::WHITE,
+        transmission: Rgb::WHITE,
+        fresnel: true,
+        ..Material::default()
+    };
+    change(&mut scene.materials[0]);
+    scene
+}
+
+#[test]
+fn glass_shares_light_by_the_exact_fresnel_reflectance() {
+    let mut scene = glass(|_| {});
+    scene.image.depth = 1;
+    scene.objects.push(plane([0.0; 3], [0.0, 0.0, 1.0]));
+    let terms = terms(scene);
+    let f = fresnel::dielectric(1.0, 1.5);
+    assert!((f - 0.04).abs() < 1e-7);
+    close(terms.reflection, f);
+    close(terms.transmission, 1.0 - f);
+}
+
+#[test]
+fn a_ball_of_glass_without_fresnel_lets_all_light_through() {
+    let mut scene = glass(|m| {
+        m.fresnel = false;
+        m.reflection = Rgb::BLACK;
+        m.ior = 1.0;
+    });
+    scene.objects.push(sphere([0.3, 0.2, 0.0], 1.0));
+    assert_eq!(terms(scene).transmission, Rgb::WHITE);
+}
+
+#[test]
+fn beyond_the_critical_angle_all_light_is_mirrored() {
+    // From inside (the plane's normal points away from the eye), at 45° > asin(1/1.5) = 41.8°.
+    for fresnel in [true, false] {
+        let mut scene = glass(|_| {});
+        scene.materials[0].fresnel = fresnel;
+        scene.materials[0].reflection = Rgb::grey(if fresnel { 1.0 } else { 0.25 });
+        scene.materials[0].transmission = Rgb::grey(if fresnel { 1.0 } else { 0.75 });
+        scene.objects.push(plane([0.0; 3], [-1.0, 0.0, -1.0]));
+        let terms = terms(scene);
+        assert_eq!(terms.transmission, Rgb::BLACK);
+        close(terms.reflection, 1.0);
+    }
+}
+
+#[test]
+fn ambient_per_light_goes_with_the_light_but_not_its_shadow() {
+    let mut scene = scene();
+    scene.materials[0].ambient_rule = AmbientRule::PerLight;
+    scene.objects.push(plane([0.0; 3], [0.0, 0.0, 1.0]));
+    scene.lights.push(Light { color: Rgb::grey(0.5), ..sun([0.0, 0.0, 1.0]) });
+    scene.lights.push(Light { color: Rgb::grey(0.25), ..sun([0.0, 0.0, -1.0]) });
+    close(terms(scene.clone()).ambient, 0.1 * 0.8 * 0.75);
+    scene.lights.clear();
+    assert_eq!(terms(scene).ambient, Rgb::BLACK);
+}
+
+#[test]
+fn an_object_tint_takes_the_object_colour_and_not_the_light() {
+    let mut scene = scene();
+    scene.materials[0].tint = Tint::Object;
+    scene.materials[0].color = Rgb::new(1.0, 0.5, 0.0);
+    scene.objects.push(plane([0.0; 3], [0.0, 0.0, 1.0]));
+    scene.lights.push(Light { specular_color: Rgb::grey(0.1), ..sun([0.0, 0.0, -1.0]) });
+    let specular = terms(scene).specular;
+    assert!((specular.r - 0.3).abs() < 1e-6 && (specular.g - 0.15).abs() < 1e-6);
+}
+
+fn mesh(origin: DVec3) -> Mesh {
+    Mesh {
+        origin,
+        positions: vec![
+            glam::Vec3::new(-2.0, -2.0, 0.0),
+            glam::Vec3::new(2.0, -2.0, 0.0),
+            glam::Vec3::new(0.0, 3.0, 0.0),
+        ],
+        indices: vec![[0, 1, 2]],
+        colors: vec![Rgb::new(1.0, 0.0, 0.0); 3],
+        ..Mesh::default()
+    }
+}
+
+#[test]
+fn vertex_and_point_colours_replace_the_material_colour() {
+    let mut scene = scene();
+    scene.lights.push(sun([0.0, 0.0, -1.0]));
+    scene.objects.push(object(Shape::Mesh(Box::new(mesh(DVec3::ZERO)))));
+    let red = terms(scene.clone()).diffuse;
+    assert!((red.r - 0.7).abs() < 1e-6 && red.g == 0.0);
+    scene.objects[0] = object(Shape::Points(Box::new(Points {
+        spheres: vec![[5.0, 0.0, 0.0, 1.0], [0.0, 0.0, 0.0, 1.0]],
+        colors: vec![Rgb::BLACK, Rgb::new(0.0, 1.0, 0.0)],
+        ..Points::default()
+    })));
+    let green = terms(scene).diffuse;
+    assert!((green.g - 0.7).abs() < 1e-6 && green.r == 0.0);
+}
+
+#[test]
+fn data_far_from_the_origin_keep_their_detail() {
+    let far = DVec3::new(3e7, -2e7, 5e7);
+    let mut here = scene();
+    here.objects.push(object(Shape::Mesh(Box::new(mesh(DVec3::ZERO)))));
+    here.objects.push(sphere([0.25, 0.0, 0.5], 0.01));
+    here.lights.push(sun([0.3, 0.2, -1.0]));
+    here.image.size = [24, 24];
+    here.camera.kind = CameraKind::Orthographic { height: 3.0 };
+    let mut there = here.clone();
+    there.camera.eye += far;
+    there.camera.look_at += far;
+    there.objects[0] = object(Shape::Mesh(Box::new(mesh(far))));
+    there.objects[1] = sphere((DVec3::new(0.25, 0.0, 0.5) + far).to_array(), 0.01);
+    let [here, there] = [here, there].map(|scene| film_with(scene, |_| {}));
+    let picture = |film: &Film| film.layer(LayerKind::Picture).unwrap().values.clone();
+    let worst = picture(&here)
+        .iter()
+        .zip(&picture(&there))
+        .map(|(a, b)| (a - b).abs())
+        .fold(0.0, f32::max);
+    assert!(worst < 1e-4, "differs by {worst}");
+}
+
+#[test]
+fn a_mirrored_closed_mesh_keeps_its_outside_outside() {
+    // Glass decides by the geometric normal: entering bends the ray towards the normal.
+    let inside = |mirror: bool| {
+        let mut scene = glass(|_| {});
+        scene.image.depth = 1;
+        let mut thing = object(Shape::Mesh(Box::new(mesh(DVec3::ZERO))));
+        if mirror {
+            thing.transform = DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0));
+        }
+        scene.objects.push(thing);
+        scene.camera.eye = DVec3::new(10.0, 0.0, 1.0);
+        terms(scene).transmission
+    };
+    // At a grazing 84° from inside nothing would be transmitted at all.
+    assert!(inside(false).r > 0.1);
+    close(inside(true), inside(false).r);
+}
+
+#[test]
+fn instances_place_their_group_each_time() {
+    let mut scene = scene();
+    scene.image.size = [3, 1];
+    scene.camera.kind = CameraKind::Orthographic { height: 1.0 };
+    scene.groups.push(Group { name: "ball".to_owned(), objects: vec![sphere([0.0; 3], 0.4)] });
+    for x in [-1.0, 1.0] {
+        let transform = DAffine3::from_translation(DVec3::X * x);
+        scene.objects.push(Object { transform, ..object(Shape::Instance(GroupId(0))) });
+    }
+    let film = film_with(scene, |options| options.aovs = vec![Aov::Object, Aov::Depth]);
+    let object = |x| film.at(LayerKind::Aov(Aov::Object), x, 0).unwrap()[0];
+    assert_eq!([object(0), object(1), object(2)], [1.0, 0.0, 2.0]);
+    let depth = |x| film.at(LayerKind::Aov(Aov::Depth), x, 0).unwrap()[0];
+    assert!((depth(0) - 9.6).abs() < 1e-5);
+    assert_eq!(depth(1), f32::INFINITY);
+}
+
+#[test]
+fn alpha_is_the_share_of_samples_that_met_something() {
+    let mut scene = scene();
+    scene.image = Image {
+        size: [1, 1],
+        samples: 64,
+        background: Background::Transparent,
+        filter: FilterKind::Box,
+        ..Image::default()
+    };
+    scene.camera.kind = CameraKind::Orthographic { height: 2.0 };
+    let half = Shape::Box { min: DVec3::new(-5.0, -5.0, -1.0), max: DVec3::new(0.0, 5.0, 0.0) };
+    scene.objects.push(object(half));
+    scene.materials[0].k_a = 1.0;
+    let film = film_with(scene, |_| {});
+    assert_eq!(film.at(LayerKind::Alpha, 0, 0).unwrap(), [0.5]);
+    close(Rgb::grey(film.at(LayerKind::Picture, 0, 0).unwrap()[0]), 0.4);
+}
+
+#[test]
+fn a_background_runs_from_top_to_bottom_of_the_picture() {
+    let mut scene = scene();
+    scene.image.size = [1, 4];
+    scene.image.background = Background::Gradient { top: Rgb::WHITE, bottom: Rgb::BLACK };
+    let film = film_with(scene, |_| {});
+    for y in 0..4 {
+        let v = film.at(LayerKind::Picture, 0, y).unwrap()[0];
+        assert!((v - (1.0 - (y as f32 + 0.5) / 4.0)).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn a_cancelled_rendering_gives_no_film() {
+    let scene = scene();
+    let options = RenderOptions::of(&scene.image);
+    let compiled = CompiledScene::new(scene, CompileOptions::default()).unwrap();
+    let cancel = Cancel::new();
+    cancel.cancel();
+    assert_eq!(render(&compiled, &options, &|_, _| {}, &cancel).err(), Some(Cancelled));
+}
+
+#[test]
+fn a_scene_over_the_memory_limit_is_refused_before_it_is_built() {
+    let mut scene = scene();
+    let spheres = vec![[0.0, 0.0, 0.0, 1.0]; 1000];
+    scene.objects.push(object(Shape::Points(Box::new(Points { spheres, ..Points::default() }))));
+    let options = CompileOptions { max_bytes: Some(10_000), ..CompileOptions::default() };
+    let error = CompiledScene::new(scene, options).unwrap_err();
+    assert!(matches!(error, CompileError::Memory { needed: 16_000.., limit: 10_000 }));
+}
+
+#[test]
+fn a_scene_too_large_for_its_numbers_is_refused() {
+    let mut scene = scene();
+    scene.objects.push(sphere([1e300, 0.0, 0.0], 1e299));
+    let error = CompiledScene::new(scene, CompileOptions::default()).unwrap_err();
+    assert!(matches!(error, CompileError::TooLarge(_)));
+}
