@@ -5,6 +5,16 @@
 //! `witness`; `film`, `aov`, `render`; `image`, `explain`, `compare`; `figures`, `fit`.
 
 pub mod aov;
+pub mod camera;
+pub mod compile;
 pub mod film;
+pub mod filter;
+pub mod integrator;
+pub mod interaction;
+pub mod light;
+pub mod material;
 pub mod math;
 pub mod reflectance;
+pub mod render;
+pub mod sampling;
+pub mod witness;

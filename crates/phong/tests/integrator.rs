@@ -66,8 +66,7 @@ fn film_with(scene: Scene, change: impl FnOnce(&mut RenderOptions)) -> Film {
     let mut options = RenderOptions { terms: true, ..RenderOptions::of(&scene.image) };
     change(&mut options);
     let compiled = CompiledScene::new(scene, CompileOptions::default()).unwrap();
-    let Rendered { film, .. } =
-        render(&compiled, &options, &|_, _| {}, &Cancel::new()).unwrap();
+    let Rendered { film, .. } = render(&compiled, &options, &|_, _| {}, &Cancel::new()).unwrap();
     film
 }
 
@@ -189,12 +188,8 @@ fn two_facing_mirrors_end_at_the_depth() {
     let mut scene = scene();
     scene.image.depth = 3;
     scene.ambient = Rgb::WHITE;
-    scene.materials[0] = Material {
-        k_a: 1.0,
-        color: Rgb::WHITE,
-        reflection: Rgb::grey(0.5),
-        ..Material::default()
-    };
+    scene.materials[0] =
+        Material { k_a: 1.0, color: Rgb::WHITE, reflection: Rgb::grey(0.5), ..Material::default() };
     scene.objects.push(plane([0.0; 3], [0.0, 0.0, 1.0]));
     scene.objects.push(plane([0.0, 0.0, 11.0], [0.0, 0.0, 1.0]));
     let terms = terms(scene);
@@ -324,11 +319,8 @@ fn data_far_from_the_origin_keep_their_detail() {
     there.objects[1] = sphere((DVec3::new(0.25, 0.0, 0.5) + far).to_array(), 0.01);
     let [here, there] = [here, there].map(|scene| film_with(scene, |_| {}));
     let picture = |film: &Film| film.layer(LayerKind::Picture).unwrap().values.clone();
-    let worst = picture(&here)
-        .iter()
-        .zip(&picture(&there))
-        .map(|(a, b)| (a - b).abs())
-        .fold(0.0, f32::max);
+    let worst =
+        picture(&here).iter().zip(&picture(&there)).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
     assert!(worst < 1e-4, "differs by {worst}");
 }
 

@@ -4,7 +4,12 @@
 //! roots are exact by IEEE 754, so `f32::sqrt` needs no home here.
 
 mod dir;
+mod elementary;
+mod frame;
 mod pow;
+pub mod wide;
 
 pub use dir::{Dir3, reflect};
+pub use elementary::{acos, asin, atan2, cos, erfc, exp, ln, sin, sin_cos, tan};
+pub use frame::Frame;
 pub use pow::{lobe, pow};

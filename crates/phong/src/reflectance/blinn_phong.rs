@@ -45,7 +45,7 @@ pub fn normalization(alpha: f32, times_cosine: bool) -> f32 {
     let n = alpha;
     let tail = pow(1.0 / SQRT_2, n); // 2^(−n/2)
     if times_cosine {
-        (n + 2.0) * (n + 4.0) / (8.0 * (tail + n))
+        (n + 2.0) / 8.0 * ((n + 4.0) / (tail + n))
     } else {
         (n + 2.0) / (4.0 * (2.0 - tail))
     }

@@ -7,18 +7,30 @@
 //! `k_d (L·N) C_d` without a π, and a model known as a BRDF f adds `π f (N·L)`.
 
 pub mod blinn_phong;
+pub mod fresnel;
 mod lambert;
+pub mod microfacet;
+mod oren_nayar;
 pub mod phong;
 mod scale;
 mod terms;
+mod ward;
 
 pub use blinn_phong::BlinnPhong;
+pub use fresnel::Fresnel;
 pub use lambert::Lambert;
+pub use microfacet::{Distribution, Microfacet, Shadowing};
+pub use oren_nayar::{OrenNayar, OrenNayarForm};
 pub use phong::Phong;
 pub use scale::Switches;
 pub use terms::{Incident, Terms};
+pub use ward::{Ward, WardForm};
 
 use crate::math::Dir3;
+
+/// Roughnesses below this count as this: a narrower lobe is a mirror, which f32 cannot hold and
+/// which no light but the mirror ray would ever meet.
+pub const NARROWEST: f32 = 1e-4;
 
 /// How a surface answers light: one of the models, with its numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,6 +41,12 @@ pub enum Reflectance {
     Phong(Phong),
     /// `(N·H)^α`, over Lambert.
     BlinnPhong(BlinnPhong),
+    /// Tiny mirrors, over Lambert.
+    Microfacet(Microfacet),
+    /// Rough and diffuse.
+    OrenNayar(OrenNayar),
+    /// Brushed, over Lambert.
+    Ward(Ward),
 }
 
 impl Reflectance {
@@ -40,7 +58,6 @@ impl Reflectance {
     ///
     /// **A light with L·N ≤ 0 adds nothing**, whatever the model.
     pub fn shade_light(&self, n: Dir3, tangent: Dir3, e: Dir3, incident: Incident) -> Terms {
-        let _ = tangent;
         if incident.l.dot(n) <= 0.0 {
             return Terms::default();
         }
@@ -48,6 +65,9 @@ impl Reflectance {
             Self::Lambert(model) => model.shade_light(n, incident),
             Self::Phong(model) => model.shade_light(n, e, incident),
             Self::BlinnPhong(model) => model.shade_light(n, e, incident),
+            Self::Microfacet(model) => model.shade_light(n, e, incident),
+            Self::OrenNayar(model) => model.shade_light(n, e, incident),
+            Self::Ward(model) => model.shade_light(n, tangent, e, incident),
         }
     }
 }

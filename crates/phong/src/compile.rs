@@ -1,0 +1,203 @@
+//! From what was written to what rays meet.
+//!
+//! Instances are flattened, transforms are baked in f64, and the whole scene is moved so that
+//! its middle is near the origin: far-away data keep their detail in f32.
+
+mod flatten;
+mod geometry;
+
+use glam::{DVec3, Vec3};
+use phong_bvh::{BuildError, BuildOptions, Bvh, Geometry, Hit, Ray};
+use phong_scene::{Place, Rgb, Scene};
+use thiserror::Error;
+
+use crate::camera::Camera;
+use crate::interaction::SurfaceInteraction;
+use crate::light::Light;
+use crate::material::Material;
+use crate::math::Dir3;
+use geometry::Part;
+
+/// A scene that rays can meet. Immutable; shared freely between threads.
+#[derive(Debug)]
+pub struct CompiledScene {
+    camera: Camera,
+    center: DVec3,
+    ambient: Rgb,
+    lights: Vec<Light>,
+    materials: Vec<Material>,
+    bvh: Bvh,
+    /// What the hierarchy's geometries belong to, one for each.
+    parts: Vec<Part>,
+    objects: Vec<ObjectRecord>,
+    light_names: Vec<(String, Place)>,
+    material_names: Vec<String>,
+}
+
+/// An object as rays meet it: for telling, not for shading.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ObjectRecord {
+    /// Its name; within an instance `instance 1 / sphere 2`.
+    pub name: String,
+    /// Where it was written.
+    pub place: Place,
+}
+
+/// How to compile.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CompileOptions {
+    /// How to build the hierarchy.
+    pub build: BuildOptions,
+    /// The most bytes that the compiled scene may take, estimated before anything is built;
+    /// `None`: no limit.
+    pub max_bytes: Option<u64>,
+}
+
+/// Why a scene could not be compiled.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum CompileError {
+    /// The estimate is over the limit: the caller's to raise, or the scene's to shrink.
+    #[error("the scene needs about {needed} bytes, over the limit of {limit}")]
+    Memory {
+        /// Estimated bytes, building included.
+        needed: u64,
+        /// The limit.
+        limit: u64,
+    },
+    /// The hierarchy cannot be built.
+    #[error(transparent)]
+    Build(#[from] BuildError),
+    /// The scene is so large that distances in it overflow f32: the input's fault.
+    #[error("the scene is {0:e} units across, more than the 1e18 that numbers can hold")]
+    TooLarge(f64),
+}
+
+impl CompiledScene {
+    /// Compiles a scene, taking its bulk geometry by value, in the current rayon pool.
+    ///
+    /// # Errors
+    /// [`CompileError`].
+    pub fn new(scene: Scene, options: CompileOptions) -> Result<Self, CompileError> {
+        if let Some(limit) = options.max_bytes {
+            let needed = geometry::estimate(&scene);
+            if needed > limit {
+                return Err(CompileError::Memory { needed, limit });
+            }
+        }
+        let bounds = scene.bounds();
+        let extent = bounds.size().max_element();
+        if extent.is_nan() || extent > 1e18 {
+            return Err(CompileError::TooLarge(extent));
+        }
+        let center = geometry::center(bounds);
+        let Scene { image: _, camera, ambient, lights, materials, objects, groups } = scene;
+        let leaves = flatten::flatten(objects, &groups);
+        drop(groups);
+        let geometry::Compiled { geometry, parts, objects } = geometry::compile(leaves, center);
+        Ok(Self {
+            camera: Camera::new(&camera, center),
+            center,
+            ambient,
+            light_names: lights.iter().map(|l| (l.name.clone(), l.place.clone())).collect(),
+            lights: lights.iter().map(|light| Light::new(light, center)).collect(),
+            material_names: materials.iter().map(|m| m.name.clone()).collect(),
+            materials: materials.iter().map(Material::new).collect(),
+            bvh: Bvh::build(geometry, options.build)?,
+            parts,
+            objects,
+        })
+    }
+
+    /// The camera.
+    pub fn camera(&self) -> &Camera {
+        &self.camera
+    }
+
+    /// What was taken off every coordinate: world = compiled + this.
+    pub fn center(&self) -> DVec3 {
+        self.center
+    }
+
+    /// A point of the compiled scene's space, in the world.
+    pub fn to_world(&self, p: Vec3) -> DVec3 {
+        p.as_dvec3() + self.center
+    }
+
+    /// The ambient light.
+    pub fn ambient(&self) -> Rgb {
+        self.ambient
+    }
+
+    /// The lights, in the order of the text.
+    pub fn lights(&self) -> &[Light] {
+        &self.lights
+    }
+
+    /// What a light is called, and where it was written.
+    pub fn light_name(&self, light: usize) -> (&str, &Place) {
+        let (name, place) = &self.light_names[light];
+        (name, place)
+    }
+
+    /// The materials, in the scene's order.
+    pub fn materials(&self) -> &[Material] {
+        &self.materials
+    }
+
+    /// What a material is called.
+    pub fn material_name(&self, material: u32) -> &str {
+        &self.material_names[material as usize]
+    }
+
+    /// The objects, numbered from 0, instances flattened.
+    pub fn objects(&self) -> &[ObjectRecord] {
+        &self.objects
+    }
+
+    /// The hierarchy.
+    pub fn bvh(&self) -> &Bvh {
+        &self.bvh
+    }
+
+    /// The number of a primitive within its object, from 0: a mesh's face, a point of a cloud.
+    /// `None` for objects that are one primitive.
+    pub fn element(&self, prim: u32) -> Option<u32> {
+        let (part, local) = self.bvh.locate(prim);
+        self.parts[part].is_bulk().then_some(local)
+    }
+
+    /// Where `ray` met a surface.
+    ///
+    /// # Panics
+    /// If `hit` is none.
+    pub fn interaction(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
+        let surface = self.bvh.surface(ray, hit);
+        let (index, local) = self.bvh.locate(hit.prim);
+        let part = &self.parts[index];
+        let e = -Dir3::from_unit(ray.dir);
+        let ng = Dir3::from_unit(surface.ng);
+        let corners = match &self.bvh.geometry()[index] {
+            Geometry::Triangles { indices, .. } => Some(indices[local as usize]),
+            _ => None,
+        };
+        let n = corners.and_then(|c| part.normal(local, c, hit)).unwrap_or(ng);
+        let uv = corners.and_then(|c| part.uv(local, c, hit)).unwrap_or(surface.uv);
+        let material = part.material(local);
+        SurfaceInteraction {
+            t: hit.t,
+            prim: hit.prim,
+            object: part.object(local),
+            material,
+            p: surface.p,
+            p_error: surface.p_error,
+            ng,
+            n: n.facing(e),
+            tangent: Dir3::from_unit(surface.tangent),
+            e,
+            uv,
+            color: part
+                .color(local, corners, hit)
+                .unwrap_or(self.materials[material as usize].color),
+        }
+    }
+}

@@ -1,0 +1,72 @@
+//! Where a ray met a surface: all that shading needs to know.
+
+use glam::{Vec2, Vec3};
+use phong_bvh::Ray;
+use phong_scene::Rgb;
+
+use crate::math::Dir3;
+
+/// Where a ray met a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceInteraction {
+    /// Distance along the ray, scene units.
+    pub t: f32,
+    /// Number of the primitive over the whole scene, from 0.
+    pub prim: u32,
+    /// Number of the object, from 0.
+    pub object: u32,
+    /// Number of the material, from 0.
+    pub material: u32,
+    /// The point, in the compiled scene's space (the world moved by its centre).
+    pub p: Vec3,
+    /// Bound on the error of each coordinate of `p`.
+    pub p_error: Vec3,
+    /// Geometric normal as the surface has it: outwards, whichever side the ray comes from.
+    pub ng: Dir3,
+    /// Shading normal, on the side the ray comes from: N.
+    pub n: Dir3,
+    /// Unit tangent along growing `uv.x`, perpendicular to `ng`.
+    pub tangent: Dir3,
+    /// To the eye: against the ray. E.
+    pub e: Dir3,
+    /// Surface coordinates.
+    pub uv: Vec2,
+    /// The diffuse colour here: the geometry's own, else the material's. Linear.
+    pub color: Rgb,
+}
+
+impl SurfaceInteraction {
+    /// The geometric normal on the side the ray comes from.
+    pub fn facing_ng(&self) -> Dir3 {
+        self.ng.facing(self.e)
+    }
+
+    /// Whether the ray comes from outside: the side the geometric normal points to.
+    pub fn from_outside(&self) -> bool {
+        self.ng.dot(self.e) >= 0.0
+    }
+
+    /// A ray that leaves the surface in direction `dir`, starting beyond the error of `p`.
+    pub fn spawn(&self, dir: Dir3, t_max: f32) -> Ray {
+        let d = dir.to_vec();
+        let origin = offset_origin(self.p, self.p_error, self.ng.to_vec(), d);
+        Ray { t_max, ..Ray::new(origin, d) }
+    }
+}
+
+/// `p` moved along `ng` beyond its error, to the side that `dir` leaves on.
+fn offset_origin(p: Vec3, p_error: Vec3, ng: Vec3, dir: Vec3) -> Vec3 {
+    let reach = ng.abs().dot(p_error) * 1.001;
+    let offset = if dir.dot(ng) < 0.0 { -reach * ng } else { reach * ng };
+    let away = |p: f32, offset: f32| {
+        let moved = p + offset;
+        if offset > 0.0 {
+            moved.next_up()
+        } else if offset < 0.0 {
+            moved.next_down()
+        } else {
+            moved
+        }
+    };
+    Vec3::new(away(p.x, offset.x), away(p.y, offset.y), away(p.z, offset.z))
+}

@@ -1,0 +1,149 @@
+//! A material ready for light: the reflectance, and the colours that go with it.
+
+use phong_scene::{self as scene, AmbientRule, Model, Rgb, Tint};
+
+use crate::light::LightSample;
+use crate::math::Dir3;
+use crate::reflectance::{
+    BlinnPhong, Distribution, Fresnel, Incident, Lambert, Microfacet, OrenNayar, OrenNayarForm,
+    Phong, Reflectance, Shadowing, Switches, Terms, Ward, WardForm,
+};
+
+/// A material ready for light.
+#[derive(Clone, Debug)]
+pub struct Material {
+    /// How it answers one light.
+    pub reflectance: Reflectance,
+    /// The diffuse colour where the geometry brings none of its own.
+    pub color: Rgb,
+    ambient_color: Option<Rgb>,
+    specular_color: Option<Rgb>,
+    k_a: f32,
+    tint: Tint,
+    ambient_rule: AmbientRule,
+    /// Weight of the mirror ray, before Fresnel.
+    pub reflection: Rgb,
+    /// Weight of the refracted ray, before Fresnel.
+    pub transmission: Rgb,
+    /// Index of refraction of the inside relative to the outside.
+    pub ior: f32,
+    /// Whether exact dielectric Fresnel shares light between the two.
+    pub fresnel: bool,
+}
+
+impl Material {
+    /// The material of a scene.
+    pub fn new(material: &phong_scene::Material) -> Self {
+        Self {
+            reflectance: reflectance(material),
+            color: material.color,
+            ambient_color: material.ambient_color,
+            specular_color: material.specular_color,
+            k_a: material.k_a,
+            tint: material.tint,
+            ambient_rule: material.ambient_rule,
+            reflection: material.reflection,
+            transmission: material.transmission,
+            ior: material.ior,
+            fresnel: material.fresnel,
+        }
+    }
+
+    /// `k_a C_a` under the ambient light `ambient`, where the surface's colour is `color`; black
+    /// where the ambient term is added per light.
+    pub fn ambient(&self, color: Rgb, ambient: Rgb) -> Rgb {
+        match self.ambient_rule {
+            AmbientRule::Once => self.k_a * (ambient * self.ambient_color.unwrap_or(color)),
+            AmbientRule::PerLight => Rgb::BLACK,
+        }
+    }
+
+    /// What one light adds to the ambient term: nothing, unless the ambient rule is per light.
+    pub fn ambient_of_light(&self, color: Rgb, ambient: Rgb, light: &LightSample) -> Rgb {
+        match self.ambient_rule {
+            AmbientRule::Once => Rgb::BLACK,
+            AmbientRule::PerLight => {
+                self.k_a * (ambient * self.ambient_color.unwrap_or(color) * light.color)
+            }
+        }
+    }
+
+    /// The light tinted by the material: `C_{m,d}` and `C_{m,s}`.
+    pub fn incident(&self, color: Rgb, light: &LightSample) -> Incident {
+        let specular = self.specular_color.unwrap_or(color);
+        Incident {
+            l: light.l,
+            c_d: light.color * color,
+            c_s: match self.tint {
+                Tint::Light => light.specular_color * specular,
+                Tint::Object => color,
+            },
+        }
+    }
+
+    /// What one light adds to the diffuse and specular terms where nothing stands between.
+    pub fn shade_light(
+        &self,
+        n: Dir3,
+        tangent: Dir3,
+        e: Dir3,
+        color: Rgb,
+        light: &LightSample,
+    ) -> Terms {
+        self.reflectance.shade_light(n, tangent, e, self.incident(color, light))
+    }
+}
+
+fn reflectance(material: &phong_scene::Material) -> Reflectance {
+    let &phong_scene::Material { k_d, k_s, shininess, times_cosine, normalize, .. } = material;
+    let switches = Switches { times_cosine, normalize };
+    match material.model {
+        Model::Lambert => Reflectance::Lambert(Lambert { k_d }),
+        Model::Phong => Reflectance::Phong(Phong::new(k_d, k_s, shininess, switches)),
+        Model::BlinnPhong => {
+            Reflectance::BlinnPhong(BlinnPhong::new(k_d, k_s, shininess, switches))
+        }
+        Model::Microfacet { distribution, roughness, shadowing, fresnel } => {
+            Reflectance::Microfacet(Microfacet {
+                k_d,
+                k_s,
+                distribution: match distribution {
+                    scene::Distribution::Blinn => Distribution::Blinn { n: roughness },
+                    scene::Distribution::Beckmann => Distribution::Beckmann { m: roughness },
+                    scene::Distribution::Ggx => Distribution::Ggx { alpha: roughness },
+                },
+                shadowing: match shadowing {
+                    scene::Shadowing::Separable => Shadowing::Separable,
+                    scene::Shadowing::Correlated => Shadowing::Correlated,
+                    scene::Shadowing::VCavity => Shadowing::VCavity,
+                },
+                fresnel: match fresnel {
+                    scene::Fresnel::None => Fresnel::None,
+                    scene::Fresnel::Schlick { f0 } => Fresnel::Schlick { f0 },
+                    scene::Fresnel::Conductor { eta, k } => Fresnel::Conductor { eta, k },
+                    scene::Fresnel::Dielectric { eta } => Fresnel::Dielectric { eta },
+                },
+            })
+        }
+        Model::OrenNayar { sigma, full } => Reflectance::OrenNayar(OrenNayar {
+            k_d,
+            color: material.color,
+            sigma,
+            form: if full {
+                OrenNayarForm::Full { interreflection: true }
+            } else {
+                OrenNayarForm::Qualitative
+            },
+        }),
+        Model::Ward { roughness_x, roughness_y, form } => Reflectance::Ward(Ward {
+            k_d,
+            k_s,
+            a_x: roughness_x,
+            a_y: roughness_y,
+            form: match form {
+                scene::WardForm::Ward => WardForm::Ward,
+                scene::WardForm::Gmd => WardForm::Gmd,
+            },
+        }),
+    }
+}

@@ -1,0 +1,31 @@
+//! The same functions in f64, for what is set up once: cameras, lights, filters, bounds.
+
+/// Sine and cosine of `x` radians.
+pub fn sin_cos(x: f64) -> (f64, f64) {
+    libm::sincos(x)
+}
+
+/// Cosine of `x` radians.
+pub fn cos(x: f64) -> f64 {
+    libm::cos(x)
+}
+
+/// Tangent of `x` radians.
+pub fn tan(x: f64) -> f64 {
+    libm::tan(x)
+}
+
+/// The angle in [0, π] whose cosine is `x`; NaN outside [−1, 1].
+pub fn acos(x: f64) -> f64 {
+    libm::acos(x)
+}
+
+/// `e^x`.
+pub fn exp(x: f64) -> f64 {
+    libm::exp(x)
+}
+
+/// The smallest power of two that is greater than `x`, for finite `x` > 0.
+pub fn power_of_two_above(x: f64) -> f64 {
+    libm::ldexp(1.0, libm::frexp(x).1)
+}

@@ -1,0 +1,156 @@
+//! Fresnel reflectance: the share of light that a smooth boundary mirrors, unpolarised.
+
+use phong_scene::Rgb;
+
+/// How much a microfacet mirrors, and in which colour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fresnel {
+    /// All of it.
+    None,
+    /// [`schlick`] per channel.
+    Schlick {
+        /// `F₀`, the reflectance at normal incidence, in [0, 1].
+        f0: Rgb,
+    },
+    /// [`conductor`] per channel.
+    Conductor {
+        /// Real part of the index, > 0.
+        eta: Rgb,
+        /// Imaginary part of the index, ≥ 0.
+        k: Rgb,
+    },
+    /// [`dielectric`].
+    Dielectric {
+        /// `n_t / n_i`, > 0.
+        eta: f32,
+    },
+}
+
+impl Fresnel {
+    /// The reflectance at the angle of incidence whose cosine is `cos`, in [0, 1].
+    pub fn at(self, cos: f32) -> Rgb {
+        match self {
+            Self::None => Rgb::WHITE,
+            Self::Schlick { f0 } => f0.map(|f0| schlick(cos, f0)),
+            Self::Conductor { eta, k } => Rgb::new(
+                conductor(cos, eta.r, k.r),
+                conductor(cos, eta.g, k.g),
+                conductor(cos, eta.b, k.b),
+            ),
+            Self::Dielectric { eta } => Rgb::grey(dielectric(cos, eta)),
+        }
+    }
+}
+
+/// `F₀ + (1 − F₀)(1 − cos)⁵`: Schlick's approximation (1994).
+pub fn schlick(cos: f32, f0: f32) -> f32 {
+    let x = 1.0 - cos;
+    let x2 = x * x;
+    f0 + (1.0 - f0) * (x2 * x2 * x)
+}
+
+/// The exact reflectance between two dielectrics; `eta = n_t / n_i`, inside over outside as the
+/// light meets them. 1 under total internal reflection.
+///
+/// `F = (r∥² + r⊥²)/2` with `r∥ = (η c − c_t)/(η c + c_t)`, `r⊥ = (c − η c_t)/(c + η c_t)`, and by
+/// Snell `sin θ_t = sin θ / η`.
+pub fn dielectric(cos: f32, eta: f32) -> f32 {
+    let sin2_t = (1.0 - cos) * (1.0 + cos) / (eta * eta);
+    if sin2_t >= 1.0 {
+        return 1.0;
+    }
+    let cos_t = (1.0 - sin2_t).sqrt();
+    let parallel = (eta * cos - cos_t) / (eta * cos + cos_t);
+    let perpendicular = (cos - eta * cos_t) / (cos + eta * cos_t);
+    0.5 * (parallel * parallel + perpendicular * perpendicular)
+}
+
+/// The exact reflectance of a conductor whose index, relative to the outside, is `η + i k`.
+///
+/// With `a + i b = √((η + i k)² − sin² θ)`: `R⊥ = ((a − c)² + b²)/((a + c)² + b²)`,
+/// `R∥ = R⊥ ((a c − s²)² + b² c²)/((a c + s²)² + b² c²)`, `F = (R⊥ + R∥)/2`.
+pub fn conductor(cos: f32, eta: f32, k: f32) -> f32 {
+    if cos <= 0.0 {
+        return 1.0;
+    }
+    let sin2 = (1.0 - cos) * (1.0 + cos);
+    let (a, b) = complex_sqrt((eta - k) * (eta + k) - sin2, 2.0 * eta * k);
+    let norm2 = |re: f32, im: f32| re * re + im * im;
+    let perpendicular = norm2(a - cos, b) / norm2(a + cos, b);
+    let parallel = perpendicular * norm2(a * cos - sin2, b * cos) / norm2(a * cos + sin2, b * cos);
+    0.5 * (perpendicular + parallel)
+}
+
+/// The root of `re + i im` (`im` ≥ 0) in the first quadrant; neither part by a difference of
+/// nearly equal numbers.
+fn complex_sqrt(re: f32, im: f32) -> (f32, f32) {
+    let larger = (0.5 * ((re * re + im * im).sqrt() + re.abs())).sqrt();
+    if larger == 0.0 {
+        return (0.0, 0.0);
+    }
+    let smaller = 0.5 * im / larger;
+    if re >= 0.0 { (larger, smaller) } else { (smaller, larger) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn glass_mirrors_four_percent_face_on() {
+        // ((1.5 − 1)/(1.5 + 1))² = 0.04
+        assert!((dielectric(1.0, 1.5) - 0.04).abs() < 1e-8);
+        assert!((conductor(1.0, 1.5, 0.0) - 0.04).abs() < 1e-8);
+        assert!((dielectric(1.0, 1.0 / 1.5) - 0.04).abs() < 1e-7);
+    }
+
+    #[test]
+    fn at_brewsters_angle_half_of_one_polarisation_is_all_that_is_left() {
+        // tan θ = 1.5: cos θ = 2/√13. r∥ = 0; r⊥ = (1 − η²)/(1 + η²) = −5/13: F = 25/338.
+        let cos = 2.0 / 13.0_f32.sqrt();
+        assert!((dielectric(cos, 1.5) - 25.0 / 338.0).abs() < 1e-7);
+    }
+
+    #[test]
+    fn beyond_the_critical_angle_all_light_stays_inside() {
+        // sin θ > 1/1.5, so cos θ < √5/3 = 0.7454
+        assert_eq!(dielectric(0.74, 1.0 / 1.5), 1.0);
+        assert!(dielectric(0.75, 1.0 / 1.5) < 1.0);
+    }
+
+    #[test]
+    fn grazing_light_is_mirrored_whole() {
+        assert_eq!(dielectric(0.0, 1.5), 1.0);
+        assert_eq!(dielectric(0.0, 1.0), 1.0);
+        assert_eq!(conductor(0.0, 0.2, 3.9), 1.0);
+        assert_eq!(conductor(0.0, 1.0, 0.0), 1.0);
+        assert_eq!(schlick(0.0, 0.04), 1.0);
+    }
+
+    #[test]
+    fn a_metal_face_on_follows_the_textbook() {
+        // ((η − 1)² + k²)/((η + 1)² + k²) for gold's red, η = 0.143, k = 3.98: 0.9653
+        let (eta, k) = (0.143_f32, 3.98_f32);
+        let (low, high, k2) = (eta - 1.0, eta + 1.0, k * k);
+        let expected = (low * low + k2) / (high * high + k2);
+        assert!((conductor(1.0, eta, k) - expected).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_conductor_that_absorbs_nothing_is_a_dielectric() {
+        for eta in [0.5, 0.9, 1.1, 1.5, 2.4] {
+            for i in 1..=50 {
+                let cos = i as f32 / 50.0;
+                let (a, b) = (conductor(cos, eta, 0.0), dielectric(cos, eta));
+                assert!((a - b).abs() < 2e-6, "eta {eta}, cos {cos}: {a} and {b}");
+            }
+        }
+    }
+
+    #[test]
+    fn schlick_runs_from_f0_to_1() {
+        assert_eq!(schlick(1.0, 0.04), 0.04);
+        // 0.04 + 0.96/32
+        assert!((schlick(0.5, 0.04) - 0.07).abs() < 1e-8);
+    }
+}

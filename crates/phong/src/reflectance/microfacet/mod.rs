@@ -1,0 +1,66 @@
+//! Microfacets: a surface of tiny mirrors, of which those facing H are seen.
+
+mod distribution;
+mod shadowing;
+
+use std::f32::consts::PI;
+
+use phong_scene::Rgb;
+
+pub use distribution::{Distribution, Lean};
+pub use shadowing::Shadowing;
+
+use super::fresnel::Fresnel;
+use super::{Incident, Terms};
+use crate::math::Dir3;
+
+/// `k_d (L·N) C_d + k_s π f (N·L) C_s`, with `f = D G F / (4 (N·L)(N·E))`.
+///
+/// Torrance and Sparrow (1967), Cook and Torrance (1982, whose π for the 4 nobody kept), Walter
+/// and others (2007). `C_s` tints what [`Fresnel`] colours.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Microfacet {
+    /// Diffuse weight of the Lambert base, ≥ 0.
+    pub k_d: f32,
+    /// Specular weight, ≥ 0.
+    pub k_s: f32,
+    /// D, how many facets face which way.
+    pub distribution: Distribution,
+    /// G, how many of them are hidden.
+    pub shadowing: Shadowing,
+    /// F, how much a facet mirrors.
+    pub fresnel: Fresnel,
+}
+
+impl Microfacet {
+    /// What one light above the horizon adds: `k_d (L·N) C_d` and `k_s π f (N·L) C_s`.
+    pub(super) fn shade_light(
+        &self,
+        n: Dir3,
+        e: Dir3,
+        Incident { l, c_d, c_s }: Incident,
+    ) -> Terms {
+        let n_dot_l = n.cos(l);
+        Terms {
+            diffuse: self.k_d * n_dot_l * c_d,
+            specular: self.k_s * PI * n_dot_l * self.brdf(n, l, e) * c_s,
+            ..Terms::default()
+        }
+    }
+
+    /// `f = D G F / (4 (N·L)(N·E))`, per steradian, without weights and cosine; black where L or E
+    /// is not above the horizon.
+    pub fn brdf(&self, n: Dir3, l: Dir3, e: Dir3) -> Rgb {
+        let [lean_l, lean_e] = [l, e].map(|v| Lean::of(n, v));
+        let denominator = 4.0 * lean_l.cos * lean_e.cos;
+        if lean_l.cos <= 0.0 || lean_e.cos <= 0.0 || denominator == 0.0 {
+            return Rgb::BLACK;
+        }
+        let Some(h) = l.halfway(e) else { return Rgb::BLACK };
+        let (lean_h, e_dot_h) = (Lean::of(n, h), e.cos(h));
+        let d = self.distribution.density(lean_h);
+        let g = self.shadowing.visible(self.distribution, [lean_l, lean_e, lean_h], e_dot_h);
+        let f = self.fresnel.at(e_dot_h);
+        d * g / denominator * f
+    }
+}

@@ -1,0 +1,106 @@
+//! Oren and Nayar's rough diffuse surfaces: matt facets that shade and light each other.
+//!
+//! "Generalization of Lambert's Reflectance Model", SIGGRAPH 1994.
+
+use std::f32::consts::{FRAC_1_PI, PI};
+
+use phong_scene::Rgb;
+
+use super::{Incident, Terms};
+use crate::math::{Dir3, acos, sin, tan};
+
+/// `π f (N·L) C`, with `f = ρ/π (direct + ρ interreflected)` and ρ = `k_d` × colour.
+///
+/// σ = 0 is Lambert. There is no specular term.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OrenNayar {
+    /// `k_d`, in [0, 1].
+    pub k_d: f32,
+    /// The material's diffuse colour once more: light reflected twice is tinted twice, which
+    /// `C_d` alone cannot tell. Only the full form with interreflection uses it.
+    pub color: Rgb,
+    /// Standard deviation of the facets' slope angle, radians, ≥ 0.
+    pub sigma: f32,
+    /// Which of the paper's forms.
+    pub form: OrenNayarForm,
+}
+
+/// The paper's forms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OrenNayarForm {
+    /// The "qualitative" one that everybody uses.
+    Qualitative,
+    /// The full fit, with or without light that meets two facets.
+    Full {
+        /// Whether light that meets two facets counts.
+        interreflection: bool,
+    },
+}
+
+/// The BRDF without its ρ: `f = ρ/π (direct + ρ interreflected)`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RoughDiffuse {
+    /// Light that met one facet; 1 for Lambert.
+    pub direct: f32,
+    /// Light that met two.
+    pub interreflected: f32,
+}
+
+impl OrenNayar {
+    /// What one light above the horizon adds: `π f (N·L) C`, all of it diffuse.
+    pub(super) fn shade_light(&self, n: Dir3, e: Dir3, Incident { l, c_d, .. }: Incident) -> Terms {
+        let RoughDiffuse { direct, interreflected } = self.shape(n, l, e);
+        let rho = self.k_d * self.color;
+        let shape = Rgb::grey(direct) + interreflected * rho;
+        Terms { diffuse: self.k_d * n.cos(l) * shape * c_d, ..Terms::default() }
+    }
+
+    /// The BRDF without its ρ, at these directions; 0 where L or E is not above the horizon.
+    pub fn shape(&self, n: Dir3, l: Dir3, e: Dir3) -> RoughDiffuse {
+        let (n_dot_l, n_dot_e) = (n.dot(l), n.dot(e));
+        if n_dot_l <= 0.0 || n_dot_e <= 0.0 {
+            return RoughDiffuse::default();
+        }
+        let s2 = self.sigma * self.sigma;
+        // In the surface's plane: sin θ_l sin θ_e cos(φ_l − φ_e).
+        let flat_l = l.to_vec() - n_dot_l * n.to_vec();
+        let flat_e = e.to_vec() - n_dot_e * n.to_vec();
+        let flat_dot = flat_l.dot(flat_e);
+        match self.form {
+            // A + B max(0, cos Δφ) sin α tan β, where tan β = sin β / max(N·L, N·E)
+            OrenNayarForm::Qualitative => {
+                let a = 1.0 - 0.5 * s2 / (s2 + 0.33);
+                let b = 0.45 * s2 / (s2 + 0.09);
+                let direct = a + b * flat_dot.max(0.0) / n_dot_l.max(n_dot_e);
+                RoughDiffuse { direct, interreflected: 0.0 }
+            }
+            OrenNayarForm::Full { interreflection } => {
+                let sines = (flat_l.length_squared() * flat_e.length_squared()).sqrt();
+                let cos_dphi = if sines > 0.0 { (flat_dot / sines).clamp(-1.0, 1.0) } else { 0.0 };
+                let (alpha, beta) = (acos(n_dot_l.min(n_dot_e)), acos(n_dot_l.max(n_dot_e)));
+                let full = full(s2, alpha, beta, cos_dphi);
+                let interreflected = if interreflection { full.interreflected } else { 0.0 };
+                RoughDiffuse { interreflected, ..full }
+            }
+        }
+    }
+}
+
+/// The paper's equations 30–33, of σ², the larger angle α and the smaller β to the normal.
+///
+/// `L₁ = ρ/π (C₁ + cos Δφ C₂ tan β + (1 − |cos Δφ|) C₃ tan((α+β)/2))`,
+/// `L₂ = 0.17 ρ²/π σ²/(σ²+0.13) (1 − cos Δφ (2β/π)²)`.
+fn full(s2: f32, alpha: f32, beta: f32, cos_dphi: f32) -> RoughDiffuse {
+    let far = 2.0 * beta / PI;
+    let bend = if cos_dphi >= 0.0 { 0.0 } else { far * far * far };
+    let both = 4.0 * FRAC_1_PI * FRAC_1_PI * alpha * beta;
+    let c1 = 1.0 - 0.5 * s2 / (s2 + 0.33);
+    let c2 = 0.45 * s2 / (s2 + 0.09) * (sin(alpha) - bend);
+    let c3 = 0.125 * s2 / (s2 + 0.09) * (both * both);
+    RoughDiffuse {
+        direct: c1
+            + cos_dphi * c2 * tan(beta)
+            + (1.0 - cos_dphi.abs()) * c3 * tan(0.5 * (alpha + beta)),
+        interreflected: 0.17 * s2 / (s2 + 0.13) * (1.0 - cos_dphi * far * far),
+    }
+}

@@ -1,0 +1,240 @@
+//! One tile: its samples in index order, summed in f64, and its variables from centre rays.
+
+use glam::DVec2;
+use phong_bvh::Hit;
+use phong_scene::Background;
+
+use super::{Cancel, Cancelled, RenderOptions};
+use crate::aov::Aov;
+use crate::film::{LayerKind, Window};
+use crate::filter::Filter;
+use crate::integrator::{CameraRay, Integrator, Radiance, RayCounts};
+use crate::reflectance::Terms;
+use crate::sampling::{Sampler, Use};
+use crate::witness::{Branch, LightTold, Witness};
+
+/// Pixels are visited in squares of this edge within a tile: rays near one another in a bundle
+/// are near one another in space.
+const SQUARE: u32 = 8;
+
+/// Paints tiles.
+pub(super) struct Painter<'a> {
+    integrator: Integrator<'a>,
+    options: &'a RenderOptions,
+    layers: Vec<LayerKind>,
+    filter: Filter,
+}
+
+/// The sums of one pixel.
+#[derive(Clone, Copy, Default)]
+struct Sums {
+    terms: [[f64; 3]; 6],
+    alpha: f64,
+    weight: f64,
+}
+
+impl<'a> Painter<'a> {
+    pub(super) fn new(integrator: Integrator<'a>, options: &'a RenderOptions) -> Self {
+        Self { integrator, options, layers: options.layers(), filter: Filter::new(options.filter) }
+    }
+
+    /// The values of a tile's pixels, for each layer its rows.
+    pub(super) fn paint(
+        &self,
+        window: Window,
+        counts: &mut RayCounts,
+        cancel: &Cancel,
+    ) -> Result<Vec<Vec<f32>>, Cancelled> {
+        let pixels = pixels(window);
+        let mut sums = vec![Sums::default(); pixels.len()];
+        let mut bundle = Vec::with_capacity(pixels.len());
+        let mut of = Vec::with_capacity(pixels.len());
+        for index in 0..self.options.samples {
+            if cancel.is_cancelled() {
+                return Err(Cancelled);
+            }
+            bundle.clear();
+            of.clear();
+            for (number, &pixel) in pixels.iter().enumerate() {
+                let (ray, weight) = self.camera_ray(pixel, index);
+                sums[number].weight += f64::from(weight);
+                if let Some(ray) = ray {
+                    bundle.push(ray);
+                    of.push((number, weight));
+                }
+            }
+            let brought = self.integrator.trace(&bundle, counts, &mut ());
+            for (&(number, weight), radiance) in of.iter().zip(&brought) {
+                sums[number].add(radiance, weight);
+            }
+        }
+        let mut out: Vec<Vec<f32>> =
+            self.layers.iter().map(|kind| vec![0.0; pixels.len() * kind.channels()]).collect();
+        for (&pixel, sums) in pixels.iter().zip(&sums) {
+            let (terms, alpha) = sums.resolve(self.options.samples, self.options.background);
+            let place = of_window(window, pixel);
+            for (kind, values) in self.layers.iter().zip(&mut out) {
+                match kind {
+                    LayerKind::Picture => put(values, place, terms.total().to_array()),
+                    LayerKind::Alpha => values[place] = alpha,
+                    LayerKind::Term(term) => {
+                        put(values, place, terms.to_array()[*term].to_array());
+                    }
+                    LayerKind::Aov(_) => {}
+                }
+            }
+        }
+        if !self.options.aovs.is_empty() {
+            for &pixel in &pixels {
+                self.variables(pixel, of_window(window, pixel), &mut out);
+            }
+        }
+        Ok(out)
+    }
+
+    /// The ray of one sample of a pixel, and the sample's weight.
+    fn camera_ray(&self, pixel: [u32; 2], index: u32) -> (Option<CameraRay>, f32) {
+        camera_ray(&self.integrator, self.options, &self.filter, pixel, index)
+    }
+
+    /// The variables of a pixel, from the ray through its centre.
+    fn variables(&self, [x, y]: [u32; 2], place: usize, out: &mut [Vec<f32>]) {
+        let scene = self.integrator.scene;
+        let size = self.options.size;
+        let centre = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
+        let ray = scene.camera().ray(centre, size, [0.5; 2]);
+        let (hit, cost) = ray.map_or((Hit::NONE, 0), |ray| {
+            let (hit, cost) = scene.bvh().intersect_counted(&ray);
+            (hit, cost.nodes)
+        });
+        let at = ray.filter(|_| hit.is_some()).map(|ray| scene.interaction(&ray, &hit));
+        for (kind, values) in self.layers.iter().zip(out) {
+            let LayerKind::Aov(aov) = kind else { continue };
+            match (aov, &at) {
+                (Aov::Cost, _) => values[place] = cost as f32,
+                (Aov::Depth, None) => values[place] = f32::INFINITY,
+                (_, None) => {}
+                (Aov::Depth, Some(at)) => values[place] = at.t,
+                (Aov::Normal, Some(at)) => put(values, place, at.n.to_array()),
+                (Aov::Position, Some(at)) => {
+                    put(values, place, scene.to_world(at.p).as_vec3().to_array());
+                }
+                (Aov::Albedo, Some(at)) => put(values, place, at.color.to_array()),
+                (Aov::Uv, Some(at)) => put(values, place, at.uv.to_array()),
+                (Aov::Object, Some(at)) => values[place] = (at.object + 1) as f32,
+                (Aov::Material, Some(at)) => values[place] = (at.material + 1) as f32,
+                (Aov::Shadow, Some(_)) => {
+                    let mut seen = LightsSeen::default();
+                    let camera = ray.map(|ray| CameraRay {
+                        ray,
+                        sampler: Sampler::new([x, y], 0, 1, self.options.seed),
+                        height: 0.0,
+                    });
+                    let first_hit = Integrator { depth: 0, ..self.integrator };
+                    first_hit.trace(camera.as_slice(), &mut RayCounts::default(), &mut seen);
+                    values[place] = seen.share();
+                }
+            }
+        }
+    }
+}
+
+/// The ray of sample `index` of a pixel, and the sample's weight; no ray outside the image circle
+/// of a fisheye.
+pub(crate) fn camera_ray(
+    integrator: &Integrator<'_>,
+    options: &RenderOptions,
+    filter: &Filter,
+    [x, y]: [u32; 2],
+    index: u32,
+) -> (Option<CameraRay>, f32) {
+    let sampler = Sampler::new([x, y], index, options.samples, options.seed);
+    let drawn = filter.sample(sampler.pair(Use::Pixel));
+    let place = DVec2::new(
+        f64::from(x) + 0.5 + f64::from(drawn.offset[0]),
+        f64::from(y) + 0.5 + f64::from(drawn.offset[1]),
+    );
+    let lens = sampler.pair(Use::Lens);
+    let height = (place.y / f64::from(options.size[1])).clamp(0.0, 1.0) as f32;
+    let ray = integrator.scene.camera().ray(place, options.size, lens);
+    (ray.map(|ray| CameraRay { ray, sampler, height }), drawn.weight)
+}
+
+impl Sums {
+    fn add(&mut self, radiance: &Radiance, weight: f32) {
+        let weight = f64::from(weight);
+        for (sum, term) in self.terms.iter_mut().zip(radiance.terms.to_array()) {
+            for (sum, value) in sum.iter_mut().zip(term.to_array()) {
+                *sum += weight * f64::from(value);
+            }
+        }
+        self.alpha += weight * f64::from(u8::from(radiance.met));
+    }
+
+    /// The terms, each resolved to f32, and the coverage.
+    fn resolve(&self, samples: u32, background: Background) -> (Terms, f32) {
+        // Signed weights that all but cancel would blow up what little is left.
+        let total = self.weight.max(0.25 * f64::from(samples));
+        let term = |sum: [f64; 3]| sum.map(|v| (v / total) as f32).into();
+        let alpha = match background {
+            Background::Transparent => (self.alpha / total).clamp(0.0, 1.0) as f32,
+            Background::Color(_) | Background::Gradient { .. } => 1.0,
+        };
+        (Terms::from_array(self.terms.map(term)), alpha)
+    }
+}
+
+/// Counts the lights seen from the surface met.
+#[derive(Default)]
+struct LightsSeen {
+    seen: u32,
+    lights: u32,
+}
+
+impl LightsSeen {
+    fn share(&self) -> f32 {
+        if self.lights == 0 { 0.0 } else { self.seen as f32 / self.lights as f32 }
+    }
+}
+
+impl Witness for LightsSeen {
+    fn missed(&mut self, _: &phong_bvh::Ray, _: phong_scene::Rgb) {}
+    fn met(
+        &mut self,
+        _: &phong_bvh::Ray,
+        _: &crate::interaction::SurfaceInteraction,
+        _: phong_scene::Rgb,
+    ) {
+    }
+    fn lit(&mut self, told: &LightTold) {
+        self.lights += 1;
+        self.seen += u32::from(told.visible);
+    }
+    fn entered(&mut self, _: Branch, _: phong_scene::Rgb, _: Option<f32>, _: &phong_bvh::Ray) {}
+    fn left(&mut self, _: Branch, _: phong_scene::Rgb) {}
+    fn cut(&mut self, _: Branch, _: phong_scene::Rgb) {}
+}
+
+/// A tile's pixels in squares, so that a bundle's neighbours are neighbours.
+fn pixels(window: Window) -> Vec<[u32; 2]> {
+    let mut pixels = Vec::with_capacity((window.width() * window.height()) as usize);
+    for y0 in (window.y0..window.y1).step_by(SQUARE as usize) {
+        for x0 in (window.x0..window.x1).step_by(SQUARE as usize) {
+            for y in y0..window.y1.min(y0 + SQUARE) {
+                for x in x0..window.x1.min(x0 + SQUARE) {
+                    pixels.push([x, y]);
+                }
+            }
+        }
+    }
+    pixels
+}
+
+/// The number of a pixel within a tile's rows.
+fn of_window(window: Window, [x, y]: [u32; 2]) -> usize {
+    (y - window.y0) as usize * window.width() as usize + (x - window.x0) as usize
+}
+
+fn put<const N: usize>(values: &mut [f32], place: usize, value: [f32; N]) {
+    values[place * N..][..N].copy_from_slice(&value);
+}

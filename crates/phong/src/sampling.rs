@@ -1,0 +1,151 @@
+//! Where samples are drawn: a pure function of pixel, sample index and seed.
+//!
+//! Every pair of coordinates is a two-dimensional Sobol sequence, Owen-scrambled by hashing, its
+//! index shuffled for each pair so that pairs do not correlate (after Burley, *Practical
+//! Hash-based Owen Scrambling*, 2020). Any power of two of samples is stratified in every
+//! elementary interval. One sample is the middle of everything.
+
+/// What the coordinates of a pair are used for. Every use has its own, uncorrelated pair.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Use {
+    /// The place in the pixel.
+    Pixel,
+    /// The place on the lens.
+    Lens,
+    /// The place on light number `0…`.
+    Light(u32),
+}
+
+/// The source of the coordinates of one sample of one pixel.
+#[derive(Clone, Copy, Debug)]
+pub struct Sampler {
+    key: u32,
+    index: u32,
+    centred: bool,
+}
+
+impl Sampler {
+    /// Sample `index` of `count` at a pixel of the full picture.
+    pub fn new([x, y]: [u32; 2], index: u32, count: u32, seed: u64) -> Self {
+        let seed = hash(seed as u32 ^ hash((seed >> 32) as u32));
+        Self { key: hash(x ^ hash(y ^ seed)), index, centred: count <= 1 }
+    }
+
+    /// The sampler of a mirror or glass ray that left a surface: as good, but uncorrelated.
+    #[must_use]
+    pub fn branch(&self, number: u32) -> Self {
+        Self { key: hash(self.key ^ hash(number + 1)), ..*self }
+    }
+
+    /// A point of the unit square [0, 1)².
+    pub fn pair(&self, purpose: Use) -> [f32; 2] {
+        if self.centred {
+            return [0.5, 0.5];
+        }
+        let dimension = match purpose {
+            Use::Pixel => 0,
+            Use::Lens => 1,
+            Use::Light(number) => 2 + number,
+        };
+        let key = hash(self.key ^ hash(dimension ^ 0x9e37_79b9));
+        // Scrambling the index as a number sends every aligned block of a power of two of
+        // samples to another such block, which fills its strata as well.
+        let index = scramble(self.index, key);
+        let x = scramble(index.reverse_bits(), hash(key ^ 0x68bc_21eb));
+        let y = scramble(sobol(index), hash(key ^ 0x02e5_be93));
+        [unit(x), unit(y)]
+    }
+}
+
+/// The 24 highest bits as a number in [0, 1).
+fn unit(bits: u32) -> f32 {
+    (bits >> 8) as f32 * (1.0 / 16_777_216.0)
+}
+
+/// The second Sobol dimension: its generator matrix is Pascal's triangle modulo 2.
+fn sobol(index: u32) -> u32 {
+    let mut direction = 0x8000_0000_u32;
+    let mut rest = index;
+    let mut out = 0;
+    while rest != 0 {
+        if rest & 1 != 0 {
+            out ^= direction;
+        }
+        direction ^= direction >> 1;
+        rest >>= 1;
+    }
+    out
+}
+
+/// Owen scrambling of a fraction's bits (highest first): a bit is flipped by a hash of all bits
+/// above it. On reversed bits that is a hash in which a bit depends on lower bits only, which
+/// additions, even multiplications and exclusive-or with them give. (The multipliers are those of
+/// Laine and Karras, *Stratified sampling for stochastic transparency*, 2011.)
+fn scramble(bits: u32, key: u32) -> u32 {
+    let mut x = bits.reverse_bits();
+    x = x.wrapping_add(key);
+    x ^= x.wrapping_mul(0x6c50_b47c);
+    x ^= x.wrapping_mul(0xb82f_1e52);
+    x ^= x.wrapping_mul(0xc7af_e638);
+    x ^= x.wrapping_mul(0x8d22_f6e6);
+    x.reverse_bits()
+}
+
+/// A 32-bit mixer: each bit of the input changes about half of the output's.
+fn hash(mut x: u32) -> u32 {
+    x ^= x >> 16;
+    x = x.wrapping_mul(0x7feb_352d);
+    x ^= x >> 15;
+    x = x.wrapping_mul(0x846c_a68b);
+    x ^ (x >> 16)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn points(count: u32, purpose: Use) -> Vec<[f32; 2]> {
+        (0..count).map(|i| Sampler::new([3, 7], i, count, 1).pair(purpose)).collect()
+    }
+
+    #[test]
+    fn one_sample_is_the_middle() {
+        assert_eq!(points(1, Use::Pixel), [[0.5, 0.5]]);
+        assert_eq!(points(1, Use::Light(3)), [[0.5, 0.5]]);
+    }
+
+    #[test]
+    fn every_elementary_interval_holds_its_share() {
+        for purpose in [Use::Pixel, Use::Lens, Use::Light(0), Use::Light(5)] {
+            let points = points(64, purpose);
+            for bits in 0..=6 {
+                let (across, down) = (1 << bits, 64 >> bits);
+                let mut cells = vec![0; 64];
+                for [x, y] in &points {
+                    let cell = |v: f32, n: usize| (v * n as f32) as usize;
+                    cells[cell(*y, down) * across + cell(*x, across)] += 1;
+                }
+                assert!(cells.iter().all(|&n| n == 1), "{purpose:?}, {across} × {down}");
+            }
+        }
+    }
+
+    #[test]
+    fn pixels_seeds_and_uses_differ() {
+        let base = Sampler::new([3, 7], 5, 16, 1);
+        let p = base.pair(Use::Pixel);
+        assert_ne!(p, base.pair(Use::Lens));
+        assert_ne!(p, base.branch(0).pair(Use::Pixel));
+        assert_ne!(p, Sampler::new([4, 7], 5, 16, 1).pair(Use::Pixel));
+        assert_ne!(p, Sampler::new([3, 7], 5, 16, 2).pair(Use::Pixel));
+        assert_ne!(p, Sampler::new([3, 7], 5, 16, 1 << 32).pair(Use::Pixel));
+    }
+
+    #[test]
+    fn two_uses_do_not_correlate() {
+        let n = 1024;
+        let (a, b) = (points(n, Use::Pixel), points(n, Use::Lens));
+        let product: f32 = a.iter().zip(&b).map(|(a, b)| (a[0] - 0.5) * (b[0] - 0.5)).sum();
+        assert!((product / n as f32).abs() < 0.01, "{}", product / n as f32);
+    }
+}

@@ -1,0 +1,64 @@
+//! What the integrator tells about itself.
+
+use phong_bvh::Ray;
+use phong_scene::Rgb;
+
+use crate::interaction::SurfaceInteraction;
+use crate::light::LightSample;
+use crate::reflectance::{Incident, Terms};
+
+/// Which ray goes on from a surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Branch {
+    /// The mirror ray.
+    Reflection,
+    /// The refracted ray.
+    Transmission,
+}
+
+/// What happened with one light at one hit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightTold {
+    /// Number of the light, from 0.
+    pub light: usize,
+    /// What it sends; `None` if the point is where the light is.
+    pub sample: Option<LightSample>,
+    /// The light tinted by the material.
+    pub incident: Option<Incident>,
+    /// Whether the light is above the horizon, geometric and shading.
+    pub above: bool,
+    /// The ray that asked whether it is seen; `None` if none was needed.
+    pub shadow: Option<Ray>,
+    /// Whether it is seen: above the horizon and nothing between.
+    pub visible: bool,
+    /// What it adds.
+    pub terms: Terms,
+}
+
+/// Listens to the integrator. Everything is told in order, depth first, when rays are traced one
+/// at a time; rays of a bundle are not told apart, so listen only to one.
+///
+/// `()` says nothing and costs nothing.
+pub trait Witness {
+    /// A ray hit nothing and saw this background.
+    fn missed(&mut self, ray: &Ray, background: Rgb);
+    /// A ray met a surface, with this ambient term.
+    fn met(&mut self, ray: &Ray, at: &SurfaceInteraction, ambient: Rgb);
+    /// A light was asked for at the surface just met.
+    fn lit(&mut self, told: &LightTold);
+    /// A ray goes on, with this weight; `fresnel` is the reflectance F where it was asked for.
+    fn entered(&mut self, branch: Branch, weight: Rgb, fresnel: Option<f32>, ray: &Ray);
+    /// It came back with this light, not yet weighted.
+    fn left(&mut self, branch: Branch, light: Rgb);
+    /// A ray was not sent on since the depth is used up: it brings black.
+    fn cut(&mut self, branch: Branch, weight: Rgb);
+}
+
+impl Witness for () {
+    fn missed(&mut self, _: &Ray, _: Rgb) {}
+    fn met(&mut self, _: &Ray, _: &SurfaceInteraction, _: Rgb) {}
+    fn lit(&mut self, _: &LightTold) {}
+    fn entered(&mut self, _: Branch, _: Rgb, _: Option<f32>, _: &Ray) {}
+    fn left(&mut self, _: Branch, _: Rgb) {}
+    fn cut(&mut self, _: Branch, _: Rgb) {}
+}
