@@ -1,7 +1,7 @@
 //! Where a ray met a surface: all that shading needs to know.
 
 use glam::{Vec2, Vec3};
-use phong_bvh::Ray;
+use phong_bvh::{Ray, offset_origin};
 use phong_scene::Rgb;
 
 use crate::math::Dir3;
@@ -52,21 +52,4 @@ impl SurfaceInteraction {
         let origin = offset_origin(self.p, self.p_error, self.ng.to_vec(), d);
         Ray { t_max, ..Ray::new(origin, d) }
     }
-}
-
-/// `p` moved along `ng` beyond its error, to the side that `dir` leaves on.
-fn offset_origin(p: Vec3, p_error: Vec3, ng: Vec3, dir: Vec3) -> Vec3 {
-    let reach = ng.abs().dot(p_error) * 1.001;
-    let offset = if dir.dot(ng) < 0.0 { -reach * ng } else { reach * ng };
-    let away = |p: f32, offset: f32| {
-        let moved = p + offset;
-        if offset > 0.0 {
-            moved.next_up()
-        } else if offset < 0.0 {
-            moved.next_down()
-        } else {
-            moved
-        }
-    };
-    Vec3::new(away(p.x, offset.x), away(p.y, offset.y), away(p.z, offset.z))
 }

@@ -1,4 +1,5 @@
 //! The road of a ray, on scenes small enough to work out by hand.
+#![expect(clippy::unwrap_used, reason = "in a test, what is not there is a failure")]
 
 use glam::{DAffine3, DVec3};
 use phong::aov::Aov;
