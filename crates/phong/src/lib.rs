@@ -9,6 +9,7 @@ pub mod camera;
 pub mod compile;
 pub mod film;
 pub mod filter;
+pub mod image;
 pub mod integrator;
 pub mod interaction;
 pub mod light;

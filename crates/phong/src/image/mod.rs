@@ -1,0 +1,164 @@
+//! Pictures as files: PNG, PFM and OpenEXR, written from a [`Film`] and read back.
+//!
+//! | | values | layers | exposure | alpha |
+//! |---|---|---|---|---|
+//! | PNG | clamped to [0, 1], sRGB curve, 8 or 16 bits | a file each | picture only | straight |
+//! | PFM | linear f32 | a file each | no | none |
+//! | EXR | linear f32 | all in one file | no | premultiplied |
+//!
+//! The same film gives the same bytes on every machine, for any number of threads.
+
+mod curve;
+#[cfg(feature = "exr")]
+mod exr;
+mod pfm;
+mod picture;
+mod png;
+
+use std::io::{Seek, Write};
+use std::path::Path;
+
+use thiserror::Error;
+
+use crate::film::{Film, LayerKind};
+
+pub use picture::{Picture, Plane, ReadError, Transfer};
+
+/// A file format for pictures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Portable Network Graphics, for eyes.
+    Png,
+    /// Portable float map: three (or one) floats a pixel, nothing else.
+    Pfm,
+    /// OpenEXR, for everything: all layers as floats.
+    Exr,
+}
+
+impl Format {
+    /// Every format.
+    pub const ALL: [Self; 3] = [Self::Png, Self::Pfm, Self::Exr];
+
+    /// The usual file name extension, without the dot.
+    pub const fn extension(self) -> &'static str {
+        match self {
+            Self::Png => "png",
+            Self::Pfm => "pfm",
+            Self::Exr => "exr",
+        }
+    }
+
+    /// The format that a file name's extension means, whatever its case.
+    ///
+    /// ```
+    /// use phong::image::Format;
+    /// assert_eq!(Format::of_path("a/b.PNG".as_ref()), Some(Format::Png));
+    /// assert_eq!(Format::of_path("a.jpeg".as_ref()), None);
+    /// ```
+    pub fn of_path(path: &Path) -> Option<Self> {
+        let extension = path.extension()?.to_str()?;
+        Self::ALL.into_iter().find(|f| f.extension().eq_ignore_ascii_case(extension))
+    }
+
+    /// Whether one file holds all layers of a film.
+    pub const fn holds_layers(self) -> bool {
+        matches!(self, Self::Exr)
+    }
+}
+
+/// Bits a channel in a PNG.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Bits {
+    /// Levels from 0 to 255.
+    #[default]
+    Eight,
+    /// Levels from 0 to 65535.
+    Sixteen,
+}
+
+/// How linear values become the values of a file.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Encoding {
+    /// Bits a channel in a PNG. Variables that count or measure always take 16.
+    pub bits: Bits,
+    /// Whether a PNG holds linear values, without the sRGB curve, and says so.
+    pub linear: bool,
+    /// Stops by which the picture in a PNG is made brighter; 0: as it is. Terms, arbitrary output
+    /// variables, PFM and EXR ignore it.
+    pub exposure: f64,
+}
+
+/// What one file holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Content {
+    /// One layer; for the picture of a PNG its alpha too.
+    Layer(LayerKind),
+    /// All layers: EXR only.
+    Film,
+}
+
+impl Content {
+    /// What the files of a film with layers of these kinds hold, the picture's first.
+    pub fn of(kinds: &[LayerKind], format: Format) -> Vec<Self> {
+        if format.holds_layers() {
+            return vec![Self::Film];
+        }
+        let layers = kinds.iter().filter(|&&kind| kind != LayerKind::Alpha);
+        layers.map(|&kind| Self::Layer(kind)).collect()
+    }
+
+    /// The word in the file's name: `None` for the picture and the whole film.
+    pub fn word(self) -> Option<&'static str> {
+        match self {
+            Self::Layer(LayerKind::Picture) | Self::Film => None,
+            Self::Layer(kind) => Some(kind.name()),
+        }
+    }
+}
+
+/// Why a picture could not be written.
+#[derive(Debug, Error)]
+pub enum WriteError {
+    /// The disc, the pipe.
+    #[error(transparent)]
+    Io(#[from] std::io::Error),
+    /// The film has no such layer, or the format cannot hold it: the caller's fault.
+    #[error("{0}")]
+    Unsuitable(String),
+}
+
+/// Writes one file of a film. The writer is left where the file ends, not flushed.
+///
+/// # Errors
+/// [`WriteError::Io`] as `out` says; [`WriteError::Unsuitable`] where the film lacks the layer, the
+/// format cannot hold the content or the size, or this build is without EXR.
+pub fn write(
+    film: &Film,
+    content: Content,
+    format: Format,
+    encoding: &Encoding,
+    out: &mut (impl Write + Seek),
+) -> Result<(), WriteError> {
+    match (format, content) {
+        (Format::Png, Content::Layer(kind)) => png::write(film, kind, encoding, out),
+        (Format::Pfm, Content::Layer(kind)) => pfm::write(film, kind, out),
+        #[cfg(feature = "exr")]
+        (Format::Exr, Content::Film) => exr::write(film, out),
+        #[cfg(not(feature = "exr"))]
+        (Format::Exr, Content::Film) => {
+            Err(WriteError::Unsuitable("this build is without OpenEXR".to_owned()))
+        }
+        (format, content) => {
+            Err(WriteError::Unsuitable(format!("{content:?} is nothing for a {format:?} file")))
+        }
+    }
+}
+
+fn layer(film: &Film, kind: LayerKind) -> Result<&[f32], WriteError> {
+    film.layer(kind)
+        .map(|layer| &*layer.values)
+        .ok_or_else(|| WriteError::Unsuitable(format!("the film has no layer {}", kind.name())))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,93 @@
+//! A picture that was read from a file.
+
+use thiserror::Error;
+
+use super::pfm;
+
+/// Values (pixels × channels) of the largest picture that is read: 4 GiB as floats.
+pub(super) const MAX_VALUES: u64 = 1 << 30;
+
+/// A picture read from a file, one plane a channel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// The channels in the file's order: `R G B A` or `Y A` of a PNG, `R G B` or `Y` of a PFM, any
+    /// names of an EXR.
+    pub planes: Vec<Plane>,
+    /// What the values are.
+    pub transfer: Transfer,
+}
+
+/// One channel of a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plane {
+    /// Its name: `R`, `diffuse.R`, `depth`.
+    pub name: String,
+    /// A value a pixel, rows from top to bottom.
+    pub values: Vec<f32>,
+}
+
+/// What the values of a picture are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Transfer {
+    /// Encoded by the sRGB curve, in [0, 1].
+    Srgb,
+    /// Proportional to light.
+    Linear,
+}
+
+/// Why a file could not be read as a picture.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+pub enum ReadError {
+    /// It begins like none of the formats.
+    #[error("this is no PNG, PFM or OpenEXR file")]
+    Unknown,
+    /// It is damaged, or uses what we do not read.
+    #[error("{0}")]
+    Broken(String),
+    /// It has more pixels than we read.
+    #[error("{width} × {height} pixels are more than are read")]
+    TooLarge {
+        /// Width in pixels.
+        width: u32,
+        /// Height in pixels.
+        height: u32,
+    },
+}
+
+/// The number of values in a picture, if that many are read.
+pub(super) fn count(width: u32, height: u32, channels: u64) -> Result<u64, ReadError> {
+    (u64::from(width) * u64::from(height))
+        .checked_mul(channels)
+        .filter(|&values| values <= MAX_VALUES)
+        .ok_or(ReadError::TooLarge { width, height })
+}
+
+impl Picture {
+    /// Reads a PNG, PFM or EXR file, known by how it begins. 16-bit PNGs keep all their bits.
+    ///
+    /// # Errors
+    /// [`ReadError`], for anything but a whole picture of at most 2³⁰ values.
+    pub fn read(bytes: &[u8]) -> Result<Self, ReadError> {
+        match bytes {
+            [0x89, b'P', b'N', b'G', ..] => super::png::read(bytes),
+            [b'P', b'F' | b'f', ..] => pfm::read(bytes),
+            #[cfg(feature = "exr")]
+            [0x76, 0x2f, 0x31, 0x01, ..] => super::exr::read(bytes),
+            _ => Err(ReadError::Unknown),
+        }
+    }
+
+    /// The plane of that name.
+    pub fn plane(&self, name: &str) -> Option<&[f32]> {
+        self.planes.iter().find(|plane| plane.name == name).map(|plane| &*plane.values)
+    }
+
+    /// Red, green and blue; grey is all three. `None`: there is no colour, only other layers.
+    pub fn rgb(&self) -> Option<[&[f32]; 3]> {
+        let grey = || self.plane("Y").map(|y| [y; 3]);
+        let color = || Some([self.plane("R")?, self.plane("G")?, self.plane("B")?]);
+        color().or_else(grey)
+    }
+}

@@ -1,0 +1,189 @@
+//! PNG: what is looked at.
+
+use std::borrow::Cow;
+use std::io::{Cursor, Write};
+
+use png::{BitDepth, ColorType, Compression, ScaledFloat, SrgbRenderingIntent, Transformations};
+use rayon::prelude::*;
+
+use super::curve::{Curve, linear_level};
+use super::picture::{MAX_VALUES, Picture, Plane, ReadError, Transfer, count};
+use super::{Bits, Encoding, WriteError, layer};
+use crate::aov::Aov;
+use crate::film::{Film, LayerKind};
+
+/// How the values of a layer become levels.
+struct Tone<'a> {
+    /// What the values are multiplied by first.
+    gain: f32,
+    bits: Bits,
+    /// `None`: values are scaled as they are.
+    curve: Option<&'static Curve>,
+    /// Straight alpha, and what the values are to be divided by.
+    alpha: Option<&'a [f32]>,
+}
+
+/// Writes one layer; the picture with its alpha where any pixel is not wholly covered.
+///
+/// Colours (the picture, the terms, `albedo`) go through the curve. `normal` is ½ + ½n, `uv` is
+/// (u, v, 0), `shadow` the share, all without the curve. `object`, `material` and `cost` are grey
+/// levels of 16 bits that *are* the number. `depth` is the nearest depth ÷ depth in 16 bits: 1 the
+/// nearest, 0 nothing; `position` runs from 0 to 1 along each side of the box of all positions.
+/// Where the very values matter, EXR and PFM have them.
+pub(super) fn write(
+    film: &Film,
+    kind: LayerKind,
+    encoding: &Encoding,
+    out: &mut impl Write,
+) -> Result<(), WriteError> {
+    let values = layer(film, kind)?;
+    let curve = match (encoding.linear, encoding.bits) {
+        (true, _) => None,
+        (false, Bits::Eight) => Some(Curve::eight()),
+        (false, Bits::Sixteen) => Some(Curve::sixteen()),
+    };
+    let plain = Tone { gain: 1.0, bits: encoding.bits, curve: None, alpha: None };
+    let number = Tone { bits: Bits::Sixteen, ..plain };
+    let (values, tone): (Cow<'_, [f32]>, _) = match kind {
+        LayerKind::Picture => {
+            let gain = libm::exp2(encoding.exposure) as f32;
+            let alpha = layer(film, LayerKind::Alpha).ok();
+            let alpha = alpha.filter(|alpha| alpha.iter().any(|&a| a != 1.0));
+            (values.into(), Tone { gain, curve, alpha, ..plain })
+        }
+        LayerKind::Term(_) | LayerKind::Aov(Aov::Albedo) => {
+            (values.into(), Tone { curve, ..plain })
+        }
+        LayerKind::Alpha | LayerKind::Aov(Aov::Shadow) => (values.into(), plain),
+        LayerKind::Aov(Aov::Normal) => (values.iter().map(|n| 0.5 + 0.5 * n).collect(), plain),
+        LayerKind::Aov(Aov::Uv) => {
+            (values.chunks_exact(2).flat_map(|uv| [uv[0], uv[1], 0.0]).collect(), plain)
+        }
+        LayerKind::Aov(Aov::Position) => (in_box(values), plain),
+        LayerKind::Aov(Aov::Depth) => {
+            let nearest = values.iter().copied().fold(f32::INFINITY, f32::min);
+            (values.iter().map(|depth| nearest / depth).collect(), number)
+        }
+        LayerKind::Aov(Aov::Object | Aov::Material | Aov::Cost) => {
+            (values.iter().map(|number| number / 65535.0).collect(), number)
+        }
+    };
+    let grey = kind.channels() == 1;
+    let bytes = levels(&values, if grey { 1 } else { 3 }, film.width() as usize, &tone);
+    let color = match (grey, tone.alpha) {
+        (true, _) => ColorType::Grayscale,
+        (false, None) => ColorType::Rgb,
+        (false, Some(_)) => ColorType::Rgba,
+    };
+    let mut encoder = png::Encoder::new(out, film.width(), film.height());
+    encoder.set_color(color);
+    encoder.set_depth(match tone.bits {
+        Bits::Eight => BitDepth::Eight,
+        Bits::Sixteen => BitDepth::Sixteen,
+    });
+    if tone.curve.is_some() {
+        encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
+    } else {
+        encoder.set_source_gamma(ScaledFloat::from_scaled(100_000));
+    }
+    encoder.set_compression(Compression::Fast);
+    let mut writer = encoder.write_header().map_err(encoding_error)?;
+    writer.write_image_data(&bytes).map_err(encoding_error)?;
+    writer.finish().map_err(encoding_error)
+}
+
+/// The levels of all pixels, as the bytes a PNG holds.
+fn levels(values: &[f32], channels: usize, width: usize, tone: &Tone<'_>) -> Vec<u8> {
+    let bytes = match tone.bits {
+        Bits::Eight => 1,
+        Bits::Sixteen => 2,
+    };
+    let pixel_bytes = (channels + usize::from(tone.alpha.is_some())) * bytes;
+    let pixels = values.len() / channels;
+    let mut out = vec![0_u8; pixels * pixel_bytes];
+    let rows = out.par_chunks_exact_mut(width * pixel_bytes).enumerate();
+    rows.for_each(|(y, row)| {
+        let first = y * width;
+        let mut sink = row.iter_mut();
+        let mut put = |level: u16| {
+            if bytes == 2 {
+                sink.by_ref().zip(level.to_be_bytes()).for_each(|(to, from)| *to = from);
+            } else if let Some(to) = sink.next() {
+                *to = level as u8;
+            }
+        };
+        let highest = if bytes == 1 { 255 } else { 65535 };
+        for i in first..first + width {
+            let alpha = tone.alpha.map_or(1.0, |alpha| alpha[i]);
+            for &value in &values[i * channels..][..channels] {
+                let value = if alpha > 0.0 { value / alpha * tone.gain } else { 0.0 };
+                put(tone
+                    .curve
+                    .map_or_else(|| linear_level(value, highest), |curve| curve.level(value)));
+            }
+            if tone.alpha.is_some() {
+                put(linear_level(alpha, highest));
+            }
+        }
+    });
+    out
+}
+
+/// Positions within the box of them all: 0 to 1 along each side.
+fn in_box(values: &[f32]) -> Cow<'_, [f32]> {
+    let (mut min, mut max) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+    for position in values.chunks_exact(3) {
+        for axis in 0..3 {
+            min[axis] = min[axis].min(position[axis]);
+            max[axis] = max[axis].max(position[axis]);
+        }
+    }
+    let place = |(i, v): (usize, &f32)| (v - min[i % 3]) / (max[i % 3] - min[i % 3]);
+    values.iter().enumerate().map(place).collect()
+}
+
+fn encoding_error(error: png::EncodingError) -> WriteError {
+    match error {
+        png::EncodingError::IoError(error) => WriteError::Io(error),
+        other => WriteError::Unsuitable(format!("PNG: {other}")),
+    }
+}
+
+/// Reads a PNG of any kind; palettes and few bits are spread out.
+pub(super) fn read(bytes: &[u8]) -> Result<Picture, ReadError> {
+    let broken = |error: png::DecodingError| ReadError::Broken(format!("PNG: {error}"));
+    let limits = png::Limits { bytes: 4 * MAX_VALUES as usize };
+    let mut decoder = png::Decoder::new_with_limits(Cursor::new(bytes), limits);
+    decoder.set_transformations(Transformations::EXPAND);
+    let mut reader = decoder.read_info().map_err(broken)?;
+    let (width, height) = (reader.info().width, reader.info().height);
+    count(width, height, 4)?;
+    let size = reader.output_buffer_size().ok_or(ReadError::TooLarge { width, height })?;
+    let mut data = vec![0; size];
+    let frame = reader.next_frame(&mut data).map_err(broken)?;
+    let linear = reader.info().srgb.is_none()
+        && reader.info().gama_chunk.is_some_and(|gamma| gamma.into_scaled() == 100_000);
+    let names: &[&str] = match frame.color_type {
+        ColorType::Grayscale => &["Y"],
+        ColorType::GrayscaleAlpha => &["Y", "A"],
+        ColorType::Rgb => &["R", "G", "B"],
+        ColorType::Rgba | ColorType::Indexed => &["R", "G", "B", "A"],
+    };
+    let n = names.len();
+    let value = |i: usize| match frame.bit_depth {
+        BitDepth::Sixteen => {
+            f32::from(u16::from_be_bytes([data[2 * i], data[2 * i + 1]])) / 65535.0
+        }
+        _ => f32::from(data[i]) / 255.0,
+    };
+    let pixels = width as usize * height as usize;
+    let plane = |(c, name): (usize, &&str)| Plane {
+        name: (*name).to_owned(),
+        values: (0..pixels).map(|i| value(i * n + c)).collect(),
+    };
+    Ok(Picture {
+        size: [width, height],
+        planes: names.iter().enumerate().map(plane).collect(),
+        transfer: if linear { Transfer::Linear } else { Transfer::Srgb },
+    })
+}

@@ -1,0 +1,238 @@
+//! Files are read back by the crates they are the formats of, and byte by byte.
+
+use std::io::Cursor;
+
+use super::*;
+use crate::aov::Aov;
+use crate::film::Window;
+
+const PICTURE: LayerKind = LayerKind::Picture;
+
+/// A film of given layers, values row by row.
+fn film(size: [u32; 2], layers: &[(LayerKind, &[f32])]) -> Film {
+    let kinds: Vec<_> = layers.iter().map(|&(kind, _)| kind).collect();
+    let mut film = Film::new(size, Window::full(size), 16, &kinds);
+    for (layer, &(_, values)) in film.layers.iter_mut().zip(layers) {
+        layer.values.copy_from_slice(values);
+    }
+    film
+}
+
+fn bytes(film: &Film, content: Content, format: Format, encoding: &Encoding) -> Vec<u8> {
+    let mut out = Cursor::new(Vec::new());
+    write(film, content, format, encoding, &mut out).unwrap();
+    out.into_inner()
+}
+
+fn png_of(film: &Film, kind: LayerKind, encoding: &Encoding) -> (::png::OutputInfo, Vec<u8>) {
+    let file = bytes(film, Content::Layer(kind), Format::Png, encoding);
+    let mut reader = ::png::Decoder::new(Cursor::new(file)).read_info().unwrap();
+    let mut data = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut data).unwrap();
+    (info, data)
+}
+
+#[test]
+fn a_png_holds_the_encoded_picture() {
+    let film = film([2, 1], &[(PICTURE, &[0.0, 0.5, 1.0, -1.0, 7.0, 0.002])]);
+    let (info, data) = png_of(&film, PICTURE, &Encoding::default());
+    assert_eq!((info.color_type, info.bit_depth), (::png::ColorType::Rgb, ::png::BitDepth::Eight));
+    assert_eq!(data, [0, 188, 255, 0, 255, 7]);
+}
+
+#[test]
+fn a_png_of_16_bits_is_big_endian() {
+    let film = film([1, 1], &[(PICTURE, &[0.5, 0.18, 1.0])]);
+    let encoding = Encoding { bits: Bits::Sixteen, ..Encoding::default() };
+    let (info, data) = png_of(&film, PICTURE, &encoding);
+    assert_eq!(info.bit_depth, ::png::BitDepth::Sixteen);
+    // 0.735357 × 65535 = 48192 and 0.461356 × 65535 = 30235.
+    assert_eq!(data, [[188, 64], [118, 27], [255, 255]].concat());
+}
+
+#[test]
+fn a_linear_png_says_so() {
+    let film = film([1, 1], &[(PICTURE, &[0.5, 0.25, 1.0])]);
+    let encoding = Encoding { linear: true, ..Encoding::default() };
+    assert_eq!(png_of(&film, PICTURE, &encoding).1, [128, 64, 255]);
+    let transfer = |encoding| {
+        let file = bytes(&film, Content::Layer(PICTURE), Format::Png, encoding);
+        Picture::read(&file).unwrap().transfer
+    };
+    assert_eq!(transfer(&encoding), Transfer::Linear);
+    assert_eq!(transfer(&Encoding::default()), Transfer::Srgb);
+}
+
+#[test]
+fn a_stop_of_exposure_doubles_the_light_of_the_picture_alone() {
+    let term = LayerKind::Term(2);
+    let film = film([1, 1], &[(PICTURE, &[0.25; 3]), (term, &[0.25; 3])]);
+    let encoding = Encoding { exposure: 1.0, ..Encoding::default() };
+    assert_eq!(png_of(&film, PICTURE, &encoding).1, [188; 3]);
+    assert_eq!(png_of(&film, term, &encoding).1, [137; 3]);
+}
+
+#[test]
+fn alpha_is_straight_and_only_there_if_something_shows_through() {
+    let half = film([2, 1], &[(PICTURE, &[0.25; 6]), (LayerKind::Alpha, &[0.5, 0.0])]);
+    let (info, data) = png_of(&half, PICTURE, &Encoding::default());
+    assert_eq!(info.color_type, ::png::ColorType::Rgba);
+    assert_eq!(data, [188, 188, 188, 128, 0, 0, 0, 0]);
+    let whole = film([2, 1], &[(PICTURE, &[0.25; 6]), (LayerKind::Alpha, &[1.0, 1.0])]);
+    assert_eq!(png_of(&whole, PICTURE, &Encoding::default()).0.color_type, ::png::ColorType::Rgb);
+}
+
+#[test]
+fn variables_in_a_png_follow_their_own_rules() {
+    let inf = f32::INFINITY;
+    let film = film(
+        [2, 1],
+        &[
+            (PICTURE, &[0.0; 6]),
+            (LayerKind::Aov(Aov::Depth), &[4.0, inf]),
+            (LayerKind::Aov(Aov::Normal), &[0.0, 1.0, -1.0, 0.0, 0.0, 0.0]),
+            (LayerKind::Aov(Aov::Object), &[300.0, 0.0]),
+            (LayerKind::Aov(Aov::Uv), &[0.5, 1.0, 0.0, 2.0]),
+            (LayerKind::Aov(Aov::Position), &[1.0, 2.0, 0.0, 3.0, 2.0, 0.0]),
+            (LayerKind::Aov(Aov::Shadow), &[0.5, 1.0]),
+        ],
+    );
+    let png = |aov| png_of(&film, LayerKind::Aov(aov), &Encoding::default()).1;
+    assert_eq!(png(Aov::Depth), [255, 255, 0, 0]);
+    assert_eq!(png(Aov::Normal), [128, 255, 0, 128, 128, 128]);
+    assert_eq!(png(Aov::Object), [1, 44, 0, 0]);
+    assert_eq!(png(Aov::Uv), [128, 255, 0, 0, 255, 0]);
+    assert_eq!(png(Aov::Position), [0, 0, 0, 255, 0, 0]);
+    assert_eq!(png(Aov::Shadow), [128, 255]);
+}
+
+#[test]
+fn a_pfm_is_little_endian_from_the_bottom_up() {
+    let film = film([1, 2], &[(PICTURE, &[1.0, 2.0, 3.0, -4.0, 5.0, f32::INFINITY])]);
+    let file = bytes(&film, Content::Layer(PICTURE), Format::Pfm, &Encoding::default());
+    let floats: Vec<u8> =
+        [-4.0, 5.0, f32::INFINITY, 1.0, 2.0, 3.0].into_iter().flat_map(f32::to_le_bytes).collect();
+    assert_eq!(file, [b"PF\n1 2\n-1.0\n".as_slice(), &floats].concat());
+    let back = Picture::read(&file).unwrap();
+    assert_eq!(back.rgb().unwrap(), [&[1.0, -4.0], &[2.0, 5.0], &[3.0, f32::INFINITY]]);
+}
+
+#[test]
+fn a_pfm_of_one_value_a_pixel_is_grey() {
+    let film = film([2, 1], &[(LayerKind::Aov(Aov::Depth), &[1.5, f32::INFINITY])]);
+    let content = Content::Layer(LayerKind::Aov(Aov::Depth));
+    let file = bytes(&film, content, Format::Pfm, &Encoding::default());
+    assert!(file.starts_with(b"Pf\n2 1\n-1.0\n"));
+    assert_eq!(Picture::read(&file).unwrap().plane("Y").unwrap(), [1.5, f32::INFINITY]);
+}
+
+#[test]
+fn a_big_endian_pfm_is_read() {
+    let file = [b"Pf 1 1 1.0\n".as_slice(), &2.5_f32.to_be_bytes()].concat();
+    assert_eq!(Picture::read(&file).unwrap().plane("Y").unwrap(), [2.5]);
+}
+
+#[cfg(feature = "exr")]
+#[test]
+fn an_exr_holds_every_layer_to_the_bit() {
+    let picture: Vec<f32> = (0..5 * 37 * 3).map(|i| 1.0 / (i as f32 - 50.5)).collect();
+    let depth: Vec<f32> = (0..5 * 37).map(|i| 1.0 / i as f32).collect();
+    let film = film(
+        [5, 37],
+        &[
+            (PICTURE, &picture),
+            (LayerKind::Alpha, &vec![0.5; 5 * 37]),
+            (LayerKind::Term(3), &picture),
+            (LayerKind::Aov(Aov::Depth), &depth),
+            (LayerKind::Aov(Aov::Normal), &picture),
+        ],
+    );
+    let file = bytes(&film, Content::Film, Format::Exr, &Encoding::default());
+    let back = Picture::read(&file).unwrap();
+    let names: Vec<_> = back.planes.iter().map(|p| p.name.as_str()).collect();
+    let normal = ["normal.X", "normal.Y", "normal.Z"];
+    let specular = ["specular.B", "specular.G", "specular.R"];
+    assert_eq!(names, [&["A", "B", "G", "R", "depth"], &normal[..], &specular].concat());
+    assert_eq!(back.plane("depth").unwrap(), depth);
+    assert_eq!(back.plane("A").unwrap(), [0.5; 5 * 37]);
+    let of = |c: usize| picture.iter().skip(c).step_by(3).copied().collect::<Vec<_>>();
+    let names = [(0, ["R", "specular.R", "normal.X"]), (2, ["B", "specular.B", "normal.Z"])];
+    for (c, names) in names {
+        for name in names {
+            assert_eq!(back.plane(name).unwrap(), of(c), "{name}");
+        }
+    }
+}
+
+#[cfg(feature = "exr")]
+#[test]
+fn an_exr_says_which_red_green_and_blue_it_means_and_how_it_is_packed() {
+    let film = film([1, 1], &[(PICTURE, &[0.25; 3])]);
+    let file = bytes(&film, Content::Film, Format::Exr, &Encoding::default());
+    let meta = ::exr::meta::MetaData::read_from_buffered(Cursor::new(file), true).unwrap();
+    let header = &meta.headers[0];
+    assert_eq!(header.compression, ::exr::compression::Compression::ZIP16);
+    let rec_709 = header.shared_attributes.chromaticities.unwrap();
+    assert_eq!((rec_709.red.0, rec_709.white.1), (0.64, 0.3290));
+}
+
+#[test]
+fn bytes_do_not_depend_on_the_number_of_threads() {
+    let picture: Vec<f32> = (0..3 * 64 * 64).map(|i| (i % 97) as f32 / 96.0).collect();
+    let film = film([64, 64], &[(PICTURE, &picture)]);
+    for format in Format::ALL.into_iter().filter(|f| cfg!(feature = "exr") || !f.holds_layers()) {
+        let content = Content::of(&[PICTURE], format)[0];
+        let with = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| bytes(&film, content, format, &Encoding::default()))
+        };
+        assert_eq!(with(1), with(5), "{format:?}");
+    }
+}
+
+#[test]
+fn damaged_files_are_errors_and_no_panic() {
+    let picture: Vec<f32> = (0..3 * 20 * 20).map(|i| (i % 7) as f32 / 6.0).collect();
+    let film = film([20, 20], &[(PICTURE, &picture)]);
+    for format in Format::ALL.into_iter().filter(|f| cfg!(feature = "exr") || !f.holds_layers()) {
+        let content = Content::of(&[PICTURE], format)[0];
+        let whole = bytes(&film, content, format, &Encoding::default());
+        for end in 0..whole.len().min(400) {
+            let _ = Picture::read(&whole[..end]);
+        }
+        assert!(Picture::read(&whole[..whole.len() / 2]).is_err(), "{format:?}");
+        for at in 0..whole.len().min(2000) {
+            for mask in [0x01, 0x80, 0xff] {
+                let mut bent = whole.clone();
+                bent[at] ^= mask;
+                let _ = Picture::read(&bent);
+            }
+        }
+    }
+    assert_eq!(Picture::read(b""), Err(ReadError::Unknown));
+    assert_eq!(Picture::read(b"GIF89a"), Err(ReadError::Unknown));
+}
+
+#[test]
+fn a_picture_that_claims_to_be_huge_is_refused_before_memory_is_taken() {
+    let (width, height) = (4_000_000_000, 4_000_000_000);
+    let pfm = b"PF\n4000000000 4000000000\n-1.0\n";
+    assert_eq!(Picture::read(pfm), Err(ReadError::TooLarge { width, height }));
+
+    let mut png = Vec::new();
+    let (width, height) = (1_000_000, 2_000_000);
+    let mut writer = ::png::Encoder::new(&mut png, width, height).write_header().unwrap();
+    writer.write_chunk(::png::chunk::IDAT, &[0x78, 0x01]).unwrap();
+    drop(writer);
+    assert_eq!(Picture::read(&png), Err(ReadError::TooLarge { width, height }));
+}
+
+#[test]
+fn files_of_a_film_are_named_by_their_layers() {
+    let kinds = [PICTURE, LayerKind::Alpha, LayerKind::Term(2), LayerKind::Aov(Aov::Depth)];
+    let words = |format| Content::of(&kinds, format).into_iter().map(Content::word).collect();
+    let apart: Vec<_> = words(Format::Png);
+    assert_eq!(apart, [None, Some("diffuse"), Some("depth")]);
+    let together: Vec<_> = words(Format::Exr);
+    assert_eq!(together, [None]);
+}
