@@ -19,3 +19,19 @@ impl Lambert {
         Terms { diffuse: k_d * l.cos(n) * c_d, ..Terms::default() }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{dir, white};
+    use super::*;
+
+    #[test]
+    fn the_cosine_of_the_angle_of_incidence_is_all_there_is() {
+        let model = Lambert { k_d: 0.5 };
+        let diffuse = |l| model.shade_light(Dir3::Z, white(l)).diffuse.r;
+        assert_eq!(diffuse(Dir3::Z), 0.5);
+        assert!((diffuse(dir(0.6, 0.0, 0.8)) - 0.4).abs() < 1e-7);
+        assert!((diffuse(dir(0.0, 3.0_f32.sqrt(), 1.0)) - 0.25).abs() < 1e-7); // 60°
+        assert_eq!(diffuse(Dir3::X), 0.0);
+    }
+}

@@ -16,7 +16,7 @@ mod scale;
 mod terms;
 mod ward;
 
-pub use blinn_phong::BlinnPhong;
+pub use blinn_phong::{BlinnPhong, Falloff};
 pub use fresnel::Fresnel;
 pub use lambert::Lambert;
 pub use microfacet::{Distribution, Microfacet, Shadowing};
@@ -79,22 +79,120 @@ mod tests {
 
     use super::*;
 
-    fn dir(x: f32, y: f32, z: f32) -> Dir3 {
+    /// The direction of `(x, y, z)`.
+    pub(super) fn dir(x: f32, y: f32, z: f32) -> Dir3 {
         Dir3::new(Vec3::new(x, y, z)).unwrap()
+    }
+
+    /// White light from `l`.
+    pub(super) fn white(l: Dir3) -> Incident {
+        Incident { l, c_d: Rgb::WHITE, c_s: Rgb::WHITE }
+    }
+
+    /// One of each.
+    fn models() -> [Reflectance; 6] {
+        let lecture = Switches::default();
+        [
+            Reflectance::Lambert(Lambert { k_d: 0.5 }),
+            Reflectance::Phong(Phong::new(0.5, 0.25, 0.0, lecture)),
+            Reflectance::BlinnPhong(BlinnPhong::new(0.5, 0.25, 0.0, lecture)),
+            Reflectance::Microfacet(Microfacet {
+                k_d: 0.5,
+                k_s: 0.25,
+                distribution: Distribution::Ggx { alpha: 0.3 },
+                shadowing: Shadowing::Correlated,
+                fresnel: Fresnel::None,
+            }),
+            Reflectance::OrenNayar(OrenNayar {
+                k_d: 0.5,
+                color: Rgb::WHITE,
+                sigma: 0.0,
+                form: OrenNayarForm::Qualitative,
+            }),
+            Reflectance::Ward(Ward {
+                k_d: 0.5,
+                k_s: 0.25,
+                a_x: 0.3,
+                a_y: 0.1,
+                form: WardForm::Gmd,
+            }),
+        ]
     }
 
     #[test]
     fn a_light_at_or_below_the_horizon_adds_nothing() {
-        let models = [
-            Reflectance::Lambert(Lambert { k_d: 1.0 }),
-            Reflectance::Phong(Phong::new(1.0, 1.0, 0.0, Switches::default())),
-            Reflectance::BlinnPhong(BlinnPhong::new(1.0, 1.0, 0.0, Switches::default())),
-        ];
-        for model in models {
+        for model in models() {
             for l in [Dir3::X, dir(1.0, 0.0, -0.01), -Dir3::Z] {
-                let incident = Incident { l, c_d: Rgb::WHITE, c_s: Rgb::WHITE };
-                let terms = model.shade_light(Dir3::Z, Dir3::X, dir(-1.0, 0.0, 0.1), incident);
-                assert_eq!(terms, Terms::default());
+                let terms = model.shade_light(Dir3::Z, Dir3::X, dir(-1.0, 0.0, 0.1), white(l));
+                assert_eq!(terms, Terms::default(), "{model:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn every_model_stands_on_the_same_lambert() {
+        let l = dir(0.6, 0.0, 0.8);
+        for model in models() {
+            let terms = model.shade_light(Dir3::Z, Dir3::X, dir(0.0, 0.6, 0.8), white(l));
+            assert_eq!(terms.diffuse, Rgb::grey(0.5 * l.dot(Dir3::Z)), "{model:?}");
+        }
+    }
+
+    #[test]
+    fn the_colours_of_light_tint_the_term_they_belong_to() {
+        let (c_d, c_s) = (Rgb::new(1.0, 0.5, 0.0), Rgb::new(0.0, 0.25, 2.0));
+        let (n, e) = (Dir3::Z, dir(-0.5, 0.1, 0.8));
+        for model in models() {
+            let l = dir(0.6, 0.0, 0.8);
+            let plain = model.shade_light(n, Dir3::X, e, white(l));
+            let tinted = model.shade_light(n, Dir3::X, e, Incident { l, c_d, c_s });
+            assert_eq!(tinted.diffuse, plain.diffuse.r * c_d, "{model:?}");
+            assert_eq!(tinted.specular, plain.specular.r * c_s, "{model:?}");
+        }
+    }
+
+    #[test]
+    fn nothing_becomes_nan_or_infinite_however_grazing_or_narrow() {
+        let tiny = [0.0, 1e-38, 1e-23, 1e-20, 1e-9, 0.5, 1.0];
+        let directions: Vec<Dir3> = tiny
+            .into_iter()
+            .flat_map(|z| [dir(1.0, 0.0, z), dir(-1.0, 0.0, z), dir(0.0, 1.0, z)])
+            .collect();
+        for width in [f32::MIN_POSITIVE, 1e-4, 1.0, 1e10] {
+            for distribution in [
+                Distribution::Blinn { n: 1.0 / width },
+                Distribution::Beckmann { m: width },
+                Distribution::Ggx { alpha: width },
+            ] {
+                for shadowing in [
+                    Shadowing::Separable,
+                    Shadowing::Correlated,
+                    Shadowing::VCavity,
+                    Shadowing::Implicit,
+                ] {
+                    let fresnel = Fresnel::Dielectric { eta: 1.5 };
+                    let facets =
+                        Microfacet { k_d: 1.0, k_s: 1.0, distribution, shadowing, fresnel };
+                    assert_finite(Reflectance::Microfacet(facets), &directions);
+                }
+            }
+            for form in [WardForm::Ward, WardForm::Gmd] {
+                let ward = Ward { k_d: 1.0, k_s: 1.0, a_x: width, a_y: 0.2, form };
+                assert_finite(Reflectance::Ward(ward), &directions);
+            }
+        }
+        for form in [OrenNayarForm::Qualitative, OrenNayarForm::Full { interreflection: true }] {
+            let rough = OrenNayar { k_d: 1.0, color: Rgb::WHITE, sigma: 0.5, form };
+            assert_finite(Reflectance::OrenNayar(rough), &directions);
+        }
+    }
+
+    fn assert_finite(model: Reflectance, directions: &[Dir3]) {
+        for &l in directions {
+            for &e in directions {
+                let terms = model.shade_light(Dir3::Z, Dir3::X, e, white(l));
+                let total = terms.total().r;
+                assert!(total.is_finite() && total >= 0.0, "{model:?}: {terms:?} at {l:?}, {e:?}");
             }
         }
     }

@@ -104,3 +104,63 @@ fn full(s2: f32, alpha: f32, beta: f32, cos_dphi: f32) -> RoughDiffuse {
         interreflected: 0.17 * s2 / (s2 + 0.13) * (1.0 - cos_dphi * far * far),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{dir, white};
+    use super::*;
+
+    fn rough(sigma: f32, form: OrenNayarForm) -> OrenNayar {
+        OrenNayar { k_d: 1.0, color: Rgb::WHITE, sigma, form }
+    }
+
+    const FULL: OrenNayarForm = OrenNayarForm::Full { interreflection: true };
+
+    #[test]
+    fn without_roughness_it_is_lambert() {
+        for form in [OrenNayarForm::Qualitative, FULL] {
+            for (l, e) in [(Dir3::Z, Dir3::Z), (dir(1.0, 2.0, 1.0), dir(-1.0, 0.5, 0.3))] {
+                let shape = rough(0.0, form).shape(Dir3::Z, l, e);
+                assert_eq!(shape, RoughDiffuse { direct: 1.0, interreflected: 0.0 });
+            }
+        }
+    }
+
+    #[test]
+    fn a_worked_example_seen_from_the_light() {
+        // σ² = 0.09: A = 1 − 0.045/0.42 = 0.892857, B = 0.0405/0.18 = 0.225. L = E at 60°:
+        // sin α tan β = (√3/2) √3 = 1.5, so A + 1.5 B = 1.230357.
+        let tilted = dir(3.0_f32.sqrt(), 0.0, 1.0);
+        let shape = rough(0.3, OrenNayarForm::Qualitative).shape(Dir3::Z, tilted, tilted);
+        assert!((shape.direct - 1.230_357).abs() < 1e-6, "{shape:?}");
+    }
+
+    #[test]
+    fn the_full_form_face_on() {
+        // α = β = 0: C₁ = 1 − 0.045/0.42 = 0.892857; L₂ = 0.17 · 0.09/0.22 = 0.0695455.
+        let shape = rough(0.3, FULL).shape(Dir3::Z, Dir3::Z, Dir3::Z);
+        assert!((shape.direct - 0.892_857).abs() < 1e-6, "{shape:?}");
+        assert!((shape.interreflected - 0.069_545_5).abs() < 1e-7, "{shape:?}");
+    }
+
+    #[test]
+    fn the_full_form_across_the_plane() {
+        // Both at 45°, at right angles in azimuth: cos Δφ = 0, C₃ = 0.0625 (4/16)² tan 45°.
+        let (l, e) = (dir(1.0, 0.0, 1.0), dir(0.0, 1.0, 1.0));
+        let shape = rough(0.3, FULL).shape(Dir3::Z, l, e);
+        assert!((shape.direct - (0.892_857 + 0.003_906_25)).abs() < 1e-6, "{shape:?}");
+    }
+
+    #[test]
+    fn light_that_meets_two_facets_is_tinted_twice() {
+        let color = Rgb::new(1.0, 0.5, 0.0);
+        let model = OrenNayar { k_d: 0.8, color, sigma: 0.3, form: FULL };
+        let mut incident = white(Dir3::Z);
+        incident.c_d = color;
+        let diffuse = model.shade_light(Dir3::Z, Dir3::Z, incident).diffuse;
+        let twice = |c: f32| 0.8 * c * (0.892_857 + 0.069_545_5 * 0.8 * c);
+        for (found, c) in diffuse.to_array().into_iter().zip([1.0, 0.5, 0.0]) {
+            assert!((found - twice(c)).abs() < 1e-6, "{diffuse:?}");
+        }
+    }
+}

@@ -76,3 +76,46 @@ impl Ward {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::dir;
+    use super::*;
+
+    fn brushed(form: WardForm) -> Ward {
+        Ward { k_d: 0.0, k_s: 1.0, a_x: 0.5, a_y: 0.1, form }
+    }
+
+    #[test]
+    fn face_on_both_forms_peak_at_one_over_4_pi_times_the_roughnesses() {
+        for form in [WardForm::Ward, WardForm::Gmd] {
+            let peak = brushed(form).brdf(Dir3::Z, Dir3::X, Dir3::Z, Dir3::Z);
+            assert!((peak - 1.0 / (0.2 * PI)).abs() < 1e-6, "{peak}");
+        }
+    }
+
+    #[test]
+    fn a_worked_example_along_and_across_the_grain() {
+        // L = E, 45° towards the grain: H = L, slope 1 of 0.5: e⁻⁴; N·L = N·E = N·H = √½, L·H = 1.
+        let expected = (-4.0_f64, 0.2 * std::f64::consts::PI);
+        let gaussian = libm::exp(expected.0) / expected.1;
+        let along = dir(1.0, 0.0, 1.0);
+        let ward = brushed(WardForm::Ward).brdf(Dir3::Z, Dir3::X, along, along);
+        assert!((f64::from(ward) - gaussian / 0.5_f64.sqrt()).abs() < 1e-7, "{ward}");
+        let gmd = brushed(WardForm::Gmd).brdf(Dir3::Z, Dir3::X, along, along);
+        assert!((f64::from(gmd) - gaussian / 0.25).abs() < 1e-7, "{gmd}");
+        // Across it the same slope is ten roughnesses: nothing.
+        let across = dir(0.0, 1.0, 1.0);
+        assert!(brushed(WardForm::Ward).brdf(Dir3::Z, Dir3::X, across, across) < 1e-30);
+    }
+
+    #[test]
+    fn the_highlight_turns_with_the_tangent() {
+        let (l, e) = (dir(0.2, 0.0, 1.0), dir(0.1, 0.0, 1.0));
+        let (l2, e2) = (dir(0.0, 0.2, 1.0), dir(0.0, 0.1, 1.0));
+        let ward = brushed(WardForm::Gmd);
+        let along = ward.brdf(Dir3::Z, Dir3::X, l, e);
+        assert!((along - ward.brdf(Dir3::Z, Dir3::Y, l2, e2)).abs() < 1e-6 * along);
+        assert!(ward.brdf(Dir3::Z, Dir3::Y, l, e) < 0.5 * along);
+    }
+}

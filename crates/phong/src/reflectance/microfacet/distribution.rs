@@ -5,6 +5,9 @@ use std::f32::consts::PI;
 use crate::math::{Dir3, erfc, exp, lobe};
 use crate::reflectance::NARROWEST;
 
+/// The exponent as narrow as [`NARROWEST`], by `m² = 2/(n+2)`.
+const SHARPEST: f32 = 2.0 / (NARROWEST * NARROWEST) - 2.0;
+
 /// How far a direction leans from the normal.
 ///
 /// Cosine and sine both, since near the normal neither follows from the other in f32.
@@ -38,7 +41,7 @@ impl Lean {
 pub enum Distribution {
     /// A power of the cosine (Blinn 1977).
     Blinn {
-        /// The exponent, ≥ 0.
+        /// The exponent, ≥ 0; above that of the width [`NARROWEST`] it counts as that.
         n: f32,
     },
     /// Gaussian slopes (Beckmann and Spizzichino 1963).
@@ -67,7 +70,10 @@ impl Distribution {
         }
         let cos2 = h.cos * h.cos;
         match self {
-            Self::Blinn { n } => (n + 2.0) / (2.0 * PI) * lobe(h.cos, n),
+            Self::Blinn { n } => {
+                let n = n.min(SHARPEST);
+                (n + 2.0) / (2.0 * PI) * lobe(h.cos, n)
+            }
             Self::Beckmann { m } => {
                 let m2 = m.max(NARROWEST) * m.max(NARROWEST);
                 let slopes = exp(-h.tan2() / m2);
@@ -100,6 +106,64 @@ impl Distribution {
                 let x = slope * slope * v.tan2();
                 if x.is_finite() { 0.5 * x / ((1.0 + x).sqrt() + 1.0) } else { f32::INFINITY }
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ALL: [Distribution; 3] = [
+        Distribution::Blinn { n: 30.0 },
+        Distribution::Beckmann { m: 0.25 },
+        Distribution::Ggx { alpha: 0.25 },
+    ];
+
+    #[test]
+    fn face_on_the_densities_are_their_bare_factors() {
+        let up = Lean::from_cos(1.0);
+        let found = ALL.map(|d| d.density(up));
+        // 32/2π, and 1/(π/16) twice
+        for (found, expected) in found.into_iter().zip([16.0 / PI, 16.0 / PI, 16.0 / PI]) {
+            assert!((found - expected).abs() < 1e-6, "{found} for {expected}");
+        }
+    }
+
+    #[test]
+    fn worked_examples_at_45_degrees() {
+        // cos² = ½, tan² = 1.
+        let slanted = Lean { cos: 0.5_f32.sqrt(), sin2: 0.5 };
+        let [blinn, beckmann, ggx] = ALL.map(|d| d.density(slanted));
+        assert!((blinn - 16.0 / PI / 32_768.0).abs() < 1e-9); // 2⁻¹⁵
+        let expected = 16.0 / PI * 4.0 * 1.125_351_7e-7; // e⁻¹⁶ / cos⁴
+        assert!((beckmann - expected).abs() < 1e-11, "{beckmann}");
+        // α²/(π (α²/2 + ½)²) = (1/16)/(π (17/32)²)
+        assert!((ggx - 0.0625 / (PI * 0.282_226_56)).abs() < 1e-7, "{ggx}");
+    }
+
+    #[test]
+    fn ggx_hides_as_a_square_root_does() {
+        // α tan θ = 1: (√2 − 1)/2.
+        let cos = (1.0_f32 / 17.0).sqrt(); // tan² = 16
+        let lambda = Distribution::Ggx { alpha: 0.25 }.lambda(Lean { cos, sin2: 16.0 / 17.0 });
+        assert!((lambda - 0.5 * (2.0_f32.sqrt() - 1.0)).abs() < 1e-7, "{lambda}");
+    }
+
+    #[test]
+    fn beckmann_hides_by_the_error_function() {
+        // a = 1: (e⁻¹/√π − erfc 1)/2 = (0.20755375 − 0.15729921)/2
+        let cos = (1.0_f32 / 17.0).sqrt();
+        let lambda = Distribution::Beckmann { m: 0.25 }.lambda(Lean { cos, sin2: 16.0 / 17.0 });
+        assert!((lambda - 0.025_127_27).abs() < 1e-7, "{lambda}");
+    }
+
+    #[test]
+    fn nothing_is_hidden_face_on_and_everything_at_the_horizon() {
+        for d in ALL {
+            assert_eq!(d.lambda(Lean::from_cos(1.0)), 0.0, "{d:?}");
+            assert_eq!(d.lambda(Lean::from_cos(0.0)), f32::INFINITY, "{d:?}");
+            assert_eq!(d.density(Lean::from_cos(0.0)), 0.0 * d.density(Lean::from_cos(1.0)));
         }
     }
 }

@@ -64,3 +64,57 @@ impl Microfacet {
         d * g / denominator * f
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{dir, white};
+    use super::*;
+
+    #[test]
+    fn face_on_nothing_is_hidden_and_a_quarter_of_d_comes_back() {
+        let model = Microfacet {
+            k_d: 0.0,
+            k_s: 0.5,
+            distribution: Distribution::Ggx { alpha: 0.25 },
+            shadowing: Shadowing::Separable,
+            fresnel: Fresnel::Schlick { f0: Rgb::new(1.0, 0.5, 0.0) },
+        };
+        // D = 16/π, G = 1, F = F₀: f = 4/π F₀; π f k_s = 2 F₀.
+        let specular = model.shade_light(Dir3::Z, Dir3::Z, white(Dir3::Z)).specular;
+        for (found, expected) in specular.to_array().into_iter().zip([2.0, 1.0, 0.0]) {
+            assert!((found - expected).abs() < 1e-6, "{specular:?}");
+        }
+    }
+
+    #[test]
+    fn the_implicit_form_of_blinns_facets_is_three_js_blinn_phong() {
+        // π f (N·L) = F (n + 2)/8 (N·H)^n (N·L), with L·H in Schlick's F.
+        let (n, f0) = (30.0_f32, 0.1_f32);
+        let model = Microfacet {
+            k_d: 0.0,
+            k_s: 1.0,
+            distribution: Distribution::Blinn { n },
+            shadowing: Shadowing::Implicit,
+            fresnel: Fresnel::Schlick { f0: Rgb::grey(f0) },
+        };
+        let (l, e) = (dir(0.6, 0.0, 0.8), dir(-0.5, 0.1, 0.8));
+        let found = model.shade_light(Dir3::Z, e, white(l)).specular.r;
+        let h = l.halfway(e).unwrap();
+        let fresnel = crate::reflectance::fresnel::schlick(l.dot(h), f0);
+        let expected = fresnel * 4.0 * crate::math::pow(h.dot(Dir3::Z), n) * l.dot(Dir3::Z);
+        assert!((found - expected).abs() < 1e-6, "{found} for {expected}");
+    }
+
+    #[test]
+    fn an_eye_below_the_horizon_sees_nothing() {
+        let model = Microfacet {
+            k_d: 0.0,
+            k_s: 1.0,
+            distribution: Distribution::Beckmann { m: 0.5 },
+            shadowing: Shadowing::VCavity,
+            fresnel: Fresnel::None,
+        };
+        assert_eq!(model.brdf(Dir3::Z, Dir3::Z, dir(1.0, 0.0, -0.1)), Rgb::BLACK);
+        assert_eq!(model.brdf(Dir3::Z, dir(1.0, 0.0, -0.1), Dir3::Z), Rgb::BLACK);
+    }
+}
