@@ -30,8 +30,9 @@ pub struct CompiledScene {
     /// What the hierarchy's geometries belong to, one for each.
     parts: Vec<Part>,
     objects: Vec<ObjectRecord>,
-    light_names: Vec<(String, Place)>,
-    material_names: Vec<String>,
+    /// The lights and materials as they were written: for telling, not for shading.
+    written_lights: Vec<phong_scene::Light>,
+    written_materials: Vec<phong_scene::Material>,
 }
 
 /// An object as rays meet it: for telling, not for shading.
@@ -98,10 +99,10 @@ impl CompiledScene {
             camera: Camera::new(&camera, center),
             center,
             ambient,
-            light_names: lights.iter().map(|l| (l.name.clone(), l.place.clone())).collect(),
             lights: lights.iter().map(|light| Light::new(light, center)).collect(),
-            material_names: materials.iter().map(|m| m.name.clone()).collect(),
+            written_lights: lights,
             materials: materials.iter().map(Material::new).collect(),
+            written_materials: materials,
             bvh: Bvh::build(geometry, options.build)?,
             parts,
             objects,
@@ -133,10 +134,9 @@ impl CompiledScene {
         &self.lights
     }
 
-    /// What a light is called, and where it was written.
-    pub fn light_name(&self, light: usize) -> (&str, &Place) {
-        let (name, place) = &self.light_names[light];
-        (name, place)
+    /// The lights as they were written, in the same order.
+    pub fn written_lights(&self) -> &[phong_scene::Light] {
+        &self.written_lights
     }
 
     /// The materials, in the scene's order.
@@ -144,9 +144,9 @@ impl CompiledScene {
         &self.materials
     }
 
-    /// What a material is called.
-    pub fn material_name(&self, material: u32) -> &str {
-        &self.material_names[material as usize]
+    /// The materials as they were written, in the same order.
+    pub fn written_materials(&self) -> &[phong_scene::Material] {
+        &self.written_materials
     }
 
     /// The objects, numbered from 0, instances flattened.

@@ -238,7 +238,7 @@ impl Integrator<'_> {
                 continue;
             }
             if bounces == 0 {
-                witness.cut(branch, weight);
+                witness.cut(branch, weight, fresnel);
                 continue;
             }
             onward.push(Onward {

@@ -7,6 +7,7 @@
 pub mod aov;
 pub mod camera;
 pub mod compile;
+pub mod explain;
 pub mod film;
 pub mod filter;
 pub mod image;

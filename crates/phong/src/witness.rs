@@ -51,7 +51,7 @@ pub trait Witness {
     /// It came back with this light, not yet weighted.
     fn left(&mut self, branch: Branch, light: Rgb);
     /// A ray was not sent on since the depth is used up: it brings black.
-    fn cut(&mut self, branch: Branch, weight: Rgb);
+    fn cut(&mut self, branch: Branch, weight: Rgb, fresnel: Option<f32>);
 }
 
 impl Witness for () {
@@ -60,5 +60,5 @@ impl Witness for () {
     fn lit(&mut self, _: &LightTold) {}
     fn entered(&mut self, _: Branch, _: Rgb, _: Option<f32>, _: &Ray) {}
     fn left(&mut self, _: Branch, _: Rgb) {}
-    fn cut(&mut self, _: Branch, _: Rgb) {}
+    fn cut(&mut self, _: Branch, _: Rgb, _: Option<f32>) {}
 }

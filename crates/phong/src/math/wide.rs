@@ -25,6 +25,11 @@ pub fn exp(x: f64) -> f64 {
     libm::exp(x)
 }
 
+/// `2^x`.
+pub fn exp2(x: f64) -> f64 {
+    libm::exp2(x)
+}
+
 /// The smallest power of two that is greater than `x`, for finite `x` > 0.
 pub fn power_of_two_above(x: f64) -> f64 {
     libm::ldexp(1.0, libm::frexp(x).1)

@@ -2,6 +2,8 @@
 
 mod tile;
 
+pub(crate) use tile::{Sums, camera_ray};
+
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 

@@ -27,7 +27,7 @@ pub(super) struct Painter<'a> {
 
 /// The sums of one pixel.
 #[derive(Clone, Copy, Default)]
-struct Sums {
+pub(crate) struct Sums {
     terms: [[f64; 3]; 6],
     alpha: f64,
     weight: f64,
@@ -56,11 +56,13 @@ impl<'a> Painter<'a> {
             bundle.clear();
             of.clear();
             for (number, &pixel) in pixels.iter().enumerate() {
-                let (ray, weight) = self.camera_ray(pixel, index);
-                sums[number].weight += f64::from(weight);
+                let Drawn { weight, ray, .. } =
+                    camera_ray(&self.integrator, self.options, &self.filter, pixel, index);
                 if let Some(ray) = ray {
                     bundle.push(ray);
                     of.push((number, weight));
+                } else {
+                    sums[number].add(&Radiance::default(), weight);
                 }
             }
             let brought = self.integrator.trace(&bundle, counts, &mut ());
@@ -90,11 +92,6 @@ impl<'a> Painter<'a> {
             }
         }
         Ok(out)
-    }
-
-    /// The ray of one sample of a pixel, and the sample's weight.
-    fn camera_ray(&self, pixel: [u32; 2], index: u32) -> (Option<CameraRay>, f32) {
-        camera_ray(&self.integrator, self.options, &self.filter, pixel, index)
     }
 
     /// The variables of a pixel, from the ray through its centre.
@@ -139,15 +136,24 @@ impl<'a> Painter<'a> {
     }
 }
 
-/// The ray of sample `index` of a pixel, and the sample's weight; no ray outside the image circle
-/// of a fisheye.
+/// Where a sample was drawn.
+pub(crate) struct Drawn {
+    /// In the picture, pixels.
+    pub(crate) place: DVec2,
+    /// Its weight in the pixel's sum.
+    pub(crate) weight: f32,
+    /// Its ray; none outside the image circle of a fisheye.
+    pub(crate) ray: Option<CameraRay>,
+}
+
+/// Draws sample `index` of a pixel.
 pub(crate) fn camera_ray(
     integrator: &Integrator<'_>,
     options: &RenderOptions,
     filter: &Filter,
     [x, y]: [u32; 2],
     index: u32,
-) -> (Option<CameraRay>, f32) {
+) -> Drawn {
     let sampler = Sampler::new([x, y], index, options.samples, options.seed);
     let drawn = filter.sample(sampler.pair(Use::Pixel));
     let place = DVec2::new(
@@ -157,12 +163,15 @@ pub(crate) fn camera_ray(
     let lens = sampler.pair(Use::Lens);
     let height = (place.y / f64::from(options.size[1])).clamp(0.0, 1.0) as f32;
     let ray = integrator.scene.camera().ray(place, options.size, lens);
-    (ray.map(|ray| CameraRay { ray, sampler, height }), drawn.weight)
+    let ray = ray.map(|ray| CameraRay { ray, sampler, height });
+    Drawn { place, weight: drawn.weight, ray }
 }
 
 impl Sums {
-    fn add(&mut self, radiance: &Radiance, weight: f32) {
+    /// Adds a sample; outside a fisheye's image circle, one that brought nothing.
+    pub(crate) fn add(&mut self, radiance: &Radiance, weight: f32) {
         let weight = f64::from(weight);
+        self.weight += weight;
         for (sum, term) in self.terms.iter_mut().zip(radiance.terms.to_array()) {
             for (sum, value) in sum.iter_mut().zip(term.to_array()) {
                 *sum += weight * f64::from(value);
@@ -172,7 +181,7 @@ impl Sums {
     }
 
     /// The terms, each resolved to f32, and the coverage.
-    fn resolve(&self, samples: u32, background: Background) -> (Terms, f32) {
+    pub(crate) fn resolve(&self, samples: u32, background: Background) -> (Terms, f32) {
         // Signed weights that all but cancel would blow up what little is left.
         let total = self.weight.max(0.25 * f64::from(samples));
         let term = |sum: [f64; 3]| sum.map(|v| (v / total) as f32).into();
@@ -212,7 +221,7 @@ impl Witness for LightsSeen {
     }
     fn entered(&mut self, _: Branch, _: phong_scene::Rgb, _: Option<f32>, _: &phong_bvh::Ray) {}
     fn left(&mut self, _: Branch, _: phong_scene::Rgb) {}
-    fn cut(&mut self, _: Branch, _: phong_scene::Rgb) {}
+    fn cut(&mut self, _: Branch, _: phong_scene::Rgb, _: Option<f32>) {}
 }
 
 /// A tile's pixels in squares, so that a bundle's neighbours are neighbours.

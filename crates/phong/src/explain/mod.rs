@@ -1,0 +1,265 @@
+//! Why a pixel is the colour it is: every ray, vector, dot product, term and shadow test.
+//!
+//! Nothing is computed here that the picture is made of: the integrator tells it through its
+//! [`Witness`](crate::witness::Witness), and the samples are summed by the film's own sums. So
+//! the explanation's picture is the film's pixel, bit for bit.
+
+mod record;
+mod text;
+
+use glam::DVec3;
+use phong_scene::{Place, Rgb, srgb_encode};
+use thiserror::Error;
+
+use crate::compile::CompiledScene;
+use crate::filter::Filter;
+use crate::integrator::{Integrator, Radiance, RayCounts};
+use crate::math::{Dir3, wide};
+use crate::reflectance::Terms;
+use crate::render::{RenderOptions, Sums, camera_ray};
+use record::Recorder;
+
+/// A pixel, explained.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Explanation {
+    /// The pixel, x to the right and y down from the upper left.
+    pub pixel: [u32; 2],
+    /// Width and height of the picture.
+    pub size: [u32; 2],
+    /// Its samples, in the order they are summed.
+    pub samples: Vec<Sample>,
+    /// The terms as the film has them.
+    pub terms: Terms,
+    /// The picture as the film has it: the terms' f32 sum. Linear, unclamped.
+    pub linear: Rgb,
+    /// Coverage in [0, 1]; 1 unless the background is transparent.
+    pub alpha: f32,
+}
+
+/// One sample of a pixel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sample {
+    /// Where in the picture, pixels.
+    pub place: [f32; 2],
+    /// Its weight in the pixel's sum: +1, or −1 where a filter is negative.
+    pub weight: f32,
+    /// Its ray; `None` outside the image circle of a fisheye.
+    pub ray: Option<RayTold>,
+    /// What it brought.
+    pub terms: Terms,
+}
+
+/// A ray and what became of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RayTold {
+    /// Where it starts, in the world.
+    pub origin: DVec3,
+    /// Its direction.
+    pub dir: Dir3,
+    /// What it met.
+    pub end: End,
+}
+
+/// Where a ray ends.
+#[derive(Clone, Debug, PartialEq)]
+pub enum End {
+    /// It met nothing and saw this background.
+    Background(Rgb),
+    /// It met a surface.
+    Surface(Box<Surface>),
+}
+
+/// A surface that a ray met, and how it answered.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Surface {
+    /// The object's name.
+    pub object: String,
+    /// Where it was written.
+    pub at: Place,
+    /// The face of a mesh, or the point of a cloud, from 0; `None` where the object is one thing.
+    pub element: Option<u32>,
+    /// The material, as it was written.
+    pub material: phong_scene::Material,
+    /// Distance along the ray.
+    pub t: f32,
+    /// The point, in the world.
+    pub p: DVec3,
+    /// Geometric normal as the surface has it, outwards.
+    pub ng: Dir3,
+    /// Shading normal N, on the side the ray comes from.
+    pub n: Dir3,
+    /// Unit tangent: the grain of brushed models.
+    pub tangent: Dir3,
+    /// E, to the eye.
+    pub e: Dir3,
+    /// Surface coordinates.
+    pub uv: [f32; 2],
+    /// Whether the ray comes from outside.
+    pub from_outside: bool,
+    /// The surface's colour here: the geometry's own, else the material's.
+    pub color: Rgb,
+    /// `C_a`: the ambient light times the material's ambient colour.
+    pub c_a: Rgb,
+    /// The ambient term that belongs to no light.
+    pub ambient: Rgb,
+    /// Every light, in order.
+    pub lights: Vec<Lit>,
+    /// The mirror ray.
+    pub reflection: Option<Onward>,
+    /// The refracted ray.
+    pub transmission: Option<Onward>,
+    /// All terms here, summed in the integrator's order.
+    pub terms: Terms,
+}
+
+/// What one light did at a surface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lit {
+    /// The light's name.
+    pub name: String,
+    /// Where it was written.
+    pub at: Place,
+    /// L, to the light; `None` if the point is where the light is.
+    pub l: Option<Dir3>,
+    /// R, L mirrored at N.
+    pub r: Option<Dir3>,
+    /// H, halfway between L and E; `None` where they are opposite.
+    pub h: Option<Dir3>,
+    /// Distance to the light; infinite for a distant one.
+    pub distance: f32,
+    /// L·N, not clamped.
+    pub n_dot_l: f32,
+    /// R·E, not clamped.
+    pub r_dot_e: f32,
+    /// N·H, not clamped.
+    pub n_dot_h: f32,
+    /// The light's colour here, attenuated.
+    pub color: Rgb,
+    /// `C_{m,d}`.
+    pub c_d: Rgb,
+    /// `C_{m,s}`.
+    pub c_s: Rgb,
+    /// Whether the light is above the horizon, geometric and shading.
+    pub above: bool,
+    /// Whether a ray was sent to look for it.
+    pub tested: bool,
+    /// Whether it is seen.
+    pub visible: bool,
+    /// The nearest thing between, if there is one.
+    pub blocker: Option<Blocker>,
+    /// What it adds to the ambient term, where that is added per light.
+    pub ambient: Rgb,
+    /// What it adds to the diffuse term.
+    pub diffuse: Rgb,
+    /// What it adds to the specular term.
+    pub specular: Rgb,
+}
+
+/// What stands between a point and a light.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Blocker {
+    /// The object's name.
+    pub object: String,
+    /// Where it was written.
+    pub at: Place,
+    /// The face or point of it, from 0.
+    pub element: Option<u32>,
+    /// Distance from the point, towards the light.
+    pub t: f32,
+}
+
+/// A ray that goes on from a surface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Onward {
+    /// Its weight, Fresnel included.
+    pub weight: Rgb,
+    /// The reflectance F, where the material asks for it.
+    pub fresnel: Option<f32>,
+    /// The ray; `None` if the depth is used up and it brings black.
+    pub ray: Option<RayTold>,
+    /// The light it brought, not yet weighted.
+    pub light: Rgb,
+}
+
+/// A pixel on its way to a file of 8 bits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Encoded {
+    /// Exposed, its alpha divided out, clamped to [0, 1]; linear.
+    pub clamped: Rgb,
+    /// On the sRGB curve, in [0, 1].
+    pub curve: [f64; 3],
+    /// The bytes in the file.
+    pub bytes: [u8; 3],
+}
+
+/// Why a pixel cannot be explained.
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+#[error("pixel ({x}, {y}) is outside the picture of {width} × {height}", x = pixel[0], y = pixel[1], width = size[0], height = size[1])]
+pub struct Outside {
+    /// The pixel asked for.
+    pub pixel: [u32; 2],
+    /// The picture's size.
+    pub size: [u32; 2],
+}
+
+/// Explains a pixel of the full picture.
+///
+/// # Errors
+/// [`Outside`].
+pub fn explain(
+    scene: &CompiledScene,
+    options: &RenderOptions,
+    pixel: [u32; 2],
+) -> Result<Explanation, Outside> {
+    let size = options.size;
+    if pixel[0] >= size[0] || pixel[1] >= size[1] {
+        return Err(Outside { pixel, size });
+    }
+    let integrator = Integrator {
+        scene,
+        background: options.background,
+        depth: options.depth,
+        shadows: options.shadows,
+    };
+    let filter = Filter::new(options.filter);
+    let mut sums = Sums::default();
+    let mut samples = Vec::with_capacity(options.samples as usize);
+    for index in 0..options.samples {
+        let drawn = camera_ray(&integrator, options, &filter, pixel, index);
+        let mut recorder = Recorder::new(scene);
+        let radiance = drawn.ray.map_or_else(Radiance::default, |ray| {
+            integrator.trace(&[ray], &mut RayCounts::default(), &mut recorder)[0]
+        });
+        sums.add(&radiance, drawn.weight);
+        let place = [drawn.place.x as f32, drawn.place.y as f32];
+        let terms = radiance.terms;
+        samples.push(Sample { place, weight: drawn.weight, ray: recorder.finish(), terms });
+    }
+    let (terms, alpha) = sums.resolve(options.samples, options.background);
+    Ok(Explanation { pixel, size, samples, terms, linear: terms.total(), alpha })
+}
+
+impl Explanation {
+    /// The pixel as a PNG of 8 bits has it, exposed by `exposure` stops.
+    pub fn encoded(&self, exposure: f64) -> Encoded {
+        let gain = wide::exp2(exposure);
+        let alpha = if self.alpha > 0.0 { f64::from(self.alpha) } else { 1.0 };
+        let clamped = self.linear.to_array().map(|v| (f64::from(v) / alpha * gain).clamp(0.0, 1.0));
+        let curve = clamped.map(srgb_encode);
+        Encoded {
+            clamped: clamped.map(|v| v as f32).into(),
+            curve,
+            bytes: curve.map(|v| (v * 255.0 + 0.5).floor() as u8),
+        }
+    }
+}
+
+impl RayTold {
+    /// All the light it brought.
+    pub fn terms(&self) -> Terms {
+        match &self.end {
+            End::Background(background) => Terms { background: *background, ..Terms::default() },
+            End::Surface(surface) => surface.terms,
+        }
+    }
+}

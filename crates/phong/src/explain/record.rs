@@ -1,0 +1,170 @@
+//! Writes down what the integrator tells.
+
+use phong_bvh::Ray;
+use phong_scene::Rgb;
+
+use super::{Blocker, End, Lit, Onward, RayTold, Surface};
+use crate::compile::CompiledScene;
+use crate::interaction::SurfaceInteraction;
+use crate::math::Dir3;
+use crate::reflectance::Terms;
+use crate::witness::{Branch, LightTold, Witness};
+
+/// Listens to one ray and all that follow from it.
+pub(super) struct Recorder<'a> {
+    scene: &'a CompiledScene,
+    /// Rays on their way, the first from the camera, each with what sent it.
+    open: Vec<Open>,
+}
+
+struct Open {
+    told: Option<RayTold>,
+    at: Option<SurfaceInteraction>,
+    sent: Option<(Rgb, Option<f32>)>,
+}
+
+impl<'a> Recorder<'a> {
+    pub(super) fn new(scene: &'a CompiledScene) -> Self {
+        Self { scene, open: vec![Open { told: None, at: None, sent: None }] }
+    }
+
+    /// The camera's ray; `None` if none was traced.
+    pub(super) fn finish(mut self) -> Option<RayTold> {
+        self.open.pop().and_then(|open| open.told)
+    }
+
+    fn tell(&mut self, ray: &Ray, at: Option<SurfaceInteraction>, end: End) {
+        let origin = self.scene.to_world(ray.origin);
+        let told = RayTold { origin, dir: Dir3::from_unit(ray.dir), end };
+        if let Some(open) = self.open.last_mut() {
+            open.told = Some(told);
+            open.at = at;
+        }
+    }
+
+    fn surface(&mut self) -> Option<&mut Surface> {
+        match &mut self.open.last_mut()?.told.as_mut()?.end {
+            End::Surface(surface) => Some(surface),
+            End::Background(_) => None,
+        }
+    }
+
+    fn goes_on(&mut self, branch: Branch, onward: Onward) {
+        let Some(surface) = self.surface() else { return };
+        let brought = onward.weight * onward.light;
+        match branch {
+            Branch::Reflection => {
+                surface.terms.reflection = brought;
+                surface.reflection = Some(onward);
+            }
+            Branch::Transmission => {
+                surface.terms.transmission = brought;
+                surface.transmission = Some(onward);
+            }
+        }
+    }
+
+    fn blocker(&self, shadow: &Ray) -> Option<Blocker> {
+        let hit = self.scene.bvh().intersect(shadow);
+        hit.is_some().then(|| {
+            let object = self.scene.interaction(shadow, &hit).object;
+            let record = &self.scene.objects()[object as usize];
+            Blocker {
+                object: record.name.clone(),
+                at: record.place.clone(),
+                element: self.scene.element(hit.prim),
+                t: hit.t,
+            }
+        })
+    }
+}
+
+impl Witness for Recorder<'_> {
+    fn missed(&mut self, ray: &Ray, background: Rgb) {
+        self.tell(ray, None, End::Background(background));
+    }
+
+    fn met(&mut self, ray: &Ray, at: &SurfaceInteraction, ambient: Rgb) {
+        let scene = self.scene;
+        let record = &scene.objects()[at.object as usize];
+        let material = &scene.written_materials()[at.material as usize];
+        let surface = Surface {
+            object: record.name.clone(),
+            at: record.place.clone(),
+            element: scene.element(at.prim),
+            material: material.clone(),
+            t: at.t,
+            p: scene.to_world(at.p),
+            ng: at.ng,
+            n: at.n,
+            tangent: at.tangent,
+            e: at.e,
+            uv: at.uv.to_array(),
+            from_outside: at.from_outside(),
+            color: at.color,
+            c_a: scene.ambient() * material.ambient_color.unwrap_or(at.color),
+            ambient,
+            lights: Vec::with_capacity(scene.lights().len()),
+            reflection: None,
+            transmission: None,
+            terms: Terms { ambient, ..Terms::default() },
+        };
+        self.tell(ray, Some(*at), End::Surface(Box::new(surface)));
+    }
+
+    fn lit(&mut self, told: &LightTold) {
+        let Some(at) = self.open.last().and_then(|open| open.at) else { return };
+        let scene = self.scene;
+        let written = &scene.written_lights()[told.light];
+        let l = told.sample.map(|sample| sample.l);
+        let r = l.map(|l| at.n.mirror(l));
+        let h = l.and_then(|l| l.halfway(at.e));
+        let material = &scene.materials()[at.material as usize];
+        let ambient = told.sample.map_or(Rgb::BLACK, |sample| {
+            material.ambient_of_light(at.color, scene.ambient(), &sample)
+        });
+        let blocker =
+            told.shadow.filter(|_| !told.visible).and_then(|shadow| self.blocker(&shadow));
+        let lit = Lit {
+            name: written.name.clone(),
+            at: written.place.clone(),
+            l,
+            r,
+            h,
+            distance: told.sample.map_or(0.0, |sample| sample.distance),
+            n_dot_l: l.map_or(0.0, |l| l.dot(at.n)),
+            r_dot_e: r.map_or(0.0, |r| r.dot(at.e)),
+            n_dot_h: h.map_or(0.0, |h| at.n.dot(h)),
+            color: told.sample.map_or(Rgb::BLACK, |sample| sample.color),
+            c_d: told.incident.map_or(Rgb::BLACK, |incident| incident.c_d),
+            c_s: told.incident.map_or(Rgb::BLACK, |incident| incident.c_s),
+            above: told.above,
+            tested: told.shadow.is_some(),
+            visible: told.visible,
+            blocker,
+            ambient,
+            diffuse: told.terms.diffuse,
+            specular: told.terms.specular,
+        };
+        if let Some(surface) = self.surface() {
+            surface.terms.ambient += ambient;
+            surface.terms += told.terms;
+            surface.lights.push(lit);
+        }
+    }
+
+    fn entered(&mut self, _: Branch, weight: Rgb, fresnel: Option<f32>, _: &Ray) {
+        self.open.push(Open { told: None, at: None, sent: Some((weight, fresnel)) });
+    }
+
+    fn left(&mut self, branch: Branch, light: Rgb) {
+        let Some(Open { told, sent: Some((weight, fresnel)), .. }) = self.open.pop() else {
+            return;
+        };
+        self.goes_on(branch, Onward { weight, fresnel, ray: told, light });
+    }
+
+    fn cut(&mut self, branch: Branch, weight: Rgb, fresnel: Option<f32>) {
+        self.goes_on(branch, Onward { weight, fresnel, ray: None, light: Rgb::BLACK });
+    }
+}
