@@ -4,6 +4,7 @@
 //! [`Witness`](crate::witness::Witness), and the samples are summed by the film's own sums. So
 //! the explanation's picture is the film's pixel, bit for bit.
 
+mod json;
 mod record;
 mod text;
 
