@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+"""The whole road, from a scene's text to a picture on disk, against Tachyon and POV-Ray.
+
+    cargo build --release && python3 bench/road.py [--scenes slide,mesh,...] [--ply dragon.ply.gz] [--runs 5]
+
+Writes the scenes (bench/scenes.py, needs numpy), runs every program that is installed on the very same scene, one after
+the other in rounds so that a busy machine disturbs all alike, and prints medians as a Markdown table. Ratios are to
+phong: above 1, phong took less. Before measuring it holds the pictures against each other, for a program that draws
+something else is not compared.
+"""
+
+import argparse
+import json
+import os
+import shutil
+import statistics
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+import scenes  # noqa: E402
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+def commands(phong, name, folder, threads):
+    """What each program is called with, and where it leaves its picture. All write linear 8-bit PNG."""
+    at = lambda kind: str(folder / f"{name}.{kind}")
+    picture = lambda program: at(f"{program}.png")
+    all_of_them = {
+        "phong": [phong, "render", at("toml"), "-o", picture("phong"), "--linear", "--quiet", f"--threads={threads}"],
+        "tachyon": ["tachyon", at("dat"), "-numthreads", str(threads), "-shade_phong", "-format", "PNG", "-o", picture("tachyon")],
+        "povray": ["povray", f"+I{at('pov')}", f"+O{picture('povray')}", f"+W{scenes.SIZE[0]}", f"+H{scenes.SIZE[1]}",
+                   "-A", "-D", f"+WT{threads}", "File_Gamma=1.0"],
+    }  # fmt: skip
+    return {program: line for program, line in all_of_them.items() if shutil.which(line[0])}, picture
+
+
+def measure(command):
+    """Wall seconds, user and system seconds, peak megabytes."""
+    began = time.perf_counter()
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    said = process.stderr.read()
+    _, status, usage = os.wait4(process.pid, 0)
+    wall = time.perf_counter() - began
+    process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode:
+        sys.exit(f"{' '.join(command)}\n{said.decode(errors='replace')}")
+    return wall, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--scenes", default=",".join(scenes.SCENES), help="default: %(default)s")
+    parser.add_argument("--ply", type=Path, help="the mesh to draw (default: a knot made on the spot)")
+    parser.add_argument("--runs", type=int, default=5, help="default: %(default)s")
+    parser.add_argument("--threads", type=int, default=os.cpu_count(), help="default: all")
+    parser.add_argument("--phong", default=str(ROOT / "target/release/phong"), help="the program")
+    parser.add_argument("--folder", type=Path, default=ROOT / "target/road", help="where scenes and pictures go")
+    options = parser.parse_args()
+    options.folder.mkdir(parents=True, exist_ok=True)
+
+    print(f"{options.threads} threads, medians of {options.runs} runs\n")
+    print("| scene | program | wall s | CPU s | peak MB | wall ratio | CPU ratio | memory ratio | mean difference |")
+    print("|---|---|---|---|---|---|---|---|---|")
+    for name in options.scenes.split(","):
+        scenes.write(name, options.folder, options.ply)
+        lines, picture = commands(options.phong, name, options.folder, options.threads)
+        apart = {}
+        for program, line in lines.items():  # unmeasured: files into the cache, pictures for the comparison
+            measure(line)
+            compared = subprocess.run(
+                [options.phong, "compare", picture("phong"), picture(program), "--json"], capture_output=True, text=True
+            )
+            apart[program] = json.loads(compared.stdout)["mean"]
+        taken = {program: [] for program in lines}
+        for _ in range(options.runs):
+            for program, line in lines.items():
+                taken[program].append(measure(line))
+        medians = {program: [statistics.median(column) for column in zip(*runs)] for program, runs in taken.items()}
+        for program, (wall, cpu, peak) in medians.items():
+            ratios = " | ".join(f"{own / ours:.2f}" for own, ours in zip((wall, cpu, peak), medians["phong"]))
+            print(f"| {name} | {program} | {wall:.2f} | {cpu:.2f} | {peak:.0f} | {ratios} | {apart[program]:.5f} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
