@@ -28,6 +28,9 @@ pub use ward::{Ward, WardForm};
 
 use crate::math::Dir3;
 
+/// Cosines up to this are 0 but for rounding; what is divided by them would be noise, or ∞.
+const HORIZON: f32 = 1e-9;
+
 /// Roughnesses below this count as this: a narrower lobe is a mirror, which f32 cannot hold and
 /// which no light but the mirror ray would ever meet.
 pub const NARROWEST: f32 = 1e-4;

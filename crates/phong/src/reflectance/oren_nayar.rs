@@ -2,12 +2,12 @@
 //!
 //! "Generalization of Lambert's Reflectance Model", SIGGRAPH 1994.
 
-use std::f32::consts::{FRAC_1_PI, PI};
+use std::f32::consts::FRAC_1_PI;
 
 use phong_scene::Rgb;
 
-use super::{Incident, Terms};
-use crate::math::{Dir3, acos, sin, tan};
+use super::{HORIZON, Incident, Terms};
+use crate::math::{Dir3, acos};
 
 /// `π f (N·L) C`, with `f = ρ/π (direct + ρ interreflected)` and ρ = `k_d` × colour.
 ///
@@ -51,14 +51,15 @@ impl OrenNayar {
     pub(super) fn shade_light(&self, n: Dir3, e: Dir3, Incident { l, c_d, .. }: Incident) -> Terms {
         let RoughDiffuse { direct, interreflected } = self.shape(n, l, e);
         let rho = self.k_d * self.color;
-        let shape = Rgb::grey(direct) + interreflected * rho;
+        // The full fit dips below 0 where very rough surfaces are lit and seen at grazing angles.
+        let shape = (Rgb::grey(direct) + interreflected * rho).map(|shape| shape.max(0.0));
         Terms { diffuse: self.k_d * n.cos(l) * shape * c_d, ..Terms::default() }
     }
 
-    /// The BRDF without its ρ, at these directions; 0 where L or E is not above the horizon.
+    /// The BRDF without its ρ, as published; 0 where L or E is not above the horizon.
     pub fn shape(&self, n: Dir3, l: Dir3, e: Dir3) -> RoughDiffuse {
         let (n_dot_l, n_dot_e) = (n.dot(l), n.dot(e));
-        if n_dot_l <= 0.0 || n_dot_e <= 0.0 {
+        if n_dot_l <= HORIZON || n_dot_e <= HORIZON {
             return RoughDiffuse::default();
         }
         let s2 = self.sigma * self.sigma;
@@ -75,9 +76,14 @@ impl OrenNayar {
                 RoughDiffuse { direct, interreflected: 0.0 }
             }
             OrenNayarForm::Full { interreflection } => {
-                let sines = (flat_l.length_squared() * flat_e.length_squared()).sqrt();
-                let cos_dphi = if sines > 0.0 { (flat_dot / sines).clamp(-1.0, 1.0) } else { 0.0 };
-                let (alpha, beta) = (acos(n_dot_l.min(n_dot_e)), acos(n_dot_l.max(n_dot_e)));
+                let (sin_l, sin_e) = (flat_l.length(), flat_e.length());
+                let cos_dphi = if sin_l * sin_e > 0.0 {
+                    (flat_dot / (sin_l * sin_e)).clamp(-1.0, 1.0)
+                } else {
+                    0.0 // face on there is no azimuth, and nothing depends on it
+                };
+                let alpha = Angle { sin: sin_l.max(sin_e), cos: n_dot_l.min(n_dot_e) };
+                let beta = Angle { sin: sin_l.min(sin_e), cos: n_dot_l.max(n_dot_e) };
                 let full = full(s2, alpha, beta, cos_dphi);
                 let interreflected = if interreflection { full.interreflected } else { 0.0 };
                 RoughDiffuse { interreflected, ..full }
@@ -86,22 +92,29 @@ impl OrenNayar {
     }
 }
 
+/// An angle to the normal, both of whose functions are known better than itself.
+#[derive(Clone, Copy)]
+struct Angle {
+    sin: f32,
+    cos: f32,
+}
+
 /// The paper's equations 30–33, of σ², the larger angle α and the smaller β to the normal.
 ///
 /// `L₁ = ρ/π (C₁ + cos Δφ C₂ tan β + (1 − |cos Δφ|) C₃ tan((α+β)/2))`,
 /// `L₂ = 0.17 ρ²/π σ²/(σ²+0.13) (1 − cos Δφ (2β/π)²)`.
-fn full(s2: f32, alpha: f32, beta: f32, cos_dphi: f32) -> RoughDiffuse {
-    let far = 2.0 * beta / PI;
-    let bend = if cos_dphi >= 0.0 { 0.0 } else { far * far * far };
-    let both = 4.0 * FRAC_1_PI * FRAC_1_PI * alpha * beta;
+fn full(s2: f32, alpha: Angle, beta: Angle, cos_dphi: f32) -> RoughDiffuse {
+    let [share_a, share_b] = [alpha, beta].map(|angle| 2.0 * FRAC_1_PI * acos(angle.cos));
+    let tan_beta = beta.sin / beta.cos;
+    let tan_half_sum = (alpha.sin + beta.sin) / (alpha.cos + beta.cos);
+    let bend = if cos_dphi >= 0.0 { 0.0 } else { share_b * share_b * share_b };
+    let both = share_a * share_b; // 4αβ/π²
     let c1 = 1.0 - 0.5 * s2 / (s2 + 0.33);
-    let c2 = 0.45 * s2 / (s2 + 0.09) * (sin(alpha) - bend);
+    let c2 = 0.45 * s2 / (s2 + 0.09) * (alpha.sin - bend);
     let c3 = 0.125 * s2 / (s2 + 0.09) * (both * both);
     RoughDiffuse {
-        direct: c1
-            + cos_dphi * c2 * tan(beta)
-            + (1.0 - cos_dphi.abs()) * c3 * tan(0.5 * (alpha + beta)),
-        interreflected: 0.17 * s2 / (s2 + 0.13) * (1.0 - cos_dphi * far * far),
+        direct: c1 + cos_dphi * c2 * tan_beta + (1.0 - cos_dphi.abs()) * c3 * tan_half_sum,
+        interreflected: 0.17 * s2 / (s2 + 0.13) * (1.0 - cos_dphi * share_b * share_b),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::f32::consts::PI;
 
-use super::{Incident, NARROWEST, Terms};
+use super::{HORIZON, Incident, NARROWEST, Terms};
 use crate::math::{Dir3, Frame, exp};
 
 /// `k_d (L·N) C_d + k_s π f (N·L) C_s`, with f the anisotropic Gaussian lobe.
@@ -51,7 +51,7 @@ impl Ward {
     /// weights and cosine; 0 where L or E is not above the horizon.
     pub fn brdf(&self, n: Dir3, tangent: Dir3, l: Dir3, e: Dir3) -> f32 {
         let (n_dot_l, n_dot_e) = (n.dot(l), n.dot(e));
-        if n_dot_l <= 0.0 || n_dot_e <= 0.0 {
+        if n_dot_l <= HORIZON || n_dot_e <= HORIZON {
             return 0.0;
         }
         let Some(h) = l.halfway(e) else { return 0.0 };
@@ -68,7 +68,7 @@ impl Ward {
             }
         };
         let gaussian = exp(-(slope_x * slope_x + slope_y * slope_y));
-        // At the horizon both may underflow.
+        // Facets that steep are none, and the spread may underflow as well.
         if gaussian > 0.0 && spread > 0.0 {
             gaussian / (4.0 * PI * a_x * a_y * spread)
         } else {

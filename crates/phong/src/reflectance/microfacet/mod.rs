@@ -11,7 +11,7 @@ pub use distribution::{Distribution, Lean};
 pub use shadowing::Shadowing;
 
 use super::fresnel::Fresnel;
-use super::{Incident, Terms};
+use super::{HORIZON, Incident, Terms};
 use crate::math::Dir3;
 
 /// `k_d (L·N) C_d + k_s π f (N·L) C_s`, with `f = D G F / (4 (N·L)(N·E))`.
@@ -52,8 +52,7 @@ impl Microfacet {
     /// is not above the horizon.
     pub fn brdf(&self, n: Dir3, l: Dir3, e: Dir3) -> Rgb {
         let [lean_l, lean_e] = [l, e].map(|v| Lean::of(n, v));
-        let denominator = 4.0 * lean_l.cos * lean_e.cos;
-        if lean_l.cos <= 0.0 || lean_e.cos <= 0.0 || denominator == 0.0 {
+        if lean_l.cos <= HORIZON || lean_e.cos <= HORIZON {
             return Rgb::BLACK;
         }
         let Some(h) = l.halfway(e) else { return Rgb::BLACK };
@@ -61,7 +60,7 @@ impl Microfacet {
         let d = self.distribution.density(lean_h);
         let g = self.shadowing.visible(self.distribution, [lean_l, lean_e, lean_h], e_dot_h);
         let f = self.fresnel.at(e_dot_h);
-        d * g / denominator * f
+        d * g / (4.0 * lean_l.cos * lean_e.cos) * f
     }
 }
 
