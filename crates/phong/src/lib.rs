@@ -2,7 +2,7 @@
 //!
 //! Rooms, lowest storey first; a room imports only rooms below it: `math`; `reflectance`,
 //! `sampling`, `filter`; `material`, `light`, `camera`; `compile`, `interaction`; `integrator`,
-//! `witness`; `film`, `aov`, `render`; `image`, `explain`, `compare`; `figures`, `fit`.
+//! `witness`; `film`, `aov`, `render`; `image`, `part`, `explain`, `compare`; `figures`, `fit`.
 
 pub mod aov;
 pub mod camera;
@@ -16,6 +16,7 @@ pub mod interaction;
 pub mod light;
 pub mod material;
 pub mod math;
+pub mod part;
 pub mod reflectance;
 pub mod render;
 pub mod sampling;

@@ -1,0 +1,105 @@
+//! One number for all that a scene's pixels depend on.
+
+use std::fmt::{self, Write as _};
+
+use crc32fast::Hasher;
+use glam::{Vec2, Vec3};
+use phong_scene::{Group, Material, Mesh, Object, Place, Points, Scene, Shape};
+
+/// A checksum of everything in a scene but its picture settings and the places it was written at:
+/// the same scene has the same one on every machine, whatever its files are called.
+pub fn fingerprint(scene: &Scene) -> u32 {
+    // Taken apart without `..`: what a scene gains must be thought of here.
+    let Scene { image: _, camera, ambient, lights, materials, objects, groups } = scene;
+    let mut sum = Sum(Hasher::new());
+    sum.debug(&(camera, ambient));
+    for light in lights {
+        let mut light = light.clone();
+        light.place = Place::default();
+        sum.debug(&light);
+    }
+    for material in materials {
+        sum.debug(&Material { place: Place::default(), ..material.clone() });
+    }
+    sum.objects(objects);
+    for Group { name, objects } in groups {
+        sum.debug(name);
+        sum.objects(objects);
+    }
+    sum.0.finalize()
+}
+
+struct Sum(Hasher);
+
+impl fmt::Write for Sum {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        self.0.update(text.as_bytes());
+        Ok(())
+    }
+}
+
+impl Sum {
+    /// Numbers print with all their digits, so this is exact; it is for what is small.
+    fn debug(&mut self, value: &impl fmt::Debug) {
+        // Nothing in `write_str` fails.
+        let _ = write!(self, "{value:?};");
+    }
+
+    fn objects(&mut self, objects: &[Object]) {
+        self.debug(&objects.len());
+        for Object { name: _, shape, material, transform, place: _ } in objects {
+            self.debug(&(material, transform));
+            match shape {
+                Shape::Mesh(mesh) => self.mesh(mesh),
+                Shape::Points(points) => self.points(points),
+                small => self.debug(small),
+            }
+        }
+    }
+
+    fn mesh(&mut self, mesh: &Mesh) {
+        let Mesh {
+            origin,
+            positions,
+            indices,
+            normals,
+            normal_indices,
+            uvs,
+            uv_indices,
+            colors,
+            face_materials,
+        } = mesh;
+        self.debug(origin);
+        self.words(positions.iter().flat_map(Vec3::to_array).map(f32::to_bits));
+        self.words(indices.iter().flatten().copied());
+        self.words(normals.iter().flat_map(Vec3::to_array).map(f32::to_bits));
+        self.words(normal_indices.iter().flatten().copied());
+        self.words(uvs.iter().flat_map(Vec2::to_array).map(f32::to_bits));
+        self.words(uv_indices.iter().flatten().copied());
+        self.words(colors.iter().flat_map(|c| c.to_array()).map(f32::to_bits));
+        self.words(face_materials.iter().copied());
+    }
+
+    fn points(&mut self, points: &Points) {
+        let Points { origin, spheres, colors } = points;
+        self.debug(origin);
+        self.words(spheres.iter().flatten().map(|v| v.to_bits()));
+        self.words(colors.iter().flat_map(|c| c.to_array()).map(f32::to_bits));
+    }
+
+    /// Bulk numbers, then how many there were, so that neighbouring arrays cannot trade places.
+    fn words(&mut self, words: impl Iterator<Item = u32>) {
+        let mut buffer = Vec::with_capacity(64 << 10);
+        let mut count = 0_u64;
+        for word in words {
+            buffer.extend_from_slice(&word.to_le_bytes());
+            count += 1;
+            if buffer.len() == buffer.capacity() {
+                self.0.update(&buffer);
+                buffer.clear();
+            }
+        }
+        self.0.update(&buffer);
+        self.0.update(&count.to_le_bytes());
+    }
+}

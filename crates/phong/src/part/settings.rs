@@ -1,0 +1,163 @@
+//! What picture a part is of, as lines of text.
+
+use std::fmt::Write as _;
+
+use crate::aov::Aov;
+use crate::film::{Film, LayerKind, Window};
+use crate::image::{Bits, Encoding};
+use crate::reflectance::Terms;
+use crate::render::RenderOptions;
+
+/// What picture a part is of, and how it is to be written when it is whole.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// Width and height of the full picture, pixels.
+    pub size: [u32; 2],
+    /// The part of it that is rendered at all.
+    pub window: Window,
+    /// Edge of a tile in pixels.
+    pub tile: u32,
+    /// The layers of the film.
+    pub layers: Vec<LayerKind>,
+    /// `(i, n)`: which share of how many. `None`: all of it, a checkpoint.
+    pub share: Option<(u32, u32)>,
+    /// How the whole is to be written.
+    pub encoding: Encoding,
+    /// All else that the pixels depend on: names and values, for comparison only.
+    pub picture: Vec<(String, String)>,
+}
+
+impl Settings {
+    /// The settings of a rendering. `scene` is the scene's [`fingerprint`](super::fingerprint).
+    pub fn of(scene: u32, options: &RenderOptions, encoding: Encoding) -> Self {
+        let RenderOptions {
+            size,
+            window,
+            share,
+            samples,
+            seed,
+            depth,
+            shadows,
+            filter,
+            background,
+            tile,
+            terms: _,
+            aovs: _,
+        } = options;
+        let picture = [
+            ("scene", format!("{scene:08x}")),
+            ("samples", samples.to_string()),
+            ("seed", seed.to_string()),
+            ("depth", depth.to_string()),
+            ("shadows", shadows.to_string()),
+            ("filter", format!("{filter:?}")),
+            ("background", format!("{background:?}")),
+        ];
+        Self {
+            size: *size,
+            window: *window,
+            tile: *tile,
+            layers: options.layers(),
+            share: *share,
+            encoding,
+            picture: picture.map(|(name, value)| (name.to_owned(), value)).to_vec(),
+        }
+    }
+
+    /// A film of this picture without any tile.
+    pub fn empty_film(&self) -> Film {
+        Film::new(self.size, self.window, self.tile, &self.layers)
+    }
+
+    /// Bytes that the film takes.
+    pub fn film_bytes(&self) -> u64 {
+        let values: usize = self.layers.iter().map(|kind| kind.channels()).sum();
+        let pixels = u64::from(self.window.width()) * u64::from(self.window.height());
+        pixels.saturating_mul(4 * values as u64)
+    }
+
+    /// The first thing in which two parts are not of one picture: its name, here and there.
+    pub fn difference(&self, other: &Self) -> Option<(String, String, String)> {
+        let (here, there) = (self.lines(), other.lines());
+        let name_there = |name: &str| there.iter().find(|(n, _)| n == name);
+        let differs = |(name, value): (String, String)| {
+            let other = name_there(&name).map_or("nothing", |(_, value)| value).to_owned();
+            (other != value && name != "share").then_some((name, value, other))
+        };
+        here.into_iter().find_map(differs)
+    }
+
+    pub(super) fn to_text(&self) -> String {
+        self.lines().into_iter().fold(String::new(), |mut text, (name, value)| {
+            let _ = writeln!(text, "{name} {value}");
+            text
+        })
+    }
+
+    fn lines(&self) -> Vec<(String, String)> {
+        let Window { x0, y0, x1, y1 } = self.window;
+        let layers: Vec<_> = self.layers.iter().map(|kind| kind.name()).collect();
+        let share = self.share.map_or("none".to_owned(), |(i, n)| format!("{i}/{n}"));
+        let bits = match self.encoding.bits {
+            Bits::Eight => "8",
+            Bits::Sixteen => "16",
+        };
+        let fixed = [
+            ("size", format!("{}x{}", self.size[0], self.size[1])),
+            ("crop", format!("{x0},{y0},{x1},{y1}")),
+            ("tile", self.tile.to_string()),
+            ("layers", layers.join(",")),
+            ("share", share),
+            ("bits", bits.to_owned()),
+            ("linear", self.encoding.linear.to_string()),
+            ("exposure", self.encoding.exposure.to_string()),
+        ];
+        let fixed = fixed.into_iter().map(|(name, value)| (name.to_owned(), value));
+        fixed.chain(self.picture.iter().cloned()).collect()
+    }
+
+    /// Settings from their text, and the number of tiles that follow; `None` where it is none.
+    pub(super) fn from_text(text: &str) -> Option<(Self, usize)> {
+        let mut lines = text.lines().map(|line| line.split_once(' '));
+        let mut next = |name: &str| lines.next()?.filter(|(n, _)| *n == name).map(|(_, v)| v);
+        let (width, height) = next("size")?.split_once('x')?;
+        let size = [width.parse().ok()?, height.parse().ok()?];
+        let corners = next("crop")?.split(',').map(|n| n.parse().ok());
+        let corners = <[u32; 4]>::try_from(corners.collect::<Option<Vec<_>>>()?).ok()?;
+        let [x0, y0, x1, y1] = corners;
+        let window = Window { x0, y0, x1, y1 };
+        let tile = next("tile")?.parse().ok().filter(|&edge| edge > 0)?;
+        let layers = next("layers")?.split(',').map(layer_of).collect::<Option<_>>()?;
+        let share = match next("share")? {
+            "none" => None,
+            share => {
+                let (i, n) = share.split_once('/')?;
+                Some((i.parse().ok()?, n.parse().ok()?)).filter(|(i, n): &(u32, u32)| i < n)
+            }
+        };
+        let bits = match next("bits")? {
+            "8" => Bits::Eight,
+            "16" => Bits::Sixteen,
+            _ => return None,
+        };
+        let linear = next("linear")?.parse().ok()?;
+        let exposure = next("exposure")?.parse().ok()?;
+        let mut picture: Vec<(String, String)> = lines
+            .map(|line| line.map(|(name, value)| (name.to_owned(), value.to_owned())))
+            .collect::<Option<_>>()?;
+        let (_, done) = picture.pop().filter(|(name, _)| name == "done")?;
+        let encoding = Encoding { bits, linear, exposure };
+        let settings = Self { size, window, tile, layers, share, encoding, picture };
+        let fits = window.fits(size);
+        fits.then_some((settings, done.parse().ok()?))
+    }
+}
+
+fn layer_of(name: &str) -> Option<LayerKind> {
+    let term = || Terms::NAMES.iter().position(|term| *term == name).map(LayerKind::Term);
+    match name {
+        "picture" => Some(LayerKind::Picture),
+        "alpha" => Some(LayerKind::Alpha),
+        _ => term().or_else(|| Aov::from_name(name).map(LayerKind::Aov)),
+    }
+}

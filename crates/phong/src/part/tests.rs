@@ -1,0 +1,169 @@
+use phong_scene::{Image, Rgb};
+
+use super::*;
+use crate::aov::Aov;
+use crate::film::Window;
+use crate::image::{Bits, Encoding};
+use crate::render::RenderOptions;
+
+const NO_LIMIT: u64 = u64::MAX;
+
+fn settings(share: Option<(u32, u32)>) -> Settings {
+    let image = Image { size: [40, 30], ..Image::default() };
+    let options = RenderOptions {
+        window: Window { x0: 1, y0: 2, x1: 40, y1: 30 },
+        share,
+        terms: true,
+        aovs: vec![Aov::Depth, Aov::Normal],
+        ..RenderOptions::of(&image)
+    };
+    let encoding = Encoding { bits: Bits::Sixteen, linear: true, exposure: -0.1 };
+    Settings::of(0x1234_abcd, &options, encoding)
+}
+
+/// A part with its tiles done, every value told apart from every other.
+fn part(share: Option<(u32, u32)>) -> Part {
+    let settings = settings(share);
+    let mut film = settings.empty_film();
+    let mine = |tile: usize| share.is_none_or(|(i, n)| tile as u32 % n == i);
+    for tile in (0..film.tiles()).filter(|&tile| mine(tile)) {
+        let mut values = film.take(tile);
+        for (i, v) in values.iter_mut().flatten().enumerate() {
+            *v = 1.0 / (1 + i + 1000 * tile) as f32;
+        }
+        film.put(tile, &values);
+    }
+    Part { settings, film }
+}
+
+fn bytes(part: &Part) -> Vec<u8> {
+    let mut out = Vec::new();
+    write(&part.film, &part.settings, &mut out).unwrap();
+    out
+}
+
+fn read(mut bytes: &[u8]) -> Result<Part, PartError> {
+    Part::read(&mut bytes, NO_LIMIT)
+}
+
+fn join(parts: &[(&str, Part)]) -> Result<(Film, Settings), JoinError> {
+    let mut join = Join::default();
+    for (name, part) in parts {
+        join.add(name, part.clone())?;
+    }
+    join.finish()
+}
+
+#[test]
+fn what_is_written_is_read() {
+    for share in [None, Some((1, 4))] {
+        let part = part(share);
+        assert_eq!(read(&bytes(&part)).unwrap(), part);
+    }
+}
+
+#[test]
+fn every_cut_is_noticed() {
+    let whole = bytes(&part(Some((0, 3))));
+    for end in (0..whole.len()).step_by(7).chain([whole.len() - 1]) {
+        assert!(read(&whole[..end]).is_err(), "cut at {end} of {}", whole.len());
+    }
+    assert!(read(&[&whole[..], b"x"].concat()).is_err());
+}
+
+#[test]
+fn every_flipped_bit_is_noticed() {
+    let whole = bytes(&part(Some((0, 6))));
+    for at in (0..400).chain((400..whole.len()).step_by(13)) {
+        let mut bent = whole.clone();
+        bent[at] ^= 1 << (at % 8);
+        assert!(read(&bent).is_err(), "bit {} of byte {at}", at % 8);
+    }
+}
+
+#[test]
+fn other_files_and_other_versions_are_told_apart() {
+    assert!(matches!(read(b"\x89PNG\r\n\x1a\n0123456789"), Err(PartError::Unknown)));
+    assert!(matches!(read(b""), Err(PartError::Unknown)));
+    let newer = String::from_utf8_lossy(MAGIC.as_bytes()).replace('1', "2");
+    assert!(matches!(read(newer.as_bytes()), Err(PartError::Version)));
+}
+
+#[test]
+fn a_picture_larger_than_allowed_is_refused() {
+    let part = part(None);
+    let limit = part.settings.film_bytes() - 1;
+    let result = Part::read(&mut &*bytes(&part), limit);
+    assert!(matches!(result, Err(PartError::TooLarge { .. })));
+}
+
+#[test]
+fn shares_in_any_order_are_the_whole() {
+    let whole = part(None).film;
+    let parts = [2, 0, 1].map(|i| ("x", part(Some((i, 3)))));
+    assert_eq!(join(&parts).unwrap().0, whole);
+}
+
+#[test]
+fn a_missing_share_is_named() {
+    let parts = [("a", part(Some((0, 3)))), ("b", part(Some((2, 3))))];
+    let error = join(&parts).unwrap_err();
+    assert_eq!(error.to_string(), "the picture is not complete: share 1/3 is missing");
+    assert_eq!(join(&[]).unwrap_err(), JoinError::Empty);
+}
+
+#[test]
+fn the_same_share_twice_is_named() {
+    let parts = [("a", part(Some((0, 2)))), ("b", part(Some((1, 2)))), ("c", part(Some((1, 2))))];
+    let error = join(&parts).unwrap_err();
+    assert_eq!(error.to_string(), "b and c overlap: both are share 1/2");
+}
+
+#[test]
+fn parts_of_different_pictures_say_how_they_differ() {
+    let a = part(Some((0, 2)));
+    let mut b = part(Some((1, 2)));
+    b.settings.picture[1].1 = "64".to_owned();
+    let error = join(&[("a", a), ("b", b)]).unwrap_err();
+    let told = "a and b are of different pictures: samples is 16 and 64";
+    assert_eq!(error.to_string(), told);
+}
+
+#[test]
+fn a_scene_is_known_by_what_it_holds_and_not_by_where_it_was_written() {
+    use glam::{DAffine3, DVec3};
+    use phong_scene::{Camera, CameraKind, Material, MaterialId, Object, Place, Scene, Shape};
+    let object = Object {
+        name: "sphere 1".to_owned(),
+        shape: Shape::Sphere { center: DVec3::ZERO, radius: 1.0 },
+        material: MaterialId(0),
+        transform: DAffine3::IDENTITY,
+        place: Place::default(),
+    };
+    let scene = Scene {
+        image: Image::default(),
+        camera: Camera {
+            kind: CameraKind::Perspective { fov: 40.0 },
+            eye: DVec3::Z,
+            look_at: DVec3::ZERO,
+            up: DVec3::Y,
+            aperture: 0.0,
+            focus: None,
+        },
+        ambient: Rgb::WHITE,
+        lights: Vec::new(),
+        materials: vec![Material::default()],
+        objects: vec![object],
+        groups: Vec::new(),
+    };
+    let mut elsewhere = scene.clone();
+    elsewhere.objects[0].place = Place { file: "b.toml".into(), line: 7, column: 1 };
+    elsewhere.image.samples = 1;
+    assert_eq!(fingerprint(&elsewhere), fingerprint(&scene));
+    let mut other = scene.clone();
+    other.objects[0].shape = Shape::Sphere { center: DVec3::ZERO, radius: 1.000_000_1 };
+    assert_ne!(fingerprint(&other), fingerprint(&scene));
+    let mut other = scene.clone();
+    other.materials[0].shininess = 33.0;
+    assert_ne!(fingerprint(&other), fingerprint(&scene));
+}
