@@ -5,6 +5,7 @@
 //! the explanation's picture is the film's pixel, bit for bit.
 
 mod json;
+mod latex;
 mod record;
 mod text;
 
