@@ -146,19 +146,19 @@ fn at(place: &Place) -> Value {
     if place.file.is_empty() { Value::Null } else { json!(place.to_string()) }
 }
 
-fn rgb(color: Rgb) -> Value {
+pub(super) fn rgb(color: Rgb) -> Value {
     list(&color.to_array())
 }
 
-fn dir(dir: Dir3) -> Value {
+pub(super) fn dir(dir: Dir3) -> Value {
     list(&dir.to_array())
 }
 
-fn list(values: &[f32]) -> Value {
+pub(super) fn list(values: &[f32]) -> Value {
     values.iter().copied().map(number).collect()
 }
 
 /// The shortest decimal that is this f32: as an f64 it would show digits that nobody computed.
-fn number(v: f32) -> Value {
+pub(super) fn number(v: f32) -> Value {
     v.to_string().parse::<f64>().map_or(Value::Null, |v| json!(v))
 }

@@ -4,6 +4,7 @@
 //! [`Witness`](crate::witness::Witness), and the samples are summed by the film's own sums. So
 //! the explanation's picture is the film's pixel, bit for bit.
 
+pub mod html;
 mod json;
 mod latex;
 mod record;
@@ -76,12 +77,16 @@ pub enum End {
 pub struct Surface {
     /// The object's name.
     pub object: String,
+    /// Its number in the compiled scene, from 0.
+    pub object_number: u32,
     /// Where it was written.
     pub at: Place,
     /// The face of a mesh, or the point of a cloud, from 0; `None` where the object is one thing.
     pub element: Option<u32>,
     /// The material, as it was written.
     pub material: phong_scene::Material,
+    /// Its number in the scene, from 0.
+    pub material_number: u32,
     /// Distance along the ray.
     pub t: f32,
     /// The point, in the world.

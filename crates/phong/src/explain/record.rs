@@ -90,9 +90,11 @@ impl Witness for Recorder<'_> {
         let material = &scene.written_materials()[at.material as usize];
         let surface = Surface {
             object: record.name.clone(),
+            object_number: at.object,
             at: record.place.clone(),
             element: scene.element(at.prim),
             material: material.clone(),
+            material_number: at.material,
             t: at.t,
             p: scene.to_world(at.p),
             ng: at.ng,
