@@ -4,7 +4,13 @@ use std::ops::Range;
 
 use thiserror::Error;
 
-use crate::{Geometry, Hit, Ray, Surface, reference, surface};
+use crate::{
+    Geometry, Hit, Level, Ray, Surface,
+    build::{self, Tree},
+    level::Token,
+    reference, surface,
+    traverse::{Any, Best, Closest, Meter, with_stack},
+};
 
 /// A built hierarchy, with the geometry it was built from.
 #[derive(Debug)]
@@ -12,6 +18,10 @@ pub struct Bvh {
     geometry: Vec<Geometry>,
     /// First primitive number of each geometry, and the total at the end.
     first: Vec<u32>,
+    /// Indices of the planes among the geometry: they have no bounds and stay out of the tree.
+    planes: Vec<usize>,
+    tree: Tree,
+    token: Token,
 }
 
 /// How to build.
@@ -19,6 +29,8 @@ pub struct Bvh {
 pub struct BuildOptions {
     /// How much time to spend on a better tree.
     pub preset: Preset,
+    /// The vector instructions to use, by building and tracing. None: the fastest of this machine.
+    pub level: Option<Level>,
 }
 
 /// How much time to spend on a better tree. The preset never changes a result.
@@ -41,6 +53,9 @@ pub enum BuildError {
     /// More primitives than numbers: the caller's fault.
     #[error("{0} primitives are more than the {max} that can be numbered", max = u32::MAX - 1)]
     TooMany(u64),
+    /// The level asked for is not one of this machine: the caller's fault.
+    #[error("this machine has no level {0:?}; leave the level out to use its fastest")]
+    NoSuchLevel(Level),
 }
 
 /// What tracing one ray cost. Differs between SIMD levels and presets.
@@ -67,18 +82,25 @@ impl Bvh {
     /// Builds a hierarchy in the current rayon pool; the result does not depend on its size.
     ///
     /// # Errors
-    /// [`BuildError::TooMany`].
-    pub fn build(geometry: Vec<Geometry>, _options: BuildOptions) -> Result<Self, BuildError> {
-        let mut first = vec![0];
-        let mut total = 0_u64;
-        for g in &geometry {
-            total += g.len() as u64;
-            if total >= u64::from(u32::MAX) {
-                return Err(BuildError::TooMany(geometry.iter().map(|g| g.len() as u64).sum()));
-            }
-            first.push(total as u32);
+    /// [`BuildError::TooMany`], [`BuildError::NoSuchLevel`].
+    pub fn build(geometry: Vec<Geometry>, options: BuildOptions) -> Result<Self, BuildError> {
+        let level = options.level.unwrap_or_else(Level::detect);
+        let token = Token::of(level).ok_or(BuildError::NoSuchLevel(level))?;
+        let total: u64 = geometry.iter().map(|g| g.len() as u64).sum();
+        if total >= u64::from(u32::MAX) {
+            return Err(BuildError::TooMany(total));
         }
-        Ok(Self { geometry, first })
+        let mut first = vec![0];
+        let mut end = 0;
+        first.extend(geometry.iter().map(|g| {
+            end += g.len() as u32;
+            end
+        }));
+        let planes = (0..geometry.len()).filter(|&i| matches!(geometry[i], Geometry::Plane(_)));
+        let planes = planes.collect();
+        let tree = build::build(&geometry, &first, options.preset, token)
+            .map_err(|build::TooLarge| BuildError::TooMany(total))?;
+        Ok(Self { geometry, first, planes, tree, token })
     }
 
     /// The geometry, in the order it was given.
@@ -102,12 +124,36 @@ impl Bvh {
 
     /// The closest hit with `t_min < t < t_max`; at equal `t` the lowest primitive number.
     pub fn intersect(&self, ray: &Ray) -> Hit {
-        reference::intersect(self, ray)
+        self.closest(ray, &mut ())
+    }
+
+    fn closest(&self, ray: &Ray, meter: &mut impl Meter) -> Hit {
+        let mut best = Best::new(ray.t_max);
+        for &index in &self.planes {
+            meter.primitive();
+            if let Geometry::Plane(plane) = &self.geometry[index]
+                && let Some(t) = plane.intersect(ray)
+            {
+                best.offer(t, self.first[index], 0.0, 0.0);
+            }
+        }
+        with_stack(|stack| {
+            let (tree, geometry) = (&self.tree, self.geometry.as_slice());
+            self.token.run(Closest { tree, geometry, ray, best, stack, meter })
+        })
+        .hit()
     }
 
     /// Whether anything is hit with `t_min < t < t_max`.
     pub fn occluded(&self, ray: &Ray) -> bool {
-        self.intersect(ray).is_some()
+        let plane = |&index: &usize| match &self.geometry[index] {
+            Geometry::Plane(plane) => plane.intersect(ray).is_some(),
+            _ => false,
+        };
+        self.planes.iter().any(plane)
+            || with_stack(|stack| {
+                self.token.run(Any { tree: &self.tree, geometry: &self.geometry, ray, stack })
+            })
     }
 
     /// [`Bvh::intersect`] for each ray of a bundle: the same bits, faster where the rays are
@@ -135,7 +181,13 @@ impl Bvh {
 
     /// [`Bvh::intersect`] with what it cost.
     pub fn intersect_counted(&self, ray: &Ray) -> (Hit, Cost) {
-        (self.intersect(ray), Cost::default())
+        let mut cost = Cost::default();
+        (self.closest(ray, &mut cost), cost)
+    }
+
+    /// [`Bvh::intersect`] by trying every primitive: the same bits, slowly. The oracle of tests.
+    pub fn intersect_brute_force(&self, ray: &Ray) -> Hit {
+        reference::intersect(self, ray)
     }
 
     /// The surface at a hit of `ray`.
@@ -149,6 +201,12 @@ impl Bvh {
     /// What it is made of.
     pub fn stats(&self) -> Stats {
         let primitives = u64::from(self.first[self.geometry.len()]);
-        Stats { primitives, ..Stats::default() }
+        Stats { primitives, nodes: self.tree.nodes, bytes: self.tree.bytes() }
+    }
+
+    /// The tree.
+    #[cfg(test)]
+    pub(crate) fn tree(&self) -> &Tree {
+        &self.tree
     }
 }

@@ -1,4 +1,7 @@
 //! What rays can meet. All numbers are finite; the caller has checked them.
+//!
+//! Triangles and spheres are met in f32: beyond coordinates of 10¹⁸, or below sizes of 10⁻¹⁸, their
+//! squares overflow or vanish, and hits are missed or made up; nothing worse happens.
 
 use glam::{DAffine3, DVec3, Vec3};
 

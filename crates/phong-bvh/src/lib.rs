@@ -6,14 +6,23 @@
 //!
 //! Results are the same bits on every SIMD level, for every build preset and thread count.
 
+mod aabb;
+mod build;
 mod bvh;
 mod geometry;
+mod level;
+mod node8;
 mod primitives;
 mod ray;
 mod reference;
 mod surface;
+mod traverse;
+#[cfg(test)]
+mod validate;
 
+pub use aabb::Aabb;
 pub use bvh::{BuildError, BuildOptions, Bvh, Cost, Preset, Stats};
 pub use geometry::{Canonical, Geometry, Plane, Solid, Sphere};
+pub use level::Level;
 pub use ray::{Hit, Ray, Surface};
 pub use surface::offset_origin;

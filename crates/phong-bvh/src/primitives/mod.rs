@@ -20,4 +20,6 @@ mod disc;
 pub(crate) mod ellipsoid;
 pub(crate) mod plane;
 pub(crate) mod solid;
+pub(crate) mod sphere;
 mod torus;
+pub(crate) mod triangle;

@@ -1,0 +1,100 @@
+//! The primitives as the builder sees them: a box, and whose it is.
+
+use fearless_simd::{Simd, f32x8, prelude::*};
+use glam::Vec3;
+use rayon::prelude::*;
+
+use crate::{Aabb, Geometry, primitives::triangle};
+
+/// A primitive's box as `[−lo, index within its geometry, hi, index of the geometry]`.
+///
+/// With the lower corner negated, the union of two boxes is one maximum of eight lanes. The two
+/// index lanes hold bits of integers, and nothing reads what a maximum makes of them.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(32))]
+pub(super) struct Boxed(pub(super) [f32; 8]);
+
+/// The union of nothing, in the same form.
+pub(super) const EMPTY: [f32; 8] = [f32::NEG_INFINITY; 8];
+
+impl Boxed {
+    const UNUSED: u32 = u32::MAX;
+
+    fn new(bounds: Aabb, local: usize, geometry: usize) -> Self {
+        let Aabb { lo, hi } = bounds.padded();
+        let [local, geometry] = [local, geometry].map(|index| f32::from_bits(index as u32));
+        Self([-lo.x, -lo.y, -lo.z, local, hi.x, hi.y, hi.z, geometry])
+    }
+
+    /// Index within its geometry.
+    pub(super) fn local(&self) -> usize {
+        self.0[3].to_bits() as usize
+    }
+
+    /// Index of its geometry.
+    pub(super) fn geometry(&self) -> usize {
+        self.0[7].to_bits() as usize
+    }
+
+    /// The eight lanes.
+    #[inline(always)]
+    pub(super) fn lanes<S: Simd>(&self, simd: S) -> f32x8<S> {
+        f32x8::load_array_ref(simd, &self.0)
+    }
+}
+
+/// Half the surface of a box given as `[−lo, _, hi, _]`; 0 for the empty one.
+#[inline(always)]
+pub(super) fn half_area(b: &[f32; 8]) -> f32 {
+    let [x, y, z] = [(b[0] + b[4]).max(0.0), (b[1] + b[5]).max(0.0), (b[2] + b[6]).max(0.0)];
+    x * y + y * z + z * x
+}
+
+/// A box of every primitive that has bounds and can be hit: not planes, not degenerate triangles.
+pub(super) fn of(geometry: &[Geometry]) -> Vec<Boxed> {
+    const CHUNK: usize = 1 << 14;
+    let bounded = |g: &Geometry| if matches!(g, Geometry::Plane(_)) { 0 } else { g.len() };
+    let unused = Boxed([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, f32::from_bits(Boxed::UNUSED)]);
+    let mut boxes = vec![unused; geometry.iter().map(bounded).sum()];
+    let mut rest = boxes.as_mut_slice();
+    for (index, geometry) in geometry.iter().enumerate() {
+        let (mine, others) = rest.split_at_mut(bounded(geometry));
+        rest = others;
+        if mine.len() < CHUNK {
+            fill(mine, 0, geometry, index);
+        } else {
+            let chunks = mine.par_chunks_mut(CHUNK).enumerate();
+            chunks.for_each(|(chunk, mine)| fill(mine, chunk * CHUNK, geometry, index));
+        }
+    }
+    boxes.retain(|b| b.0[7].to_bits() != Boxed::UNUSED);
+    boxes
+}
+
+/// The boxes of the primitives of one geometry from number `first` on.
+fn fill(boxes: &mut [Boxed], first: usize, geometry: &Geometry, index: usize) {
+    match geometry {
+        Geometry::Triangles { positions, indices } => {
+            for (local, slot) in (first..).zip(boxes) {
+                let corners @ [a, b, c] = indices[local].map(|i| positions[i as usize]);
+                if !triangle::is_degenerate(corners) {
+                    let bounds = Aabb { lo: a.min(b).min(c), hi: a.max(b).max(c) };
+                    *slot = Boxed::new(bounds, local, index);
+                }
+            }
+        }
+        Geometry::Spheres(spheres) => {
+            for (local, slot) in (first..).zip(boxes) {
+                let sphere = spheres[local];
+                let radius = Vec3::splat(sphere.radius);
+                let bounds = Aabb { lo: sphere.center - radius, hi: sphere.center + radius };
+                *slot = Boxed::new(bounds, local, index);
+            }
+        }
+        Geometry::Solid(solid) => {
+            let [lo, hi] = solid.bounds();
+            boxes[0] = Boxed::new(Aabb { lo, hi }, 0, index);
+        }
+        Geometry::Plane(_) => {}
+    }
+}

@@ -1,0 +1,269 @@
+//! Building: boxes are cut in two until eight or fewer are left, and up to eight runs become the
+//! children of one node.
+//!
+//! Large runs are cut by all threads together, and runs of at most [`TASK`] boxes become a subtree
+//! each, by any thread. No decision depends on how many threads there are, so neither does the tree.
+
+mod boxes;
+mod emit;
+mod sah;
+
+use fearless_simd::Simd;
+use rayon::prelude::*;
+
+use self::{
+    boxes::Boxed,
+    emit::{Emitter, node},
+    sah::{Bins, Run},
+};
+use crate::{
+    Geometry,
+    bvh::Preset,
+    level::{Kernel, Token},
+    node8::{MAX_ROWS, Ref, Row},
+};
+
+/// Boxes of a run that one thread makes a subtree of.
+const TASK: usize = 1 << 14;
+/// Cuts from the root after which runs are halved, so that no arrangement makes a tree deep.
+const DEEP: u32 = 64;
+/// The most children or primitives side by side.
+const WIDTH: usize = 8;
+
+/// A tree.
+#[derive(Debug, Default)]
+pub(crate) struct Tree {
+    /// Nodes and leaves.
+    pub(crate) rows: Vec<Row>,
+    /// Where to begin; none: there is nothing.
+    pub(crate) root: Option<Ref>,
+    /// Inner nodes.
+    pub(crate) nodes: u64,
+}
+
+/// More rows than can be referred to.
+#[derive(Debug)]
+pub(crate) struct TooLarge;
+
+/// Builds the tree over all geometry that has bounds.
+pub(crate) fn build(
+    geometry: &[Geometry],
+    first: &[u32],
+    preset: Preset,
+    token: Token,
+) -> Result<Tree, TooLarge> {
+    let mut boxes = boxes::of(geometry);
+    if boxes.is_empty() {
+        return Ok(Tree::default());
+    }
+    let builder = Builder { geometry, first, bins: bins(preset), token };
+    let run = builder.bounds(&boxes);
+    let root = builder.grow(&mut boxes, run, 0);
+    drop(boxes);
+    let mut tree = Tree::default();
+    let size = root.size();
+    if size > MAX_ROWS {
+        return Err(TooLarge);
+    }
+    tree.rows.reserve_exact(size);
+    tree.root = Some(root.lay(&mut tree));
+    Ok(tree)
+}
+
+/// Bins along each axis.
+fn bins(preset: Preset) -> usize {
+    match preset {
+        Preset::Fast => 8,
+        Preset::Balanced | Preset::Compact => 16,
+        Preset::Best => 32,
+    }
+}
+
+/// A part of the tree, before all is laid end to end.
+enum Part {
+    /// A node over parts.
+    Node(Vec<(Part, [f32; 8])>),
+    /// A subtree that is already rows.
+    Rows { rows: Vec<Row>, root: Ref, nodes: u64 },
+}
+
+impl Part {
+    /// How many rows it is.
+    fn size(&self) -> usize {
+        match self {
+            Self::Node(children) => {
+                crate::node8::NODE + children.iter().map(|(part, _)| part.size()).sum::<usize>()
+            }
+            Self::Rows { rows, .. } => rows.len(),
+        }
+    }
+
+    /// Appends it to the tree, and says where its root is.
+    fn lay(self, tree: &mut Tree) -> Ref {
+        let at = tree.rows.len();
+        match self {
+            Self::Node(children) => {
+                tree.nodes += 1;
+                tree.rows.resize(at + crate::node8::NODE, Row::ZERO);
+                let mut laid = Vec::with_capacity(WIDTH);
+                for (part, bounds) in children {
+                    let child = part.lay(tree);
+                    laid.push((Ref(child.0 - at as u32), bounds));
+                }
+                tree.rows[at..at + crate::node8::NODE].copy_from_slice(&node(&laid));
+                Ref::node(at)
+            }
+            Self::Rows { rows, root, nodes } => {
+                tree.nodes += nodes;
+                tree.rows.extend_from_slice(&rows);
+                root.from(at)
+            }
+        }
+    }
+}
+
+/// What every step of building needs.
+#[derive(Clone, Copy)]
+struct Builder<'a> {
+    geometry: &'a [Geometry],
+    first: &'a [u32],
+    bins: usize,
+    token: Token,
+}
+
+impl Builder<'_> {
+    /// The bounds of all boxes.
+    fn bounds(&self, boxes: &[Boxed]) -> Run {
+        let runs = boxes.par_chunks(TASK).map(|boxes| self.token.run(Bound { boxes }));
+        let none = || Run { len: 0, bounds: boxes::EMPTY, centers: boxes::EMPTY };
+        runs.reduce(none, |a, b| a.union(&b))
+    }
+
+    /// The part over `boxes`, `depth` cuts below the root.
+    fn grow(&self, boxes: &mut [Boxed], run: Run, depth: u32) -> Part {
+        if boxes.len() <= TASK {
+            return self.token.run(Subtree { builder: self, boxes, run, depth });
+        }
+        let mut children = vec![(boxes, run, depth)];
+        while children.len() < WIDTH {
+            let widest = (0..children.len())
+                .filter(|&i| children[i].0.len() > TASK)
+                .max_by(|&i, &j| children[i].1.half_area().total_cmp(&children[j].1.half_area()));
+            let Some(widest) = widest else { break };
+            let (boxes, run, depth) = children.swap_remove(widest);
+            let [left, right] = self.cut(boxes, &run, depth);
+            let (front, back) = boxes.split_at_mut(left.len);
+            children.push((front, left, depth + 1));
+            children.push((back, right, depth + 1));
+        }
+        let grown = children.into_par_iter().map(|(boxes, run, depth)| {
+            let bounds = run.bounds;
+            (self.grow(boxes, run, depth), bounds)
+        });
+        Part::Node(grown.collect())
+    }
+
+    /// Cuts a large run in two, binning with all threads.
+    fn cut(&self, boxes: &mut [Boxed], run: &Run, depth: u32) -> [Run; 2] {
+        let sorted =
+            boxes.par_chunks(TASK).map(|boxes| self.token.run(Bin { boxes, run, bins: self.bins }));
+        let bins = sorted.reduce_with(|a, b| a.merge(&b));
+        self.token.run(Apply { bins: bins.as_ref(), boxes, depth })
+    }
+}
+
+/// Cuts a run in two where it costs least, or in halves where there is no such place.
+#[inline(always)]
+fn cut<S: Simd>(simd: S, bins: Option<&Bins>, boxes: &mut [Boxed], depth: u32) -> [Run; 2] {
+    let found = bins.filter(|_| depth < DEEP).and_then(|bins| Some((bins, bins.cheapest(simd)?)));
+    if let Some((bins, cut)) = found {
+        return bins.apply(simd, boxes, cut);
+    }
+    // All centres are one, or nearly: halves, at a multiple of the width so that leaves are full.
+    let half = (boxes.len() / 2).next_multiple_of(WIDTH).min(boxes.len() - 1);
+    let (front, back) = boxes.split_at(half);
+    [Run::of(simd, front), Run::of(simd, back)]
+}
+
+/// [`Run::of`] at a level.
+struct Bound<'a> {
+    boxes: &'a [Boxed],
+}
+
+impl Kernel for Bound<'_> {
+    type Output = Run;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> Run {
+        Run::of(simd, self.boxes)
+    }
+}
+
+/// [`Bins::of`] at a level.
+struct Bin<'a> {
+    boxes: &'a [Boxed],
+    run: &'a Run,
+    bins: usize,
+}
+
+impl Kernel for Bin<'_> {
+    type Output = Bins;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> Bins {
+        Bins::of(simd, self.boxes, self.run, self.bins)
+    }
+}
+
+/// [`cut`] at a level.
+struct Apply<'a> {
+    bins: Option<&'a Bins>,
+    boxes: &'a mut [Boxed],
+    depth: u32,
+}
+
+impl Kernel for Apply<'_> {
+    type Output = [Run; 2];
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> [Run; 2] {
+        cut(simd, self.bins, self.boxes, self.depth)
+    }
+}
+
+/// A whole subtree at a level.
+struct Subtree<'a, 'b> {
+    builder: &'a Builder<'a>,
+    boxes: &'b mut [Boxed],
+    run: Run,
+    depth: u32,
+}
+
+impl Kernel for Subtree<'_, '_> {
+    type Output = Part;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> Part {
+        let Builder { geometry, first, bins, .. } = *self.builder;
+        let mut emitter = Emitter { geometry, first, bins, rows: Vec::new(), nodes: 0 };
+        let root = emitter.emit(simd, self.boxes, &self.run, self.depth);
+        Part::Rows { rows: emitter.rows, root, nodes: emitter.nodes }
+    }
+}
+
+impl Tree {
+    /// The bytes of nodes and leaves.
+    pub(crate) fn bytes(&self) -> u64 {
+        size_of_val(self.rows.as_slice()) as u64
+    }
+
+    /// The bounds of a child, as stored.
+    #[cfg(test)]
+    pub(crate) fn child_bounds(node: &[Row; crate::node8::NODE], child: usize) -> crate::Aabb {
+        let at = |row: usize| node[row].0[child];
+        crate::Aabb {
+            lo: glam::Vec3::new(at(0), at(2), at(4)),
+            hi: glam::Vec3::new(at(1), at(3), at(5)),
+        }
+    }
+}

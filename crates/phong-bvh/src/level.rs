@@ -1,0 +1,106 @@
+//! Which vector instructions the kernels use: picked once, or forced by a test.
+
+use fearless_simd::{Fallback, Level as Cpu, Simd};
+
+/// A set of vector instructions. Every level gives the same bits; they differ in speed alone.
+///
+/// Levels stop at AVX2: a level is offered where it can be tested.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    /// No vector instructions beyond what the compiler makes of plain code.
+    Scalar,
+    /// x86 with SSE4.2: four lanes.
+    Sse42,
+    /// x86 with AVX2: eight lanes.
+    Avx2,
+    /// 64-bit ARM: four lanes.
+    Neon,
+}
+
+impl Level {
+    /// Every level, slowest first.
+    pub const ALL: [Self; 4] = [Self::Scalar, Self::Sse42, Self::Avx2, Self::Neon];
+
+    /// The fastest level of this machine.
+    pub fn detect() -> Self {
+        let fastest = Self::ALL.into_iter().rev().find(|level| level.is_available());
+        fastest.unwrap_or(Self::Scalar)
+    }
+
+    /// Whether this machine has it.
+    pub fn is_available(self) -> bool {
+        Token::of(self).is_some()
+    }
+}
+
+/// The proof that the machine has a level, which the vector types ask for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Token {
+    Scalar(Fallback),
+    #[cfg(target_arch = "x86_64")]
+    Sse42(fearless_simd::x86::Sse4_2),
+    #[cfg(target_arch = "x86_64")]
+    Avx2(fearless_simd::x86::Avx2),
+    #[cfg(target_arch = "aarch64")]
+    Neon(fearless_simd::aarch64::Neon),
+}
+
+impl Token {
+    /// The proof for `level`, or none where the machine lacks it.
+    pub(crate) fn of(level: Level) -> Option<Self> {
+        match level {
+            Level::Scalar => match Cpu::fallback() {
+                Cpu::Fallback(token) => Some(Self::Scalar(token)),
+                _ => None,
+            },
+            #[cfg(target_arch = "x86_64")]
+            Level::Sse42 => Cpu::new().as_sse4_2().map(Self::Sse42),
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx2 => Cpu::new().as_avx2().map(Self::Avx2),
+            #[cfg(target_arch = "aarch64")]
+            Level::Neon => Cpu::new().as_neon().map(Self::Neon),
+            _ => None,
+        }
+    }
+
+    /// Runs `kernel` compiled for this level.
+    #[inline(always)]
+    pub(crate) fn run<K: Kernel>(self, kernel: K) -> K::Output {
+        #[inline(always)]
+        fn at<S: Simd, K: Kernel>(simd: S, kernel: K) -> K::Output {
+            simd.vectorize(
+                #[inline(always)]
+                || kernel.run(simd),
+            )
+        }
+        match self {
+            Self::Scalar(simd) => at(simd, kernel),
+            #[cfg(target_arch = "x86_64")]
+            Self::Sse42(simd) => at(simd, kernel),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2(simd) => at(simd, kernel),
+            #[cfg(target_arch = "aarch64")]
+            Self::Neon(simd) => at(simd, kernel),
+        }
+    }
+}
+
+/// What runs at a level: a closure that is generic over the level.
+pub(crate) trait Kernel {
+    /// What it returns.
+    type Output;
+
+    /// Runs. Must be `#[inline(always)]`, as must all it calls that is vector code.
+    fn run<S: Simd>(self, simd: S) -> Self::Output;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_scalar_level_is_everywhere_and_the_detected_one_is_available() {
+        assert!(Level::Scalar.is_available());
+        assert!(Level::detect().is_available());
+    }
+}

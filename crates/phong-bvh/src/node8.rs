@@ -1,0 +1,107 @@
+//! The tree in memory: rows of eight numbers.
+//!
+//! | | rows | each row holds, for eight children or primitives |
+//! |---|---|---|
+//! | node | 8 | lo x, hi x, lo y, hi y, lo z, hi z, [`Ref`], – |
+//! | triangles | 10 | x, y, z of the three corners; number |
+//! | spheres | 5 | x, y, z, radius; number |
+//! | solid | 1 | number, index of its geometry, – |
+//!
+//! A [`Ref`] counts rows from the node that holds it, and children follow their parent. So a subtree
+//! is a run of rows that means the same wherever it is put: subtrees are built apart, by as
+//! many threads as there are, and then laid end to end.
+
+/// Eight numbers: f32, or the bits of u32.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(32))]
+pub(crate) struct Row(pub(crate) [f32; 8]);
+
+impl Row {
+    /// Eight zeros.
+    pub(crate) const ZERO: Self = Self([0.0; 8]);
+
+    /// The bits of one number.
+    #[inline(always)]
+    pub(crate) fn bits(&self, lane: usize) -> u32 {
+        self.0[lane & 7].to_bits()
+    }
+}
+
+/// The rows of a node.
+pub(crate) const NODE: usize = 8;
+/// The row of a node that holds the [`Ref`]s.
+pub(crate) const REFS: usize = 6;
+
+/// The most rows a tree can have.
+pub(crate) const MAX_ROWS: usize = 1 << 29;
+
+const LEAF: u32 = 1 << 31;
+const KIND: u32 = 3 << 29;
+const ROW: u32 = (1 << 29) - 1;
+
+/// What a child is, and where: bit 31 leaf, bits 30–29 kind of leaf, bits 28–0 row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Ref(pub(crate) u32);
+
+/// The kinds of leaves: a block of up to eight primitives, or one solid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Triangles,
+    Spheres,
+    Solid,
+}
+
+impl Ref {
+    /// An inner node.
+    pub(crate) const fn node(row: usize) -> Self {
+        Self(row as u32)
+    }
+
+    /// A leaf.
+    pub(crate) const fn leaf(kind: Kind, row: usize) -> Self {
+        Self(row as u32 | LEAF | (kind as u32) << 29)
+    }
+
+    /// The row it begins at.
+    #[inline(always)]
+    pub(crate) const fn row(self) -> usize {
+        (self.0 & ROW) as usize
+    }
+
+    /// What kind of leaf it is, or none: a node.
+    #[inline(always)]
+    pub(crate) const fn kind(self) -> Option<Kind> {
+        match (self.0 & LEAF, (self.0 & KIND) >> 29) {
+            (0, _) => None,
+            (_, 0) => Some(Kind::Triangles),
+            (_, 1) => Some(Kind::Spheres),
+            _ => Some(Kind::Solid),
+        }
+    }
+
+    /// The same, of a row counted from `row`.
+    #[inline(always)]
+    pub(crate) const fn from(self, row: usize) -> Self {
+        Self(self.0 + row as u32)
+    }
+}
+
+/// `N` rows from `row` on.
+#[inline(always)]
+pub(crate) fn rows<const N: usize>(rows: &[Row], row: usize) -> &[Row; N] {
+    rows[row..row + N].try_into().expect("a range of N has length N")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_reference_keeps_its_kind_and_counts_from_anywhere() {
+        for kind in [Kind::Triangles, Kind::Spheres, Kind::Solid] {
+            let leaf = Ref::leaf(kind, 7).from(100);
+            assert_eq!((leaf.kind(), leaf.row()), (Some(kind), 107));
+        }
+        assert_eq!((Ref::node(3).from(4).kind(), Ref::node(3).from(4).row()), (None, 7));
+    }
+}

@@ -1,0 +1,121 @@
+//! Whether a tree is sound: children lie inside parents, and every primitive is in it once.
+
+use glam::Vec3;
+
+use crate::{
+    Aabb, Bvh, Geometry,
+    build::Tree,
+    node8::{Kind, NODE, REFS, Ref, Row, rows},
+    primitives::{sphere, triangle},
+};
+
+/// What is wrong with the tree of `bvh`, or nothing.
+pub(crate) fn validate(bvh: &Bvh) -> Result<(), String> {
+    let mut seen = vec![false; bvh.stats().primitives as usize];
+    if let Some(root) = bvh.tree().root {
+        let everything = Aabb { lo: Vec3::NEG_INFINITY, hi: Vec3::INFINITY };
+        visit(bvh, root, &everything, &mut seen)?;
+    }
+    for (index, geometry) in bvh.geometry().iter().enumerate() {
+        for (local, prim) in bvh.primitives(index).enumerate() {
+            if seen[prim as usize] != belongs(geometry, local) {
+                return Err(format!(
+                    "primitive {prim} of geometry {index} is missing or should be"
+                ));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Whether a primitive belongs into a tree.
+fn belongs(geometry: &Geometry, local: usize) -> bool {
+    match geometry {
+        Geometry::Triangles { positions, indices } => {
+            !triangle::is_degenerate(indices[local].map(|i| positions[i as usize]))
+        }
+        Geometry::Spheres(_) | Geometry::Solid(_) => true,
+        Geometry::Plane(_) => false,
+    }
+}
+
+fn visit(bvh: &Bvh, at: Ref, bounds: &Aabb, seen: &mut [bool]) -> Result<(), String> {
+    let tree = &bvh.tree().rows;
+    let mut found = |prim: u32, inside: Aabb| {
+        if prim == u32::MAX {
+            return Ok(());
+        }
+        if std::mem::replace(&mut seen[prim as usize], true) {
+            return Err(format!("primitive {prim} is there twice"));
+        }
+        bounds.contains(&inside).then_some(()).ok_or(format!("primitive {prim} is outside its box"))
+    };
+    match at.kind() {
+        None => {
+            let node: &[Row; NODE] = rows(tree, at.row());
+            for child in 0..8 {
+                let inside = Tree::child_bounds(node, child);
+                if inside.is_empty() {
+                    continue;
+                }
+                if !bounds.contains(&inside) {
+                    return Err(format!("child {child} of the node at {} is outside", at.row()));
+                }
+                visit(bvh, Ref(node[REFS].bits(child)).from(at.row()), &inside, seen)?;
+            }
+        }
+        Some(Kind::Triangles) => {
+            let block = rows(tree, at.row());
+            for lane in 0..8 {
+                let [a, b, c] = triangle::corners(block, lane).map(Vec3::from);
+                let inside = Aabb { lo: a.min(b).min(c), hi: a.max(b).max(c) };
+                found(block[triangle::BLOCK - 1].bits(lane), inside)?;
+            }
+        }
+        Some(Kind::Spheres) => {
+            let block: &[Row; sphere::BLOCK] = rows(tree, at.row());
+            for lane in 0..8 {
+                let [x, y, z, r] = [0, 1, 2, 3].map(|row| block[row].0[lane]);
+                let (center, radius) = (Vec3::new(x, y, z), Vec3::splat(r));
+                let inside = Aabb { lo: center - radius, hi: center + radius };
+                found(block[sphere::BLOCK - 1].bits(lane), inside)?;
+            }
+        }
+        Some(Kind::Solid) => {
+            let row = tree[at.row()];
+            if let Geometry::Solid(solid) = &bvh.geometry()[row.bits(1) as usize] {
+                let [lo, hi] = solid.bounds();
+                found(row.bits(0), Aabb { lo, hi })?;
+            }
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{BuildOptions, Preset, Sphere};
+
+    #[test]
+    fn every_preset_makes_a_sound_tree_of_mixed_geometry() {
+        let at = |i: u32| Vec3::new((i % 17) as f32, (i % 29) as f32, (i / 500) as f32 * 0.1);
+        let spheres = (0..40_000).map(|i| Sphere { center: at(i), radius: 0.3 }).collect();
+        let positions: Vec<Vec3> = (0..9_000).map(|i| at(i) * 1.7).collect();
+        let indices = (0..8_000).map(|i| [i, i + 1, i + 17]).collect();
+        let geometry = vec![
+            Geometry::Spheres(spheres),
+            Geometry::Triangles { positions, indices },
+            Geometry::Plane(crate::Plane { point: glam::DVec3::ZERO, normal: glam::DVec3::Z }),
+            Geometry::Solid(crate::Solid {
+                shape: crate::Canonical::Box,
+                to_world: glam::DAffine3::IDENTITY,
+            }),
+        ];
+        for preset in [Preset::Fast, Preset::Balanced, Preset::Best, Preset::Compact] {
+            let options = BuildOptions { preset, level: None };
+            let bvh = Bvh::build(geometry.clone(), options).unwrap();
+            assert_eq!(validate(&bvh), Ok(()), "{preset:?}");
+        }
+    }
+}

@@ -1,0 +1,294 @@
+//! The hierarchy finds what brute force finds, bit for bit: every level, every preset, every thread
+//! count, and whatever the input.
+
+use glam::{DAffine3, DVec3, Vec3};
+use phong_bvh::{
+    BuildOptions, Bvh, Canonical, Geometry, Hit, Level, Plane, Preset, Ray, Solid, Sphere,
+};
+use proptest::prelude::*;
+
+/// A stream of numbers from a seed.
+struct Numbers(u64);
+
+impl Numbers {
+    fn bits(&mut self) -> u64 {
+        // SplitMix64.
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let x = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        x ^ (x >> 31)
+    }
+
+    fn below(&mut self, n: usize) -> usize {
+        (self.bits() % n as u64) as usize
+    }
+
+    /// In [−1, 1); now and then on a coarse lattice, so that things coincide and align.
+    fn signed(&mut self) -> f32 {
+        if self.below(3) == 0 {
+            self.below(5) as f32 / 2.0 - 1.0
+        } else {
+            (self.bits() >> 40) as f32 / 8_388_608.0 - 1.0
+        }
+    }
+
+    fn point(&mut self) -> Vec3 {
+        Vec3::new(self.signed(), self.signed(), self.signed())
+    }
+
+    /// A factor, from tiny to huge.
+    fn scale(&mut self) -> f32 {
+        [1e-6, 1e-3, 0.1, 1.0, 1.0, 30.0, 1e4, 1e9][self.below(8)]
+    }
+}
+
+/// Some triangles, spheres, planes and solids: many coincide, are flat, thin, huge or tiny.
+fn geometry(numbers: &mut Numbers, most: usize) -> Vec<Geometry> {
+    let mut all = Vec::new();
+    for _ in 0..numbers.below(4) {
+        let (scale, at) = (numbers.scale(), numbers.point());
+        let size = numbers.scale().min(1.0);
+        let count = numbers.below(most);
+        all.push(match numbers.below(8) {
+            0..=3 => {
+                let vertices = 3 + count / 2;
+                let positions = (0..vertices).map(|_| scale * (at + size * numbers.point()));
+                let positions = positions.collect();
+                let indices = (0..count)
+                    .map(|_| [0; 3].map(|_: u32| numbers.below(vertices) as u32))
+                    .collect();
+                Geometry::Triangles { positions, indices }
+            }
+            4 | 5 => Geometry::Spheres(
+                (0..count)
+                    .map(|_| Sphere {
+                        center: scale * (at + size * numbers.point()),
+                        radius: scale * size * (0.01 + numbers.signed().abs()),
+                    })
+                    .collect(),
+            ),
+            6 => Geometry::Plane(Plane {
+                point: numbers.point().as_dvec3(),
+                normal: [DVec3::X, DVec3::Y, DVec3::new(0.6, 0.0, 0.8)][numbers.below(3)],
+            }),
+            _ => Geometry::Solid(Solid {
+                shape: [
+                    Canonical::Sphere,
+                    Canonical::Disc,
+                    Canonical::Box,
+                    Canonical::Cylinder { capped: true },
+                    Canonical::Cone { radius: 1.0, radius_to: 0.0, capped: false },
+                    Canonical::Torus { tube: 0.25 },
+                ][numbers.below(6)],
+                to_world: DAffine3::from_scale_rotation_translation(
+                    DVec3::splat(0.5),
+                    glam::DQuat::from_rotation_x(f64::from(numbers.signed())),
+                    numbers.point().as_dvec3(),
+                ),
+            }),
+        });
+    }
+    all
+}
+
+/// A ray towards a corner, a middle or nothing in particular; often along an axis or within a plane.
+fn ray(numbers: &mut Numbers, geometry: &[Geometry]) -> Ray {
+    let target = match geometry.get(numbers.below(geometry.len() + 1)) {
+        Some(Geometry::Triangles { positions, indices }) if !indices.is_empty() => {
+            let [a, b, c] = indices[numbers.below(indices.len())].map(|i| positions[i as usize]);
+            [a, (a + b) / 2.0, a.lerp(b, 0.25), (a + b + c) / 3.0][numbers.below(4)]
+        }
+        Some(Geometry::Spheres(spheres)) if !spheres.is_empty() => {
+            let sphere = spheres[numbers.below(spheres.len())];
+            sphere.center + sphere.radius * [Vec3::ZERO, Vec3::Y, numbers.point()][numbers.below(3)]
+        }
+        _ => numbers.point(),
+    };
+    let axis = [Vec3::X, Vec3::NEG_Y, Vec3::Z, Vec3::new(-0.0, 1.0, 0.0)][numbers.below(4)];
+    let away = match numbers.below(4) {
+        0 => axis,
+        1 => Vec3::new(numbers.signed(), numbers.signed(), 0.0),
+        _ => numbers.point(),
+    };
+    let mut dir = away.try_normalize().unwrap_or(Vec3::X);
+    if numbers.below(20) == 0 {
+        dir = Vec3::new(f32::MIN_POSITIVE / 4.0, 0.6, -0.8);
+    }
+    let distance = [0.0, 1e-3, 1.0, 3.0, 1000.0][numbers.below(5)] * numbers.scale().max(1.0);
+    let mut ray = Ray::new(target - distance * dir, dir);
+    match numbers.below(6) {
+        0 => ray.t_max = distance,
+        1 => ray.t_min = distance,
+        2 => ray.t_max = distance * 1.5,
+        _ => {}
+    }
+    ray
+}
+
+fn bits(hit: Hit) -> [u32; 4] {
+    [hit.t.to_bits(), hit.prim, hit.u.to_bits(), hit.v.to_bits()]
+}
+
+fn levels() -> impl Iterator<Item = Level> {
+    Level::ALL.into_iter().filter(|level| level.is_available())
+}
+
+const PRESETS: [Preset; 4] = [Preset::Fast, Preset::Balanced, Preset::Best, Preset::Compact];
+
+fn agrees_with_brute_force(geometry: &[Geometry], rays: &[Ray]) {
+    let mut expected: Option<Vec<Hit>> = None;
+    for (level, preset) in levels()
+        .zip(PRESETS.iter().cycle())
+        .chain(PRESETS.iter().map(|preset| (Level::detect(), preset)))
+    {
+        let options = BuildOptions { preset: *preset, level: Some(level) };
+        let bvh = Bvh::build(geometry.to_vec(), options).expect("a tree");
+        let expected = expected
+            .get_or_insert_with(|| rays.iter().map(|r| bvh.intersect_brute_force(r)).collect());
+        let mut hits = vec![Hit::NONE; rays.len()];
+        let mut blocked = vec![false; rays.len()];
+        bvh.intersect_bundle(rays, &mut hits);
+        bvh.occluded_bundle(rays, &mut blocked);
+        for (i, (ray, want)) in rays.iter().zip(expected).enumerate() {
+            let one = bvh.intersect(ray);
+            assert_eq!(bits(one), bits(*want), "{ray:?} {one:?} {want:?} {options:?}");
+            assert_eq!(bits(hits[i]), bits(*want), "bundle: {ray:?} {options:?}");
+            assert_eq!(bits(bvh.intersect_counted(ray).0), bits(*want), "counted");
+            assert_eq!(bvh.occluded(ray), want.is_some(), "occluded: {ray:?} {options:?}");
+            assert_eq!(blocked[i], want.is_some(), "occluded bundle: {ray:?} {options:?}");
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+
+    #[test]
+    fn the_hierarchy_finds_what_brute_force_finds(seed: u64) {
+        let mut numbers = Numbers(seed);
+        let geometry = geometry(&mut numbers, 120);
+        let rays: Vec<Ray> = (0..70).map(|_| ray(&mut numbers, &geometry)).collect();
+        agrees_with_brute_force(&geometry, &rays);
+    }
+
+    #[test]
+    fn a_coherent_bundle_finds_what_brute_force_finds(seed: u64) {
+        let mut numbers = Numbers(seed);
+        let geometry = geometry(&mut numbers, 400);
+        let (first, spread) = (ray(&mut numbers, &geometry), numbers.scale().min(0.3));
+        let same_origin = numbers.below(2) == 0;
+        let rays: Vec<Ray> = (0..256).map(|_| {
+            let dir = (first.dir + spread * numbers.point()).try_normalize().unwrap_or(Vec3::Y);
+            let away = spread * numbers.point();
+            let origin = if same_origin { first.origin } else { first.origin + away };
+            Ray { origin, dir, ..first }
+        }).collect();
+        agrees_with_brute_force(&geometry, &rays);
+    }
+}
+
+#[test]
+fn nothing_is_hit_where_there_is_nothing() {
+    let ray = Ray::new(Vec3::ZERO, Vec3::X);
+    let flat = Geometry::Triangles { positions: vec![Vec3::X; 3], indices: vec![[0, 1, 2]; 40] };
+    for geometry in [
+        vec![],
+        vec![Geometry::Spheres(vec![])],
+        vec![Geometry::Triangles { positions: vec![], indices: vec![] }],
+        vec![flat],
+    ] {
+        let bvh = Bvh::build(geometry, BuildOptions::default()).unwrap();
+        assert_eq!(bvh.intersect(&ray), Hit::NONE);
+        assert!(!bvh.occluded(&ray));
+    }
+}
+
+#[test]
+fn of_thousands_of_coincident_primitives_the_lowest_number_is_hit() {
+    let corners =
+        vec![Vec3::new(-1.0, -1.0, 2.0), Vec3::new(1.0, -1.0, 2.0), Vec3::new(0.0, 1.0, 2.0)];
+    let indices = vec![[0, 1, 2]; 20_000];
+    let spheres = vec![Sphere { center: Vec3::new(0.0, 0.0, 3.0), radius: 1.0 }; 20_000];
+    let geometry =
+        vec![Geometry::Spheres(spheres), Geometry::Triangles { positions: corners, indices }];
+    let ray = Ray::new(Vec3::ZERO, Vec3::Z);
+    for preset in PRESETS {
+        let bvh = Bvh::build(geometry.clone(), BuildOptions { preset, level: None }).unwrap();
+        let hit = bvh.intersect(&ray);
+        assert_eq!((hit.t, hit.prim), (2.0, 0), "sphere and triangle at one distance");
+        assert!(bvh.occluded(&ray));
+    }
+}
+
+#[test]
+fn a_thousand_sizes_from_tiny_to_huge_make_no_tree_too_deep() {
+    let sphere = |i: i32| {
+        let size = libm::exp2f(i as f32 * 0.14 - 50.0);
+        Sphere { center: Vec3::new(size, 0.0, size), radius: 0.4 * size }
+    };
+    let geometry = vec![Geometry::Spheres((0..700).map(sphere).collect())];
+    let rays: Vec<Ray> = (0..700)
+        .map(|i| {
+            let Sphere { center, radius } = sphere(i);
+            Ray::new(center - 3.0 * radius * Vec3::Y, Vec3::Y)
+        })
+        .collect();
+    agrees_with_brute_force(&geometry, &rays);
+}
+
+#[test]
+fn a_tree_does_not_depend_on_the_number_of_threads() {
+    let mut numbers = Numbers(7);
+    let center = |numbers: &mut Numbers| 100.0 * numbers.point();
+    let spheres: Vec<Sphere> =
+        (0..60_000).map(|_| Sphere { center: center(&mut numbers), radius: 0.5 }).collect();
+    let rays: Vec<Ray> = (0..300)
+        .map(|_| Ray::new(center(&mut numbers), numbers.point().try_normalize().unwrap_or(Vec3::X)))
+        .collect();
+    let costs = [1, 2, 7].map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let geometry = vec![Geometry::Spheres(spheres.clone())];
+        let bvh = pool.install(|| Bvh::build(geometry, BuildOptions::default())).unwrap();
+        let counted: Vec<_> = rays.iter().map(|ray| bvh.intersect_counted(ray)).collect();
+        (bvh.stats(), counted)
+    });
+    assert!(costs.iter().all(|cost| *cost == costs[0]));
+}
+
+#[test]
+fn no_ray_slips_between_the_triangles_of_a_closed_mesh() {
+    // An octahedron, split four times: rays from within towards corners, edges and middles.
+    let mut triangles = Vec::new();
+    for s in 0..8 {
+        let sign = |bit: u32| if s >> bit & 1 == 0 { 1.0 } else { -1.0 };
+        triangles.push([Vec3::X * sign(0), Vec3::Y * sign(1), Vec3::Z * sign(2)]);
+    }
+    for _ in 0..4 {
+        let split = |[a, b, c]: [Vec3; 3]| {
+            let [d, e, f] = [(a, b), (b, c), (c, a)].map(|(p, q)| ((p + q) * 0.7).normalize_or(p));
+            [[a, d, f], [d, b, e], [f, e, c], [d, e, f]]
+        };
+        triangles = triangles.into_iter().flat_map(split).collect();
+    }
+    let positions: Vec<Vec3> = triangles.iter().flatten().copied().collect();
+    let indices: Vec<[u32; 3]> =
+        (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    let bvh = Bvh::build(vec![Geometry::Triangles { positions, indices }], BuildOptions::default())
+        .unwrap();
+    for origin in [Vec3::ZERO, Vec3::new(0.1, 0.2, -0.3), Vec3::new(0.0, 0.5, 0.0)] {
+        for [a, b, c] in &triangles {
+            for target in [*a, (a + b) / 2.0, a.lerp(*c, 0.3), (b + c) / 2.0, (a + b + c) / 3.0] {
+                let dir = (target - origin).normalize_or(Vec3::X);
+                assert!(bvh.intersect(&Ray::new(origin, dir)).is_some(), "{origin} {target}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_level_this_machine_lacks_is_an_error() {
+    let missing = Level::ALL.into_iter().find(|level| !level.is_available()).unwrap();
+    let options = BuildOptions { level: Some(missing), ..BuildOptions::default() };
+    let error = Bvh::build(vec![], options).unwrap_err();
+    assert!(error.to_string().contains("leave the level out"), "{error}");
+}
