@@ -3,4 +3,6 @@
 pub(crate) mod model;
 pub(crate) mod mtl;
 pub(crate) mod obj;
+mod origin;
 pub(crate) mod ply;
+mod text;

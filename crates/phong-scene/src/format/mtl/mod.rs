@@ -1,1 +1,246 @@
-//! Wavefront MTL.
+//! Wavefront MTL: the materials of OBJ files.
+//!
+//! Read by the specification of 1995 (Alias|Wavefront, version 4.2). The model is Blinn and
+//! Phong's `(N·H)^Ns` in [`Dialect::Mtl`](crate::Dialect::Mtl): `Ka Ia + Σ (Kd (N·L) + Ks (N·H)^Ns) I`.
+//! Colours are linear; g and b default to r.
+//!
+//! | statement | becomes |
+//! |---|---|
+//! | `Kd` | `color`, with `k_d` 1; without it 0.8 |
+//! | `Ka` | `ambient_color`, with `k_a` 1; without it `k_a` is 0.1 of the diffuse colour |
+//! | `Ks`, `Ns` | `specular_color`, with `k_s` 1 if it is not black; `shininess`, 32 without it |
+//! | `d`, `Tr` | `Tr` is not in the specification: 1 − d, unless `d` stands beside it |
+//! | `Ni` | `ior` |
+//! | `Tf` | the filter of `transmission`; white without it |
+//! | `illum` | see below; without it 2 where there is a highlight, else 1 |
+//!
+//! | `illum` | becomes |
+//! |---|---|
+//! | 0 | as 1, with a warning: unlit colour is not there |
+//! | 1 | Lambert; a `Ks` keeps its highlight, with a warning (the specification's own example has one) |
+//! | 2, 8 | the model above |
+//! | 3 | and `reflection` = Ks |
+//! | 4 | as 3; what `d` lets through is seen as below |
+//! | 5 | as 3 with `fresnel`: the mirror ray is weighted by the exact dielectric reflectance of `Ni` |
+//! | 6 | as 3, and `transmission` = (1 − Ks) Tf, refracted by `Ni`, without `fresnel` |
+//! | 7 | as 6 with `fresnel` |
+//! | 9 | as 2; what `d` lets through is seen as below |
+//! | 10 | as 2, with a warning: a matte that shows shadows alone is not there |
+//!
+//! **`d` below 1** mixes the surface with what is behind it: all local terms are weighted by d,
+//! and, unless `illum` 6 or 7 refract, `transmission` = (1 − d) Tf goes straight on (`ior` 1).
+//!
+//! Textures, emission, `-halo`, spectral and XYZ colours and the physically based extension are
+//! not drawn; each is a warning that names it.
+
+mod draft;
+mod texture;
+
+use std::sync::Arc;
+
+use self::draft::Draft;
+use super::text::{Cursor, Decimal, Findings, Piece, blame, read_text, whole};
+use crate::{Diagnostic, Limits, Material, Rgb, Source};
+
+/// Reads an MTL file: its materials in order, those before an error included.
+pub(crate) fn read_mtl(
+    path: &str,
+    source: &dyn Source,
+    limits: &Limits,
+    out: &mut Vec<Diagnostic>,
+) -> Vec<Material> {
+    let file: Arc<str> = path.into();
+    let text = match read_text(source, path, limits) {
+        Ok(text) => text,
+        Err(error) => {
+            out.push(Diagnostic::warning(format!("cannot be read: {error}"), whole(&file)));
+            return Vec::new();
+        }
+    };
+    let mut reader = Reader { file: &file, drafts: Vec::new(), findings: Findings::default() };
+    let piece = Piece { text: &text, offset: 0, line: 1, rows: 0 };
+    let mut cursor = Cursor::new(piece, false);
+    while !cursor.is_done() {
+        if cursor.more() {
+            reader.statement(&mut cursor);
+        }
+        cursor.next_line();
+    }
+    let Reader { drafts, mut findings, .. } = reader;
+    let mut materials: Vec<Material> = Vec::new();
+    for draft in drafts {
+        let material = draft.finish(&mut findings);
+        if let Some(first) = materials.iter().find(|m| m.name == material.name) {
+            let (line, place) = (first.place.line, material.place.clone());
+            let name = &material.name;
+            findings.warning(
+                "materials defined before",
+                || crate::Span { place, ..crate::Span::default() },
+                || format!("the material `{name}` is defined on line {line}, which counts"),
+            );
+        } else {
+            materials.push(material);
+        }
+    }
+    findings.tell(&file, out);
+    materials
+}
+
+struct Reader<'a> {
+    file: &'a Arc<str>,
+    drafts: Vec<Draft>,
+    findings: Findings,
+}
+
+impl Reader<'_> {
+    fn statement(&mut self, cursor: &mut Cursor<'_>) {
+        let here = cursor.clone();
+        let keyword = cursor.word();
+        if keyword == b"newmtl" {
+            let name = String::from_utf8_lossy(cursor.rest_of_line()).into_owned();
+            self.drafts.push(Draft::new(name, here.here(self.file)));
+            return;
+        }
+        if self.drafts.is_empty() {
+            self.warn(&here, "statements before any `newmtl`", |word| {
+                format!("`{word}` stands before any `newmtl`")
+            });
+            return;
+        }
+        match keyword {
+            b"Ka" => self.color(cursor, |draft| &mut draft.ambient),
+            b"Kd" => self.color(cursor, |draft| &mut draft.diffuse),
+            b"Ks" => self.color(cursor, |draft| &mut draft.specular),
+            b"Tf" => self.color(cursor, |draft| &mut draft.filter),
+            b"Ke" => {
+                let mut emission = None;
+                self.color_into(cursor, &mut emission);
+                if emission.is_some_and(|c| !c.is_black()) {
+                    self.warn(&here, "emissions", |_| "emission (`Ke`) is not drawn".to_owned());
+                }
+            }
+            b"Ns" => self.number(cursor, |draft, value| draft.exponent = Some(value)),
+            b"Ni" => self.number(cursor, |draft, value| draft.index = Some(value)),
+            b"Tr" => self.number(cursor, |draft, value| draft.transparency = Some(value)),
+            b"d" => {
+                if cursor.more() && cursor.rest().starts_with(b"-halo") {
+                    cursor.word();
+                    self.warn(&here, "halos", |_| {
+                        "`-halo` is not drawn: the material dissolves evenly".to_owned()
+                    });
+                }
+                self.number(cursor, |draft, value| draft.dissolve = Some(value));
+            }
+            b"illum" => self.illum(cursor),
+            b"sharpness" => {}
+            b"Pr" | b"Pm" | b"Ps" | b"Pc" | b"Pcr" | b"aniso" | b"anisor" => {
+                let mut value = None;
+                self.color_into(cursor, &mut value);
+                if value.is_some_and(|c| c.r != 0.0) {
+                    self.warn(&here, "statements of the physically based extension", |word| {
+                        format!("`{word}` is of the physically based extension and not used")
+                    });
+                }
+            }
+            _ => match texture::file_name(keyword, cursor.rest_of_line()) {
+                Some(name) => self.warn(&here, "textures", |word| {
+                    format!("textures are not drawn yet: `{word}` of `{name}` is left out")
+                }),
+                None => self.warn(&here, "statements that are not known", |word| {
+                    format!("the statement `{word}` is not known")
+                }),
+            },
+        }
+    }
+
+    fn color(&mut self, cursor: &mut Cursor<'_>, place: impl Fn(&mut Draft) -> &mut Option<Rgb>) {
+        let mut color = None;
+        self.color_into(cursor, &mut color);
+        if let (Some(draft), Some(color)) = (self.drafts.last_mut(), color) {
+            *place(draft) = Some(color);
+        }
+    }
+
+    /// One to three numbers, or a way to say a colour that is not read.
+    fn color_into(&mut self, cursor: &mut Cursor<'_>, color: &mut Option<Rgb>) {
+        let here = cursor.clone();
+        if cursor.more()
+            && (cursor.rest().starts_with(b"spectral") || cursor.rest().starts_with(b"xyz"))
+        {
+            self.warn(&here, "spectral and XYZ colours", |word| {
+                format!("`{word}` colours are not read: the default stands in for it")
+            });
+            return;
+        }
+        let mut channels = [0.0; 3];
+        for (i, channel) in channels.iter_mut().enumerate() {
+            if i > 0 && !cursor.more() {
+                break;
+            }
+            let here = cursor.clone();
+            let Some(mut value) = self.read_number(cursor) else { return };
+            if value < 0.0 {
+                self.warn(&here, "negative colours", |word| {
+                    format!("a colour must not be negative: `{word}` is read as 0")
+                });
+                value = 0.0;
+            }
+            *channel = value;
+            if i == 0 {
+                *color = Some(Rgb::grey(value));
+            }
+        }
+        if let Some(grey) = *color
+            && channels[1..] != [0.0, 0.0]
+        {
+            *color = Some(Rgb::new(grey.r, channels[1], channels[2]));
+        }
+    }
+
+    fn number(&mut self, cursor: &mut Cursor<'_>, place: impl Fn(&mut Draft, f32)) {
+        if let Some(value) = self.read_number(cursor)
+            && let Some(draft) = self.drafts.last_mut()
+        {
+            place(draft, value);
+        }
+    }
+
+    /// A finite number, or an error that says why there is none.
+    fn read_number(&mut self, cursor: &mut Cursor<'_>) -> Option<f32> {
+        let something = cursor.more();
+        let here = cursor.clone();
+        let value = cursor.decimal().map(Decimal::to_f32);
+        if value.is_some_and(f32::is_finite) {
+            return value;
+        }
+        self.findings.error(
+            "numbers that cannot be read",
+            || here.here(self.file),
+            || match value {
+                _ if !something => "a number is missing".to_owned(),
+                Some(_) => format!("`{}` is too large", here.quote()),
+                None => format!("`{}` {}", here.quote(), blame(here.rest())),
+            },
+        );
+        None
+    }
+
+    fn illum(&mut self, cursor: &mut Cursor<'_>) {
+        cursor.more();
+        let here = cursor.clone();
+        match cursor.decimal().and_then(Decimal::to_integer).and_then(|n| u8::try_from(n).ok()) {
+            Some(number @ 0..=10) => {
+                if let Some(draft) = self.drafts.last_mut() {
+                    draft.illum = Some((number, here.here(self.file)));
+                }
+            }
+            _ => self.warn(&here, "illumination models that are not known", |word| {
+                format!("there is no illumination model `{word}`: 0 to 10 are defined")
+            }),
+        }
+    }
+
+    fn warn(&mut self, at: &Cursor<'_>, plural: &'static str, tell: impl FnOnce(String) -> String) {
+        self.findings.warning(plural, || at.here(self.file), || tell(at.quote()));
+    }
+}

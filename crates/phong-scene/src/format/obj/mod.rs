@@ -1,7 +1,45 @@
-//! Wavefront OBJ.
+//! Wavefront OBJ: polygons, with normals, texture coordinates, vertex colours and materials.
+//!
+//! A file becomes one mesh. What `o`, `g` and `s` say is not kept: names are for editors, and
+//! smoothing is by the normals in the file or else by angle. Lines, point elements and free-form
+//! surfaces are not drawn, which is a warning.
+//!
+//! | statement | read as |
+//! |---|---|
+//! | `v x y z` | a position; what stands far from the origin is kept relative to [`Mesh::origin`](crate::Mesh::origin) |
+//! | `v x y z w` | the same: polygons do not use the weight |
+//! | `v x y z r g b` | a position with a linear colour; beside such, a position without one is grey |
+//! | `vt u v`, `vn x y z` | a texture coordinate, a normal; `vt` may lack v, and more is ignored |
+//! | `f a b c …` | a polygon of corners `v`, `v/vt`, `v//vn`, `v/vt/vn`; negative indices count back from the last; concave polygons are cut by clipping ears |
+//! | `usemtl name` | the material of the faces that follow; before the first, the default material |
+//! | `mtllib names` | MTL files beside the OBJ file; see the `mtl` module |
+//!
+//! Any statement may go on behind a `\` at its line's end. UTF-16 is read where a byte-order mark
+//! says so. An index may count forward to a vertex that comes later.
+//!
+//! Own reader: `tobj` holds the whole file in memory, reads it on one thread, and tells no line.
 
-use crate::format::model::Model;
-use crate::{Diagnostic, Limits, Source};
+mod assemble;
+mod block;
+mod libraries;
+
+use std::io;
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use self::assemble::{Assembly, start_of};
+use self::block::{Block, Context};
+use super::model::Model;
+use super::origin::{SAMPLES, origin_of};
+use super::text::{Cursor, Decimal, Lines, Piece, open_text, whole};
+use crate::{Blob, Diagnostic, Limits, Source};
+
+#[cfg(test)]
+mod tests;
+
+/// Bytes that are looked through for positions at each of the places that are sampled.
+const SAMPLE: usize = 4 << 10;
 
 /// Reads an OBJ file and the MTL files it names; `None` if a diagnostic is an error.
 pub(crate) fn read_obj(
@@ -10,7 +48,66 @@ pub(crate) fn read_obj(
     limits: &Limits,
     out: &mut Vec<Diagnostic>,
 ) -> Option<Model> {
-    let _ = (path, source, limits);
-    out.push(Diagnostic::error("OBJ files cannot be read yet", None));
-    None
+    let file: Arc<str> = path.into();
+    let read = || -> io::Result<_> {
+        let blob = open_text(source, path, limits)?;
+        let origin = origin_of(sample(blob.as_ref())?);
+        let context = Context { file: Arc::clone(&file), origin, marks: false };
+        let mut assembly = Assembly::default();
+        let lines = Lines { blob: blob.as_ref(), start: 0, line: 1, joined: true };
+        lines.each(
+            |piece| (start_of(&piece), Block::parse(piece, &context)),
+            |(start, block)| assembly.add(start, block, &file, limits),
+        )?;
+        let mut told = Vec::new();
+        let names = std::mem::take(&mut assembly.libraries);
+        let known =
+            libraries::read_all(names, path, source, limits, &mut assembly.findings, &mut told);
+        let (model, findings) = assembly.finish(blob.as_ref(), &context, &known);
+        Ok((model, findings, told))
+    };
+    match read() {
+        Ok((model, findings, mut told)) => {
+            findings.tell(&file, out);
+            let sound = !told.iter().any(Diagnostic::is_error);
+            out.append(&mut told);
+            model.filter(|_| sound)
+        }
+        Err(error) => {
+            out.push(Diagnostic::error(format!("cannot be read: {error}"), whole(&file)));
+            None
+        }
+    }
+}
+
+/// Positions from places all over the file.
+fn sample(blob: &dyn Blob) -> io::Result<Vec<DVec3>> {
+    let mut samples = Vec::new();
+    let mut text = vec![0; SAMPLE];
+    let step = (blob.len() / SAMPLES as u64).max(SAMPLE as u64);
+    for place in 0..SAMPLES as u64 {
+        let read = blob.read_full(&mut text, place * step)?;
+        let whole = text[..read].iter().rposition(|&b| b == b'\n').map_or(read, |end| end + 1);
+        let piece = Piece { text: &text[..whole], offset: 0, line: 1, rows: 0 };
+        let mut cursor = Cursor::new(piece, true);
+        if place > 0 {
+            // It began before.
+            cursor.next_line();
+        }
+        let wanted = samples.len() + SAMPLES;
+        while !cursor.is_done() && samples.len() < wanted {
+            if cursor.word() == b"v" {
+                let mut number =
+                    || if cursor.more() { cursor.decimal().map(Decimal::to_f64) } else { None };
+                if let (Some(x), Some(y), Some(z)) = (number(), number(), number()) {
+                    samples.push(DVec3::new(x, y, z));
+                }
+            }
+            cursor.next_line();
+        }
+        if read < SAMPLE {
+            break;
+        }
+    }
+    Ok(samples)
 }

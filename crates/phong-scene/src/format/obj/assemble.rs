@@ -1,0 +1,360 @@
+//! Blocks put together in the order of the file.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use super::block::{BAD_INDEX, Block, Context, Indices, Mark, NO_COLOR};
+use crate::format::model::{Model, Part};
+use crate::format::text::{Cursor, Findings, Piece, TOLD, whole};
+use crate::mesh::cut_polygons;
+use crate::{Blob, Limits, Material, Mesh, NO_INDEX, Span};
+
+/// What the three indices of a corner refer to.
+const KINDS: [&str; 3] = ["position", "texture coordinate", "normal"];
+
+/// A file of which all blocks so far are put together.
+#[derive(Debug, Default)]
+pub(super) struct Assembly {
+    mesh: Mesh,
+    colored: u64,
+    polygons: Vec<[u32; 2]>,
+    /// From which triangle on which of `names` is used.
+    runs: Vec<(u32, u32)>,
+    names: Vec<(String, Span)>,
+    numbers: BTreeMap<String, u32>,
+    blocks: Vec<Start>,
+    /// Whether a limit was met, and the rest of the file not read.
+    stopped: bool,
+    pub(super) libraries: Vec<(String, Span)>,
+    pub(super) findings: Findings,
+}
+
+/// Where a block begins.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Start {
+    /// Bytes into the file.
+    pub(super) offset: u64,
+    /// Its length in bytes.
+    pub(super) length: usize,
+    /// The number of its first line.
+    pub(super) line: u64,
+    triangle: u32,
+    counts: [usize; 3],
+}
+
+impl Assembly {
+    /// Adds the next block; whether there is room for more.
+    pub(super) fn add(
+        &mut self,
+        start: Start,
+        block: Block,
+        file: &Arc<str>,
+        limits: &Limits,
+    ) -> bool {
+        let mesh = &mut self.mesh;
+        let counts = [mesh.positions.len(), mesh.uvs.len(), mesh.normals.len()];
+        let triangles = mesh.indices.len();
+        self.findings.append(block.findings);
+        let total = (triangles + block.indices[0].triangles.len()) as u64;
+        let vertices = (counts[0] + block.positions.len())
+            .max(counts[1] + block.uvs.len())
+            .max(counts[2] + block.normals.len()) as u64;
+        let new = Mesh {
+            positions: block.positions,
+            colors: block.colors,
+            uvs: block.uvs,
+            normals: block.normals,
+            ..Mesh::default()
+        };
+        let indices: usize = block.indices.iter().map(|i| i.triangles.len()).sum();
+        let bytes = mesh.bytes() + new.bytes() + 12 * indices as u64;
+        if bytes > limits.bytes || vertices > limits.vertices || total > limits.triangles {
+            self.findings.error(
+                "limits exceeded",
+                || whole(file),
+                || {
+                    if bytes > limits.bytes {
+                        format!("the model takes more than {} bytes of memory", limits.bytes)
+                    } else if total > limits.triangles {
+                        format!("the model has more than {} triangles", limits.triangles)
+                    } else {
+                        format!("the model has more than {} vertices", limits.vertices)
+                    }
+                },
+            );
+            self.stopped = true;
+            return false;
+        }
+
+        self.blocks.push(Start { triangle: triangles as u32, counts, ..start });
+        if !new.colors.is_empty() {
+            mesh.colors.resize(counts[0], NO_COLOR);
+            mesh.colors.extend(new.colors);
+        } else if !mesh.colors.is_empty() {
+            mesh.colors.resize(counts[0] + new.positions.len(), NO_COLOR);
+        }
+        self.colored += block.colored;
+        mesh.positions.extend(new.positions);
+        mesh.uvs.extend(new.uvs);
+        mesh.normals.extend(new.normals);
+        let [positions, uvs, normals] = block.indices;
+        append(&mut mesh.indices, positions, counts[0], [triangles, total as usize]);
+        append(&mut mesh.uv_indices, uvs, counts[1], [triangles, total as usize]);
+        append(&mut mesh.normal_indices, normals, counts[2], [triangles, total as usize]);
+        let first = triangles as u32;
+        self.polygons.extend(block.polygons.into_iter().map(|[start, n]| [start + first, n]));
+        for (start, name, span) in block.materials {
+            let number = *self.numbers.entry(name.clone()).or_insert_with(|| {
+                self.names.push((name, span));
+                self.names.len() as u32 - 1
+            });
+            self.runs.push((first + start, number));
+        }
+        self.libraries.extend(block.libraries);
+        true
+    }
+
+    /// Checks every index, cuts the polygons, and gives every triangle its material.
+    pub(super) fn finish(
+        mut self,
+        blob: &dyn Blob,
+        context: &Context,
+        known: &BTreeMap<String, Material>,
+    ) -> (Option<Model>, Findings) {
+        if !self.stopped {
+            self.check_indices(blob, context);
+        }
+        let at_file = || whole(&context.file);
+        if self.mesh.indices.is_empty() && !self.findings.any_error() {
+            let count = self.mesh.positions.len();
+            self.findings.error("empty models", at_file, || {
+                format!("there is nothing to draw: the file has {count} vertices and no face")
+            });
+        }
+        if self.findings.any_error() {
+            return (None, self.findings);
+        }
+        let materials = self.assign_materials(known);
+        let Self { mut mesh, mut findings, .. } = self;
+        mesh.origin = context.origin;
+        if !mesh.colors.is_empty() && self.colored < mesh.positions.len() as u64 {
+            findings.warning("vertices without colour", at_file, || {
+                let without = mesh.positions.len() as u64 - self.colored;
+                format!("{without} vertices have no colour beside some that do: they are grey")
+            });
+        }
+        let tangled = cut_polygons(
+            &mesh.positions,
+            &self.polygons,
+            &mut mesh.indices,
+            [&mut mesh.normal_indices, &mut mesh.uv_indices],
+        );
+        if tangled > 0 {
+            findings.warning("tangled polygons", at_file, || {
+                format!(
+                    "{tangled} polygons cross themselves or have no area: their shape is a guess"
+                )
+            });
+        }
+        let collapsed = mesh.drop_collapsed();
+        if collapsed > 0 {
+            findings.warning("collapsed triangles", at_file, || {
+                format!("{collapsed} triangles use a vertex twice and are left out")
+            });
+        }
+        if mesh.normals.len() == mesh.positions.len() && mesh.normal_indices == mesh.indices {
+            mesh.normal_indices = Vec::new();
+        }
+        if mesh.uvs.len() == mesh.positions.len() && mesh.uv_indices == mesh.indices {
+            mesh.uv_indices = Vec::new();
+        }
+        let zeros = mesh.mend_normals();
+        if zeros > 0 {
+            findings.warning("normals of length 0", at_file, || {
+                format!("{zeros} normals have length 0: the geometric one stands in for them")
+            });
+        }
+        if mesh.indices.is_empty() {
+            findings.error("empty models", at_file, || {
+                "there is nothing to draw: no face is left".to_owned()
+            });
+            return (None, findings);
+        }
+        let model = Model { parts: vec![Part::Mesh { name: String::new(), mesh }], materials };
+        (Some(model), findings)
+    }
+
+    /// Finds indices out of range, and forgets what no face uses.
+    fn check_indices(&mut self, blob: &dyn Blob, context: &Context) {
+        let mesh = &mut self.mesh;
+        let counts = [mesh.positions.len(), mesh.uvs.len(), mesh.normals.len()];
+        let mut bad = Vec::new();
+        for (kind, indices) in [&mut mesh.indices, &mut mesh.uv_indices, &mut mesh.normal_indices]
+            .into_iter()
+            .enumerate()
+        {
+            if kind > 0 && counts[kind] == 0 && !indices.is_empty() {
+                let what = KINDS[kind];
+                self.findings.warning(
+                    "kinds of index without anything to refer to",
+                    || whole(&context.file),
+                    || format!("faces refer to {what}s, of which the file has none"),
+                );
+                *indices = Vec::new();
+            }
+            let optional = kind > 0;
+            let outside =
+                |&index: &u32| index as usize >= counts[kind] && !(optional && index == NO_INDEX);
+            let wrong = indices.par_iter().with_min_len(1 << 12).filter(|t| t.iter().any(outside));
+            if wrong.clone().count() > 0 {
+                // Only a file that is refused pays for walking all its triangles once more.
+                let all = indices.iter().enumerate().filter(|(_, t)| t.iter().any(&outside));
+                bad.extend(all.map(|(triangle, _)| triangle as u32));
+            }
+        }
+        if mesh.uv_indices.is_empty() {
+            mesh.uvs = Vec::new();
+        }
+        if mesh.normal_indices.is_empty() {
+            mesh.normals = Vec::new();
+        }
+        bad.sort_unstable();
+        bad.dedup();
+        self.tell_bad_indices(&bad, counts, blob, context);
+    }
+
+    /// Reads the blocks of the first bad triangles again to tell where they stand; the others are
+    /// only counted.
+    fn tell_bad_indices(
+        &mut self,
+        bad: &[u32],
+        counts: [usize; 3],
+        blob: &dyn Blob,
+        context: &Context,
+    ) {
+        let context = Context { marks: true, ..context.clone() };
+        let mut open: Option<(usize, Vec<u8>, Vec<Mark>)> = None;
+        for (i, &triangle) in bad.iter().enumerate() {
+            let mut found = (whole(&context.file), "an index is out of range".to_owned());
+            let number = self.blocks.partition_point(|b| b.triangle <= triangle) - 1;
+            let start = self.blocks[number];
+            if i < TOLD && open.as_ref().is_none_or(|(n, ..)| *n != number) {
+                let mut text = vec![0; start.length];
+                let read = blob.read_full(&mut text, start.offset).unwrap_or(0);
+                text.truncate(read);
+                let piece = Piece { text: &text, offset: start.offset, line: start.line, rows: 0 };
+                let marks = Block::parse(piece, &context).marks;
+                open = Some((number, text, marks));
+            }
+            if let Some((_, text, marks)) = open.as_ref().filter(|_| i < TOLD) {
+                let behind = marks.partition_point(|m| m.triangle <= triangle - start.triangle);
+                if let Some(mark) = marks[..behind].last() {
+                    let piece = Piece { text, offset: 0, line: start.line, rows: 0 };
+                    let cursor = Cursor::resumed(piece, true, mark.at, mark.line);
+                    let before = std::array::from_fn(|k| start.counts[k] + mark.counts[k]);
+                    let (at, message) = find_bad_corner(cursor, before, counts);
+                    found = (at.here(&context.file), message);
+                }
+            }
+            let (span, message) = found;
+            self.findings.error("triangles with an index out of range", || span, || message);
+        }
+    }
+
+    /// Gives every triangle its material; the materials in the order of their first use.
+    fn assign_materials(&mut self, known: &BTreeMap<String, Material>) -> Vec<Material> {
+        let count = self.mesh.indices.len();
+        let mut runs = std::mem::take(&mut self.runs);
+        runs.retain(|(start, _)| (*start as usize) < count);
+        if runs.is_empty() {
+            return Vec::new();
+        }
+        let mut materials = Vec::new();
+        // The last entry is for faces before any `usemtl`.
+        let mut placed = vec![None; self.names.len() + 1];
+        let nameless = self.names.len() as u32;
+        let mut faces = vec![0; count];
+        let ends = runs.iter().map(|(start, _)| *start as usize).chain([count]);
+        let starts = [(0, nameless)].into_iter().chain(runs.iter().copied());
+        for ((start, name), end) in starts.zip(ends.collect::<Vec<_>>()) {
+            if start as usize == end {
+                continue;
+            }
+            let number = *placed[name as usize].get_or_insert_with(|| {
+                materials.push(self.material(name, known));
+                materials.len() as u32 - 1
+            });
+            faces[start as usize..end].fill(number);
+        }
+        self.mesh.face_materials = faces;
+        materials
+    }
+
+    fn material(&mut self, name: u32, known: &BTreeMap<String, Material>) -> Material {
+        let Some((name, span)) = self.names.get(name as usize) else { return Material::default() };
+        if let Some(material) = known.get(name) {
+            return material.clone();
+        }
+        let place = span.place.clone();
+        self.findings.warning(
+            "materials that no file defines",
+            || span.clone(),
+            || format!("no file defines the material `{name}`: it is grey"),
+        );
+        Material { name: name.clone(), place, ..Material::default() }
+    }
+}
+
+/// Appends a block's triangles of one kind, `[before, after]` being the number of triangles, all
+/// kinds alike: where one of the two has nothing of this kind, its corners have no index.
+fn append(to: &mut Vec<[u32; 3]>, mut from: Indices, count: usize, [before, after]: [usize; 2]) {
+    if to.is_empty() && from.triangles.is_empty() {
+        return;
+    }
+    for flat in from.relative {
+        let index = &mut from.triangles[flat as usize / 3][flat as usize % 3];
+        let absolute = count as i64 + i64::from(*index as i32);
+        *index = if absolute < 0 { BAD_INDEX } else { absolute as u32 };
+    }
+    to.resize(before, [NO_INDEX; 3]);
+    to.append(&mut from.triangles);
+    to.resize(after, [NO_INDEX; 3]);
+}
+
+/// The corner of a face that is out of range, and what to say about it. `before` is what stands
+/// before the face, `counts` what stands in the whole file.
+fn find_bad_corner(
+    mut cursor: Cursor<'_>,
+    before: [usize; 3],
+    counts: [usize; 3],
+) -> (Cursor<'_>, String) {
+    cursor.word();
+    while cursor.more() {
+        let here = cursor.clone();
+        let word = String::from_utf8_lossy(cursor.word()).into_owned();
+        for (kind, index) in word.split('/').take(3).enumerate() {
+            let Ok(value) = index.parse::<i64>() else { continue };
+            let count = if value < 0 { before[kind] } else { counts[kind] } as u64;
+            if counts[kind] > 0 || kind == 0 {
+                let (what, plural) = (KINDS[kind], if count == 1 { "" } else { "s" });
+                if value.unsigned_abs() > count {
+                    let where_ = if value < 0 { "before it" } else { "in the file" };
+                    return (
+                        here,
+                        format!(
+                            "the face uses {what} {value}, but there are {count} {what}{plural} {where_}"
+                        ),
+                    );
+                }
+            }
+        }
+    }
+    (cursor, "the face has an index out of range".to_owned())
+}
+
+/// The start of a block that the lines' walker cut off.
+pub(super) fn start_of(piece: &Piece<'_>) -> Start {
+    Start { offset: piece.offset, length: piece.text.len(), line: piece.line, ..Start::default() }
+}

@@ -1,0 +1,417 @@
+//! One piece of an OBJ file, parsed without knowing what stands before it.
+//!
+//! Indices that count from the file's beginning are final. Those that count backwards are kept
+//! relative to the first vertex of the block, with a note of where they are, until the number of
+//! vertices before the block is known.
+
+use std::sync::Arc;
+
+use glam::{DVec3, Vec2, Vec3};
+
+use crate::format::text::{Cursor, Findings, Piece, blame};
+use crate::{NO_INDEX, Rgb, Span};
+
+/// An index that no file can use: out of range, said where it is resolved.
+pub(super) const BAD_INDEX: u32 = NO_INDEX - 1;
+
+/// A vertex without a colour in a file that gives colours: that of the default material.
+pub(super) const NO_COLOR: Rgb = Rgb::grey(0.8);
+
+/// In a corner: there is no such index.
+const NONE: i64 = i64::MAX;
+
+/// Added to a corner's index that counts from the block's first vertex.
+const RELATIVE: i64 = 1 << 40;
+
+/// What every block of a file is parsed with.
+#[derive(Clone, Debug)]
+pub(super) struct Context {
+    /// The file, for what there is to say.
+    pub(super) file: Arc<str>,
+    /// Subtracted from every position.
+    pub(super) origin: DVec3,
+    /// Whether to note where every face stands.
+    pub(super) marks: bool,
+}
+
+/// What one piece of the file holds.
+#[derive(Debug, Default)]
+pub(super) struct Block {
+    pub(super) positions: Vec<Vec3>,
+    /// Empty, or one a position.
+    pub(super) colors: Vec<Rgb>,
+    /// How many positions have a colour.
+    pub(super) colored: u64,
+    pub(super) uvs: Vec<Vec2>,
+    pub(super) normals: Vec<Vec3>,
+    /// Of positions, texture coordinates and normals.
+    pub(super) indices: [Indices; 3],
+    /// First triangle and number of corners of every polygon of more than three.
+    pub(super) polygons: Vec<[u32; 2]>,
+    /// From which triangle on which material is used.
+    pub(super) materials: Vec<(u32, String, Span)>,
+    /// What stands behind `mtllib`.
+    pub(super) libraries: Vec<(String, Span)>,
+    pub(super) findings: Findings,
+    /// Where every face stands, if asked for.
+    pub(super) marks: Vec<Mark>,
+    /// Corners of the face that is being read.
+    corners: Vec<[i64; 3]>,
+}
+
+/// Three indices a triangle.
+#[derive(Debug, Default)]
+pub(super) struct Indices {
+    pub(super) triangles: Vec<[u32; 3]>,
+    /// Places in the flattened triangles whose index counts from the block's first vertex.
+    pub(super) relative: Vec<u32>,
+}
+
+/// Where a face stands, and what stands before it in its block.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Mark {
+    /// Its first triangle.
+    pub(super) triangle: u32,
+    /// Bytes into the block.
+    pub(super) at: usize,
+    /// Line number.
+    pub(super) line: u64,
+    /// Positions, texture coordinates and normals before it.
+    pub(super) counts: [usize; 3],
+}
+
+impl Block {
+    /// Parses a piece.
+    pub(super) fn parse(piece: Piece<'_>, context: &Context) -> Self {
+        let mut block = Self::default();
+        let mut cursor = Cursor::new(piece, true);
+        while !cursor.is_done() {
+            block.statement(&mut cursor, context);
+            cursor.next_line();
+        }
+        block
+    }
+
+    #[inline]
+    fn statement(&mut self, cursor: &mut Cursor<'_>, context: &Context) {
+        if !cursor.more() {
+            return;
+        }
+        match cursor.rest() {
+            [b'v', b' ' | b'\t', ..] => {
+                cursor.skip(1);
+                self.vertex(cursor, context);
+            }
+            [b'f', b' ' | b'\t', ..] => {
+                if context.marks {
+                    let triangle = self.indices[0].triangles.len() as u32;
+                    let (at, line, counts) = (cursor.at(), cursor.line, self.counts());
+                    self.marks.push(Mark { triangle, at, line, counts });
+                }
+                cursor.skip(1);
+                self.face(cursor, context);
+            }
+            [b'v', b'n', b' ' | b'\t', ..] => {
+                cursor.skip(2);
+                let n = self.numbers(cursor, context, 3, "a normal");
+                self.normals.push(Vec3::from(n));
+            }
+            [b'v', b't', b' ' | b'\t', ..] => {
+                cursor.skip(2);
+                let [u, v, _] = self.numbers(cursor, context, 1, "a texture coordinate");
+                self.uvs.push(Vec2::new(u, v));
+            }
+            _ => self.rare_statement(cursor, context),
+        }
+    }
+
+    /// Positions, texture coordinates and normals so far.
+    fn counts(&self) -> [usize; 3] {
+        [self.positions.len(), self.uvs.len(), self.normals.len()]
+    }
+
+    /// `v x y z [w]` or `v x y z r g b`.
+    #[inline]
+    fn vertex(&mut self, cursor: &mut Cursor<'_>, context: &Context) {
+        let mut position = [0.0; 3];
+        for (axis, value) in position.iter_mut().enumerate() {
+            let Some(number) = number(cursor, context.origin[axis]) else {
+                self.bad_number(cursor, context, axis, "a position", 3);
+                break;
+            };
+            *value = number;
+        }
+        if cursor.more() {
+            self.vertex_extras(cursor, context);
+        } else if !self.colors.is_empty() {
+            self.colors.push(NO_COLOR);
+        }
+        self.positions.push(Vec3::from(position));
+    }
+
+    /// What follows a position: a weight, which polygons do not use, or a colour.
+    fn vertex_extras(&mut self, cursor: &mut Cursor<'_>, context: &Context) {
+        let mut extras = [0.0; 3];
+        let mut count = 0;
+        while cursor.more() {
+            let Some(value) = number(cursor, 0.0) else {
+                self.bad_number(cursor, context, count, "what follows a position", 0);
+                break;
+            };
+            if let Some(extra) = extras.get_mut(count) {
+                *extra = value;
+            }
+            count += 1;
+        }
+        if count >= 3 {
+            if self.colors.is_empty() {
+                self.colors = vec![NO_COLOR; self.positions.len()];
+            }
+            self.colors.push(Rgb::from(extras));
+            self.colored += 1;
+        } else if !self.colors.is_empty() {
+            self.colors.push(NO_COLOR);
+        }
+    }
+
+    /// Up to three numbers, of which `least` must be there; a line end may stand for the others.
+    #[inline]
+    fn numbers(
+        &mut self,
+        cursor: &mut Cursor<'_>,
+        context: &Context,
+        least: usize,
+        what: &'static str,
+    ) -> [f32; 3] {
+        let mut numbers = [0.0; 3];
+        for (i, value) in numbers.iter_mut().enumerate() {
+            match number(cursor, 0.0) {
+                Some(number) => *value = number,
+                None if i >= least && !cursor.more() => break,
+                None => {
+                    self.bad_number(cursor, context, i, what, least);
+                    break;
+                }
+            }
+        }
+        numbers
+    }
+
+    /// Says why there is no number; the rest of the line goes unread.
+    #[cold]
+    fn bad_number(
+        &mut self,
+        cursor: &mut Cursor<'_>,
+        context: &Context,
+        read: usize,
+        what: &str,
+        least: usize,
+    ) {
+        let here = cursor.clone();
+        if cursor.more() {
+            let quoted = cursor.quote();
+            let reason = match cursor.decimal() {
+                Some(_) => "is too large".to_owned(),
+                None => blame(cursor.rest()).to_string(),
+            };
+            self.findings.error(
+                "numbers that cannot be read",
+                || here.here(&context.file),
+                || format!("`{quoted}` {reason}"),
+            );
+        } else {
+            self.findings.error(
+                "lines with too few numbers",
+                || here.here(&context.file),
+                || format!("{what} has {read} of {least} numbers"),
+            );
+        }
+        cursor.finish_line();
+    }
+
+    /// `f v/vt/vn …`
+    #[inline]
+    fn face(&mut self, cursor: &mut Cursor<'_>, context: &Context) {
+        let counts = self.counts();
+        let mut corners = std::mem::take(&mut self.corners);
+        corners.clear();
+        while cursor.more() {
+            let Some(corner) = corner(cursor, counts) else {
+                self.bad_corner(cursor, context);
+                self.corners = corners;
+                return;
+            };
+            corners.push(corner);
+        }
+        match corners.as_slice() {
+            &[a, b, c] => self.triangle([a, b, c]),
+            [first, rest @ ..] if rest.len() > 2 => {
+                let start = self.indices[0].triangles.len() as u32;
+                self.polygons.push([start, corners.len() as u32]);
+                for pair in rest.windows(2) {
+                    self.triangle([*first, pair[0], pair[1]]);
+                }
+            }
+            _ => self.findings.warning(
+                "faces of fewer than three corners, which are left out",
+                || cursor.here(&context.file),
+                || format!("a face of {} corners is left out", corners.len()),
+            ),
+        }
+        self.corners = corners;
+    }
+
+    #[inline]
+    fn triangle(&mut self, corners: [[i64; 3]; 3]) {
+        let count = self.indices[0].triangles.len();
+        for (kind, indices) in self.indices.iter_mut().enumerate() {
+            let wanted = corners.map(|corner| corner[kind]);
+            if wanted == [NONE; 3] && indices.triangles.is_empty() {
+                // Most files leave a kind out altogether; it costs nothing until one does not.
+                continue;
+            }
+            if indices.triangles.len() < count {
+                indices.triangles.resize(count, [NO_INDEX; 3]);
+            }
+            let triangle = [0, 1, 2].map(|i| {
+                let index = wanted[i];
+                match index {
+                    NONE => NO_INDEX,
+                    RELATIVE_LEAST.. => {
+                        indices.relative.push((3 * count + i) as u32);
+                        (index - RELATIVE) as i32 as u32
+                    }
+                    _ => index.min(i64::from(BAD_INDEX)) as u32,
+                }
+            });
+            indices.triangles.push(triangle);
+        }
+    }
+
+    #[cold]
+    fn bad_corner(&mut self, cursor: &mut Cursor<'_>, context: &Context) {
+        let here = cursor.clone();
+        let quoted = cursor.quote();
+        let zero = quoted.split('/').any(|index| index.parse::<i64>() == Ok(0));
+        self.findings.error(
+            "corners that cannot be read",
+            || here.here(&context.file),
+            || {
+                if zero {
+                    format!("`{quoted}` has the index 0, but indices begin at 1")
+                } else {
+                    format!("`{quoted}` is not a corner: `v`, `v/vt`, `v//vn` or `v/vt/vn`")
+                }
+            },
+        );
+        cursor.finish_line();
+    }
+
+    fn rare_statement(&mut self, cursor: &mut Cursor<'_>, context: &Context) {
+        let here = cursor.clone();
+        let at = || here.here(&context.file);
+        match cursor.word() {
+            b"usemtl" => {
+                let start = cursor.clone();
+                let name = String::from_utf8_lossy(cursor.rest_of_line()).into_owned();
+                let triangle = self.indices[0].triangles.len() as u32;
+                self.materials.push((triangle, name, start.here(&context.file)));
+            }
+            b"mtllib" => {
+                let names = String::from_utf8_lossy(cursor.rest_of_line()).into_owned();
+                self.libraries.push((names, at()));
+            }
+            // Names, smoothing, levels of detail and display attributes do not change a shape.
+            b"g" | b"o" | b"s" | b"mg" | b"lod" | b"bevel" | b"c_interp" | b"d_interp"
+            | b"usemap" | b"maplib" | b"shadow_obj" | b"trace_obj" => {}
+            b"l" => self
+                .findings
+                .warning("lines, which are not drawn", at, || "lines are not drawn".to_owned()),
+            b"p" => self.findings.warning("point elements, which are not drawn", at, || {
+                "point elements are not drawn".to_owned()
+            }),
+            b"vp" | b"cstype" | b"deg" | b"bmat" | b"step" | b"curv" | b"curv2" | b"surf"
+            | b"parm" | b"trim" | b"hole" | b"scrv" | b"sp" | b"end" | b"con" | b"ctech"
+            | b"stech" | b"bzp" | b"bsp" | b"cdc" | b"cdp" | b"res" => {
+                self.findings.warning("statements of free-form curves and surfaces", at, || {
+                    "free-form curves and surfaces are not drawn".to_owned()
+                });
+            }
+            // Statements without anything behind them, and all that is not OBJ.
+            b"v" | b"vn" | b"vt" => {
+                self.bad_number(cursor, context, 0, "a vertex", 3);
+            }
+            b"f" => self.face(cursor, context),
+            _ => {
+                let quoted = here.quote();
+                self.findings.warning("statements that are not known", at, || {
+                    format!("the statement `{quoted}` is not known")
+                });
+            }
+        }
+    }
+}
+
+/// Indices that count from the block's first vertex are at least this.
+const RELATIVE_LEAST: i64 = RELATIVE - (1 << 32);
+
+/// A finite number less `origin`, or `None` with the cursor where it was.
+#[inline]
+fn number(cursor: &mut Cursor<'_>, origin: f64) -> Option<f32> {
+    if !cursor.more() {
+        return None;
+    }
+    let mut ahead = cursor.clone();
+    let decimal = ahead.decimal()?;
+    // One rounding where there is nothing to subtract.
+    let value = if origin == 0.0 { decimal.to_f32() } else { (decimal.to_f64() - origin) as f32 };
+    value.is_finite().then(|| {
+        *cursor = ahead;
+        value
+    })
+}
+
+/// `v`, `v/vt`, `v//vn` or `v/vt/vn`; `None` with the cursor where it was if it is none of these
+/// or an index is 0.
+#[inline]
+fn corner(cursor: &mut Cursor<'_>, counts: [usize; 3]) -> Option<[i64; 3]> {
+    let text = cursor.rest();
+    let (position, mut at) = index(text, 0, counts[0])?;
+    let mut corner = [position, NONE, NONE];
+    if text.get(at) == Some(&b'/') {
+        at += 1;
+        if let Some((uv, end)) = index(text, at, counts[1]) {
+            (corner[1], at) = (uv, end);
+        }
+        if text.get(at) == Some(&b'/') {
+            at += 1;
+            if let Some((normal, end)) = index(text, at, counts[2]) {
+                (corner[2], at) = (normal, end);
+            }
+        }
+    }
+    cursor.ends_word(cursor.at() + at).then(|| {
+        cursor.skip(at);
+        corner
+    })
+}
+
+/// An index from `at` on, of which `count` came before it in the block, and where it ends;
+/// `None` if it is 0 or not there.
+#[inline]
+fn index(text: &[u8], at: usize, count: usize) -> Option<(i64, usize)> {
+    let backwards = text.get(at) == Some(&b'-');
+    let mut end = at + usize::from(backwards || text.get(at) == Some(&b'+'));
+    let mut value = 0_i64;
+    while let Some(digit) = text.get(end).map(|b| b.wrapping_sub(b'0')).filter(|d| *d < 10) {
+        value = (10 * value + i64::from(digit)).min(i64::from(NO_INDEX));
+        end += 1;
+    }
+    match value {
+        0 => None,
+        // More than can be kept relative to a block: no file has as many.
+        _ if backwards && value > i64::from(i32::MAX) => Some((i64::from(BAD_INDEX), end)),
+        _ if backwards => Some((RELATIVE + count as i64 - value, end)),
+        _ => Some((value - 1, end)),
+    }
+}

@@ -1,0 +1,103 @@
+//! The MTL files that an OBJ file names.
+
+use std::collections::BTreeMap;
+
+use crate::format::mtl::read_mtl;
+use crate::format::text::Findings;
+use crate::{Diagnostic, Limits, Material, Source, Span};
+
+/// Reads all files behind `mtllib`; of materials of one name, the first counts.
+///
+/// A name may hold blanks, and one statement may name several files: the whole is tried as one
+/// name, then as names that end in `.mtl`, then as words. Back-slashes are slashes. What is not
+/// found where it is said to be may lie beside the OBJ file: exporters write the paths of the
+/// machine they ran on.
+pub(super) fn read_all(
+    statements: Vec<(String, Span)>,
+    path: &str,
+    source: &dyn Source,
+    limits: &Limits,
+    findings: &mut Findings,
+    told: &mut Vec<Diagnostic>,
+) -> BTreeMap<String, Material> {
+    let mut known = BTreeMap::new();
+    let mut read = Vec::new();
+    for (names, span) in statements {
+        for choice in [vec![names.clone()], split_at_extensions(&names), split_at_blanks(&names)] {
+            let found: Vec<_> = choice.iter().map(|name| locate(name, path, source)).collect();
+            let last_choice = choice == split_at_blanks(&names);
+            if found.iter().any(Option::is_none) && !last_choice {
+                continue;
+            }
+            for (name, at) in choice.iter().zip(found) {
+                match at {
+                    Some(at) if read.contains(&at) => {}
+                    Some(at) => {
+                        for material in read_mtl(&at, source, limits, told) {
+                            known.entry(material.name.clone()).or_insert(material);
+                        }
+                        read.push(at);
+                    }
+                    None => {
+                        // Of a name with blanks, the words say nothing.
+                        let name =
+                            if choice.len() > 1 && !name.contains('.') { &names } else { name };
+                        findings.warning(
+                            "material files that are not there",
+                            || span.clone(),
+                            || format!("there is no material file `{name}`"),
+                        );
+                    }
+                }
+            }
+            break;
+        }
+    }
+    known
+}
+
+/// Where a file of that name is; `None`: nowhere.
+fn locate(name: &str, path: &str, source: &dyn Source) -> Option<String> {
+    let folder = path.rfind('/').map_or("", |end| &path[..=end]);
+    let name = name.trim_matches('"').replace('\\', "/");
+    let drive = name.as_bytes().get(1) == Some(&b':');
+    let written =
+        if name.starts_with('/') || drive { name.clone() } else { format!("{folder}{name}") };
+    let bare = name.rsplit('/').next().unwrap_or(&name);
+    let beside = format!("{folder}{bare}");
+    [written, beside].into_iter().find(|at| !name.is_empty() && source.open(at).is_ok())
+}
+
+fn split_at_blanks(names: &str) -> Vec<String> {
+    names.split_whitespace().map(str::to_owned).collect()
+}
+
+/// `a b.mtl c.mtl` is `a b.mtl` and `c.mtl`.
+fn split_at_extensions(names: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    let mut start = 0;
+    let mut from = 0;
+    while let Some(at) = names[from..].to_ascii_lowercase().find(".mtl") {
+        from += at + 4;
+        if names[from..].chars().next().is_none_or(char::is_whitespace) {
+            found.push(names[start..from].trim().to_owned());
+            start = from;
+        }
+    }
+    if !names[start..].trim().is_empty() {
+        found.push(names[start..].trim().to_owned());
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_statement_may_name_several_files_with_blanks_in_their_names() {
+        assert_eq!(split_at_extensions("a b.mtl c.MTL"), ["a b.mtl", "c.MTL"]);
+        assert_eq!(split_at_extensions("a.mtl.mtl d"), ["a.mtl.mtl", "d"]);
+        assert_eq!(split_at_extensions(""), [""; 0]);
+    }
+}

@@ -1,0 +1,102 @@
+//! What the files in `tests/obj/` cannot show: pieces, threads, and limits.
+
+use super::*;
+use crate::format::model::Part;
+use crate::{Memory, Mesh};
+
+fn read(files: &[(&str, &[u8])], limits: &Limits) -> (Option<(Mesh, usize)>, String) {
+    let source = files.iter().fold(Memory::new(), |m, (path, bytes)| m.with(*path, *bytes));
+    let mut out = Vec::new();
+    let model = read_obj(files[0].0, &source, limits, &mut out);
+    let told: Vec<_> = out.iter().map(ToString::to_string).collect();
+    let mesh = model.map(|mut model| match model.parts.remove(0) {
+        Part::Mesh { mesh, .. } => (mesh, model.materials.len()),
+        Part::Points { .. } => panic!("an OBJ file holds no points"),
+    });
+    (mesh, told.join("\n"))
+}
+
+fn mesh(text: &str) -> Mesh {
+    let (mesh, told) = read(&[("a.obj", text.as_bytes())], &Limits::default());
+    mesh.unwrap_or_else(|| panic!("{told}")).0
+}
+
+/// A strip of `n` squares, its indices counted from the beginning or backwards.
+fn strip(n: usize, backwards: bool) -> String {
+    let mut text = String::from("v 0 0 0\nv 0 1 0.5\n");
+    for i in 1..=n {
+        let count = 2 * i + 2;
+        text += &["v ", &i.to_string(), " 0 0\nv ", &i.to_string(), ".0e0 1 .5\n"].concat();
+        let corners = [count - 3, count - 1, count, count - 2].map(|corner| {
+            if backwards { format!(" -{}", count + 1 - corner) } else { format!(" {corner}") }
+        });
+        text += &["f", &corners.concat(), "\n"].concat();
+    }
+    text
+}
+
+#[test]
+fn a_file_of_many_pieces_is_the_same_for_any_number_of_threads() {
+    let text = strip(60_000, false);
+    assert!(text.len() > 2 << 20, "{}", text.len());
+    let expected = mesh(&text);
+    assert_eq!((expected.positions.len(), expected.indices.len()), (120_002, 120_000));
+    let relative = mesh(&strip(60_000, true));
+    assert!(expected.indices == relative.indices && expected.positions == relative.positions);
+    for threads in [1, 3] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let other = pool.install(|| mesh(&text));
+        assert!(expected.indices == other.indices && expected.positions == other.positions);
+    }
+}
+
+#[test]
+fn an_index_out_of_range_is_told_with_its_line_in_a_file_of_many_pieces() {
+    let mut text = strip(60_000, true);
+    let lines = text.lines().count();
+    text += "f 1 -9999999 3\nf 120003 1 2\n";
+    let (none, told) = read(&[("a.obj", text.as_bytes())], &Limits::default());
+    assert!(none.is_none());
+    let expected = format!(
+        "a.obj:{}:5: error: the face uses position -9999999, but there are 120002 positions before it\n\
+         a.obj:{}:3: error: the face uses position 120003, but there are 120002 positions in the file",
+        lines + 1,
+        lines + 2,
+    );
+    assert_eq!(told, expected);
+}
+
+#[test]
+fn going_over_a_limit_is_an_error_that_names_it() {
+    let text = strip(1000, false);
+    let told = |limits: &Limits| read(&[("a.obj", text.as_bytes())], limits).1;
+    let (bytes, vertices, triangles) = (10_000, 100, 100);
+    assert_eq!(
+        told(&Limits { bytes, ..Limits::default() }),
+        "a.obj: error: the model takes more than 10000 bytes of memory"
+    );
+    assert_eq!(
+        told(&Limits { vertices, ..Limits::default() }),
+        "a.obj: error: the model has more than 100 vertices"
+    );
+    assert_eq!(
+        told(&Limits { triangles, ..Limits::default() }),
+        "a.obj: error: the model has more than 100 triangles"
+    );
+}
+
+#[test]
+fn data_far_from_the_origin_keep_their_detail() {
+    let text = "v 4500000.0001 0 0\nv 4500001.0002 0 0\nv 4500000 1 0.5\nf 1 2 3\n";
+    let mesh = mesh(text);
+    let x = mesh.origin.x + f64::from(mesh.positions[1].x);
+    assert!((x - 4_500_001.000_2).abs() < 1e-6, "{x}");
+    assert_eq!((mesh.origin.y, mesh.origin.z), (0.0, 0.0));
+}
+
+#[test]
+fn a_missing_file_says_so() {
+    let mut out = Vec::new();
+    assert!(read_obj("b.obj", &Memory::new(), &Limits::default(), &mut out).is_none());
+    assert_eq!(out[0].to_string(), "b.obj: error: cannot be read: no such file");
+}

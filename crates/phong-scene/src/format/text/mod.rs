@@ -1,0 +1,11 @@
+//! What the readers of text formats share: lines in parallel, numbers, encodings, findings.
+
+mod encoding;
+mod lines;
+mod number;
+mod report;
+
+pub(crate) use encoding::{open_text, read_text};
+pub(crate) use lines::{Cursor, Lines, Piece};
+pub(crate) use number::{Decimal, blame};
+pub(crate) use report::{Findings, TOLD, whole};

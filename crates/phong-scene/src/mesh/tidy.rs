@@ -1,0 +1,105 @@
+//! What files hold and a [`Mesh`] must not: normals without a direction, triangles without area.
+
+use glam::Vec3;
+use rayon::prelude::*;
+
+use super::{Mesh, NO_INDEX, Points};
+
+impl Mesh {
+    /// Takes the normals of length 0 away, whose corners get the geometric normal, and brings
+    /// those to unit length whose squares f32 cannot hold; how many had no direction.
+    pub(crate) fn mend_normals(&mut self) -> u64 {
+        let mend = |n: &mut Vec3| {
+            if n.length_squared().is_normal() {
+                return 0;
+            }
+            let unit = n.as_dvec3().try_normalize();
+            *n = unit.map_or(Vec3::ZERO, glam::DVec3::as_vec3);
+            u64::from(unit.is_none())
+        };
+        let zeros = self.normals.par_iter_mut().with_min_len(1 << 12).map(mend).sum();
+        if zeros > 0 {
+            if self.normal_indices.is_empty() {
+                self.normal_indices.clone_from(&self.indices);
+            }
+            let normals = &self.normals;
+            self.normal_indices.par_iter_mut().with_min_len(1 << 12).for_each(|corners| {
+                for index in corners {
+                    if normals.get(*index as usize).is_some_and(|n| *n == Vec3::ZERO) {
+                        *index = NO_INDEX;
+                    }
+                }
+            });
+        }
+        zeros
+    }
+
+    /// Takes the triangles away that use a vertex twice, and with them nothing that can be seen;
+    /// how many there were.
+    pub(crate) fn drop_collapsed(&mut self) -> u64 {
+        let collapsed = |&[a, b, c]: &[u32; 3]| a == b || b == c || c == a;
+        let count = self.indices.par_iter().with_min_len(1 << 12).filter(|t| collapsed(t)).count();
+        if count == 0 {
+            return 0;
+        }
+        let keep: Vec<bool> = self.indices.par_iter().map(|t| !collapsed(t)).collect();
+        retain(&mut self.indices, &keep);
+        retain(&mut self.normal_indices, &keep);
+        retain(&mut self.uv_indices, &keep);
+        retain(&mut self.face_materials, &keep);
+        count as u64
+    }
+
+    /// Bytes that the arrays take in memory.
+    pub fn bytes(&self) -> u64 {
+        let triples = self.indices.len() + self.normal_indices.len() + self.uv_indices.len();
+        let vectors = self.positions.len() + self.normals.len() + self.colors.len();
+        (12 * (triples + vectors) + 8 * self.uvs.len() + 4 * self.face_materials.len()) as u64
+    }
+}
+
+impl Points {
+    /// Bytes that the arrays take in memory.
+    pub fn bytes(&self) -> u64 {
+        (16 * self.spheres.len() + 12 * self.colors.len()) as u64
+    }
+}
+
+/// Keeps what is to be kept, if there is anything.
+fn retain<T>(values: &mut Vec<T>, keep: &[bool]) {
+    let mut keep = keep.iter();
+    values.retain(|_| *keep.next().unwrap_or(&true));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn normals_without_a_direction_leave_the_geometric_one() {
+        let mut mesh = Mesh {
+            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+            indices: vec![[0, 1, 2]],
+            normals: vec![Vec3::ZERO, Vec3::Z * 1e-30, Vec3::Z * 1e30],
+            ..Mesh::default()
+        };
+        assert_eq!(mesh.mend_normals(), 1);
+        assert_eq!(mesh.normal_indices, [[NO_INDEX, 1, 2]]);
+        assert_eq!(mesh.normals[1..], [Vec3::Z, Vec3::Z]);
+    }
+
+    #[test]
+    fn collapsed_triangles_go_with_all_that_belongs_to_them() {
+        let mut mesh = Mesh {
+            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+            indices: vec![[0, 1, 1], [0, 1, 2], [2, 1, 2]],
+            uv_indices: vec![[7; 3], [8; 3], [9; 3]],
+            face_materials: vec![1, 2, 3],
+            ..Mesh::default()
+        };
+        assert_eq!(mesh.drop_collapsed(), 2);
+        assert_eq!(mesh.indices, [[0, 1, 2]]);
+        assert_eq!((mesh.uv_indices[0], mesh.face_materials[0]), ([8; 3], 2));
+        assert_eq!(mesh.bytes(), 36 + 12 + 12 + 4);
+    }
+}
