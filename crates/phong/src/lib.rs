@@ -2,11 +2,13 @@
 //!
 //! Rooms, lowest storey first; a room imports only rooms below it: `math`; `reflectance`,
 //! `sampling`, `filter`; `material`, `light`, `camera`; `compile`, `interaction`; `integrator`,
-//! `witness`; `film`, `aov`, `render`; `image`, `part`, `explain`, `compare`; `figures`, `fit`.
+//! `witness`; `film`, `aov`, `render`; `image`, `part`, `explain`, `compare`; `figures`,
+//! `eval`, `fit`.
 
 pub mod aov;
 pub mod camera;
 pub mod compile;
+pub mod eval;
 pub mod explain;
 pub mod film;
 pub mod filter;

@@ -33,6 +33,7 @@ const ROOMS: &[&str] = &[
     "compare",
     // 8: uses of all that
     "figures",
+    "eval",
     "fit",
 ];
 

@@ -79,6 +79,13 @@ pub fn normalization(alpha: f32, times_cosine: bool) -> f32 {
     }
 }
 
+/// The short form of [`normalization`] times the cosine that many programs use: `(n+8)/8`.
+///
+/// 2.4 % too bright at n = 1, 7.5 % at 9, 1 % at 200.
+pub fn short_normalization(alpha: f32) -> f32 {
+    (alpha + 8.0) / 8.0
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::tests::{dir, white};
