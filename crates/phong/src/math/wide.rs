@@ -20,6 +20,16 @@ pub fn acos(x: f64) -> f64 {
     libm::acos(x)
 }
 
+/// The angle in [−π/2, π/2] whose tangent is `x`.
+pub fn atan(x: f64) -> f64 {
+    libm::atan(x)
+}
+
+/// `x^y`.
+pub fn pow(x: f64, y: f64) -> f64 {
+    libm::pow(x, y)
+}
+
 /// `e^x`.
 pub fn exp(x: f64) -> f64 {
     libm::exp(x)
