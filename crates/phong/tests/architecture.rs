@@ -31,6 +31,7 @@ const ROOMS: &[&str] = &[
     "image",
     "explain",
     "compare",
+    "grade",
     // 8: uses of all that
     "figures",
     "eval",
