@@ -29,6 +29,8 @@ const ROOMS: &[&str] = &[
     "render",
     // 7: what leaves the house
     "image",
+    "part",
+    "eval",
     "explain",
     "compare",
     "grade",
