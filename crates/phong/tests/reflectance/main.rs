@@ -1,0 +1,9 @@
+//! The formulas of reflectance, held to an oracle in f64 that shares no code with them, to
+//! reciprocity, and to their energy.
+
+#![expect(clippy::unwrap_used, reason = "in a test, what is not there is a failure")]
+
+mod agreement;
+mod directions;
+mod energy;
+mod oracle;
