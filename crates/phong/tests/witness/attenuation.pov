@@ -1,6 +1,6 @@
 // The pair of attenuation.toml.
 #version 3.7;
-global_settings { assumed_gamma 1 adc_bailout 0 max_trace_level 10 }
+global_settings { assumed_gamma 1 adc_bailout 0 max_trace_level 30 }
 camera {
   location <1, 2.2, 6>
   up y
