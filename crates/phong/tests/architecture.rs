@@ -36,7 +36,6 @@ const ROOMS: &[&str] = &[
     "grade",
     // 8: uses of all that
     "figures",
-    "eval",
     "fit",
 ];
 

@@ -60,6 +60,8 @@ def hold(name, phong, povray, folder):
     run(povray, f"+I{HERE / name}.pov", f"+O{pov}", f"+W{WIDTH}", f"+H{HEIGHT}", "-A", "-D", "+FN16", "File_Gamma=1.0")
 
     ours, theirs = read_pfm(out), read_png(pov)
+    if "// mirrored in x" in (HERE / f"{name}.pov").read_text():
+        theirs = [row[::-1] for row in theirs]
     layers = {
         layer: read_pfm(folder / f"{name}.{layer}.pfm")
         for layer in ("object", "normal", "shadow", "reflection", "transmission")
