@@ -44,6 +44,12 @@ impl Camera {
         }
     }
 
+    /// Whether the place on the lens matters.
+    pub fn has_lens(&self) -> bool {
+        self.aperture > 0.0
+            && matches!(self.kind, CameraKind::Perspective { .. } | CameraKind::Orthographic { .. })
+    }
+
     /// The picture's upward direction, unit.
     pub fn up(&self) -> Vec3 {
         self.up.as_vec3()
@@ -53,7 +59,7 @@ impl Camera {
     /// the upper left corner. `lens` in [0, 1)², (½, ½) its centre. `None` outside the image
     /// circle of a fisheye.
     pub fn ray(&self, place: DVec2, size: [u32; 2], lens: [f32; 2]) -> Option<Ray> {
-        let [width, height] = size.map(f64::from);
+        let (width, height) = (f64::from(size[0]), f64::from(size[1]));
         // From the picture's middle, in half heights; y up.
         let (x, y) = ((2.0 * place.x - width) / height, (height - 2.0 * place.y) / height);
         let (origin, dir) = match self.kind {

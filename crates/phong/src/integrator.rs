@@ -196,7 +196,8 @@ impl Integrator<'_> {
             } else {
                 Terms::default()
             };
-            out[*i].terms += terms;
+            out[*i].terms.diffuse += terms.diffuse;
+            out[*i].terms.specular += terms.specular;
             witness.lit(&LightTold {
                 light: number,
                 sample: Some(sample),

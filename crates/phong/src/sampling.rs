@@ -62,19 +62,17 @@ fn unit(bits: u32) -> f32 {
     (bits >> 8) as f32 * (1.0 / 16_777_216.0)
 }
 
-/// The second Sobol dimension: its generator matrix is Pascal's triangle modulo 2.
+/// The second Sobol dimension. Its generator matrix is Pascal's triangle modulo 2, whose entry at
+/// row r, column j is 1 where the bits of r are among those of j (Lucas): the five-fold product of
+/// the 2 × 2 triangle with itself, applied one factor at a time.
 fn sobol(index: u32) -> u32 {
-    let mut direction = 0x8000_0000_u32;
-    let mut rest = index;
-    let mut out = 0;
-    while rest != 0 {
-        if rest & 1 != 0 {
-            out ^= direction;
-        }
-        direction ^= direction >> 1;
-        rest >>= 1;
-    }
-    out
+    let mut x = index;
+    x ^= x >> 1 & 0x5555_5555;
+    x ^= x >> 2 & 0x3333_3333;
+    x ^= x >> 4 & 0x0f0f_0f0f;
+    x ^= x >> 8 & 0x00ff_00ff;
+    x ^= x >> 16 & 0x0000_ffff;
+    x.reverse_bits()
 }
 
 /// Owen scrambling of a fraction's bits (highest first): a bit is flipped by a hash of all bits
@@ -127,6 +125,25 @@ mod tests {
                 }
                 assert!(cells.iter().all(|&n| n == 1), "{purpose:?}, {across} × {down}");
             }
+        }
+    }
+
+    #[test]
+    fn the_second_dimension_is_the_product_with_pascals_triangle() {
+        let by_definition = |index: u32| {
+            let (mut direction, mut out) = (0x8000_0000_u32, 0);
+            for bit in 0..32 {
+                if index >> bit & 1 != 0 {
+                    out ^= direction;
+                }
+                direction ^= direction >> 1;
+            }
+            out
+        };
+        for i in 0..4096 {
+            let index = hash(i);
+            assert_eq!(sobol(index), by_definition(index));
+            assert_eq!(sobol(i), by_definition(i));
         }
     }
 

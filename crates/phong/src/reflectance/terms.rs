@@ -54,15 +54,22 @@ impl Terms {
 
     /// The picture: the sum of the terms, in f32, in this very order.
     pub fn total(self) -> Rgb {
-        self.to_array().into_iter().sum()
+        let Self { background, ambient, diffuse, specular, reflection, transmission } = self;
+        background + ambient + diffuse + specular + reflection + transmission
     }
 }
 
 impl Add for Terms {
     type Output = Self;
     fn add(self, o: Self) -> Self {
-        let (a, b) = (self.to_array(), o.to_array());
-        Self::from_array(std::array::from_fn(|i| a[i] + b[i]))
+        Self {
+            background: self.background + o.background,
+            ambient: self.ambient + o.ambient,
+            diffuse: self.diffuse + o.diffuse,
+            specular: self.specular + o.specular,
+            reflection: self.reflection + o.reflection,
+            transmission: self.transmission + o.transmission,
+        }
     }
 }
 

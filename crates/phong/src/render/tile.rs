@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 use phong_bvh::Hit;
-use phong_scene::Background;
+use phong_scene::{Background, Rgb};
 
 use super::{Cancel, Cancelled, RenderOptions};
 use crate::aov::Aov;
@@ -160,9 +160,10 @@ pub(crate) fn camera_ray(
         f64::from(x) + 0.5 + f64::from(drawn.offset[0]),
         f64::from(y) + 0.5 + f64::from(drawn.offset[1]),
     );
-    let lens = sampler.pair(Use::Lens);
+    let camera = integrator.scene.camera();
+    let lens = if camera.has_lens() { sampler.pair(Use::Lens) } else { [0.5; 2] };
     let height = (place.y / f64::from(options.size[1])).clamp(0.0, 1.0) as f32;
-    let ray = integrator.scene.camera().ray(place, options.size, lens);
+    let ray = camera.ray(place, options.size, lens);
     let ray = ray.map(|ray| CameraRay { ray, sampler, height });
     Drawn { place, weight: drawn.weight, ray }
 }
@@ -172,11 +173,13 @@ impl Sums {
     pub(crate) fn add(&mut self, radiance: &Radiance, weight: f32) {
         let weight = f64::from(weight);
         self.weight += weight;
-        for (sum, term) in self.terms.iter_mut().zip(radiance.terms.to_array()) {
-            for (sum, value) in sum.iter_mut().zip(term.to_array()) {
-                *sum += weight * f64::from(value);
-            }
-        }
+        let terms = radiance.terms;
+        add(&mut self.terms[0], weight, terms.background);
+        add(&mut self.terms[1], weight, terms.ambient);
+        add(&mut self.terms[2], weight, terms.diffuse);
+        add(&mut self.terms[3], weight, terms.specular);
+        add(&mut self.terms[4], weight, terms.reflection);
+        add(&mut self.terms[5], weight, terms.transmission);
         self.alpha += weight * f64::from(u8::from(radiance.met));
     }
 
@@ -184,13 +187,23 @@ impl Sums {
     pub(crate) fn resolve(&self, samples: u32, background: Background) -> (Terms, f32) {
         // Signed weights that all but cancel would blow up what little is left.
         let total = self.weight.max(0.25 * f64::from(samples));
-        let term = |sum: [f64; 3]| sum.map(|v| (v / total) as f32).into();
+        let term = |[r, g, b]: [f64; 3]| {
+            Rgb::new((r / total) as f32, (g / total) as f32, (b / total) as f32)
+        };
+        let [a, b, c, d, e, f] = self.terms;
+        let terms = [term(a), term(b), term(c), term(d), term(e), term(f)];
         let alpha = match background {
             Background::Transparent => (self.alpha / total).clamp(0.0, 1.0) as f32,
             Background::Color(_) | Background::Gradient { .. } => 1.0,
         };
-        (Terms::from_array(self.terms.map(term)), alpha)
+        (Terms::from_array(terms), alpha)
     }
+}
+
+fn add(sum: &mut [f64; 3], weight: f64, term: Rgb) {
+    sum[0] += weight * f64::from(term.r);
+    sum[1] += weight * f64::from(term.g);
+    sum[2] += weight * f64::from(term.b);
 }
 
 /// Counts the lights seen from the surface met.
@@ -207,21 +220,15 @@ impl LightsSeen {
 }
 
 impl Witness for LightsSeen {
-    fn missed(&mut self, _: &phong_bvh::Ray, _: phong_scene::Rgb) {}
-    fn met(
-        &mut self,
-        _: &phong_bvh::Ray,
-        _: &crate::interaction::SurfaceInteraction,
-        _: phong_scene::Rgb,
-    ) {
-    }
+    fn missed(&mut self, _: &phong_bvh::Ray, _: Rgb) {}
+    fn met(&mut self, _: &phong_bvh::Ray, _: &crate::interaction::SurfaceInteraction, _: Rgb) {}
     fn lit(&mut self, told: &LightTold) {
         self.lights += 1;
         self.seen += u32::from(told.visible);
     }
-    fn entered(&mut self, _: Branch, _: phong_scene::Rgb, _: Option<f32>, _: &phong_bvh::Ray) {}
-    fn left(&mut self, _: Branch, _: phong_scene::Rgb) {}
-    fn cut(&mut self, _: Branch, _: phong_scene::Rgb, _: Option<f32>) {}
+    fn entered(&mut self, _: Branch, _: Rgb, _: Option<f32>, _: &phong_bvh::Ray) {}
+    fn left(&mut self, _: Branch, _: Rgb) {}
+    fn cut(&mut self, _: Branch, _: Rgb, _: Option<f32>) {}
 }
 
 /// A tile's pixels in squares, so that a bundle's neighbours are neighbours.
