@@ -135,7 +135,7 @@ impl Block {
     fn vertex(&mut self, cursor: &mut Cursor<'_>, context: &Context) {
         let mut position = [0.0; 3];
         for (axis, value) in position.iter_mut().enumerate() {
-            let Some(number) = number(cursor, context.origin[axis]) else {
+            let Some(number) = cursor.float(context.origin[axis]) else {
                 self.bad_number(cursor, context, axis, "a position", 3);
                 break;
             };
@@ -154,7 +154,7 @@ impl Block {
         let mut extras = [0.0; 3];
         let mut count = 0;
         while cursor.more() {
-            let Some(value) = number(cursor, 0.0) else {
+            let Some(value) = cursor.float(0.0) else {
                 self.bad_number(cursor, context, count, "what follows a position", 0);
                 break;
             };
@@ -185,7 +185,7 @@ impl Block {
     ) -> [f32; 3] {
         let mut numbers = [0.0; 3];
         for (i, value) in numbers.iter_mut().enumerate() {
-            match number(cursor, 0.0) {
+            match cursor.float(0.0) {
                 Some(number) => *value = number,
                 None if i >= least && !cursor.more() => break,
                 None => {
@@ -354,22 +354,6 @@ impl Block {
 
 /// Indices that count from the block's first vertex are at least this.
 const RELATIVE_LEAST: i64 = RELATIVE - (1 << 32);
-
-/// A finite number less `origin`, or `None` with the cursor where it was.
-#[inline]
-fn number(cursor: &mut Cursor<'_>, origin: f64) -> Option<f32> {
-    if !cursor.more() {
-        return None;
-    }
-    let mut ahead = cursor.clone();
-    let decimal = ahead.decimal()?;
-    // One rounding where there is nothing to subtract.
-    let value = if origin == 0.0 { decimal.to_f32() } else { (decimal.to_f64() - origin) as f32 };
-    value.is_finite().then(|| {
-        *cursor = ahead;
-        value
-    })
-}
 
 /// `v`, `v/vt`, `v//vn` or `v/vt/vn`; `None` with the cursor where it was if it is none of these
 /// or an index is 0.

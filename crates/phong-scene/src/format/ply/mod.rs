@@ -1,6 +1,48 @@
-//! PLY, the Stanford polygon format.
+//! PLY, the Stanford polygon format: meshes and clouds of points.
+//!
+//! Read are ASCII and binary bodies of either byte order, properties of any type in any order, and
+//! elements in any order; what is not named here is skipped.
+//!
+//! | element, property | becomes |
+//! |---|---|
+//! | `vertex` `x y z` | positions; those of `double`, of large integers and of ASCII files far from the origin are kept relative to [`Mesh::origin`](crate::Mesh::origin) |
+//! | `nx ny nz` | normals of a mesh |
+//! | `red green blue` (or `r g b`, `diffuse_red` …) | colours: integers are sRGB (0–255, `ushort` 0–65535) and decoded, floats are linear; alpha is not used |
+//! | `s t` or `u v` | texture coordinates |
+//! | `radius` | the radius of a point's sphere |
+//! | `face` `vertex_indices` (or `vertex_index`) | polygons; concave ones are cut by clipping ears |
+//! | `tristrips` `vertex_indices` | strips of triangles, ended by −1 |
+//!
+//! A file without faces is a cloud of points, each drawn as a sphere: of its own `radius`, else of
+//! the radius that the scene gives, else of half the median distance between a point and its
+//! nearest neighbour, so that neighbours just touch.
+//!
+//! A count beyond the file's length is refused before anything is allocated, and a body that ends
+//! early is an error that says how much of it was there. Gaussian splats, which have no surface
+//! to shade, are refused.
+//!
+//! Own reader: `ply-rs-bw` builds a map from names to values for every vertex.
 
-use crate::format::model::Model;
+mod ascii;
+mod binary;
+mod body;
+mod faces;
+mod header;
+mod radius;
+mod vertices;
+
+#[cfg(test)]
+mod tests;
+
+use std::io;
+use std::sync::Arc;
+
+use self::body::{Body, Contents, face_kind};
+use self::header::{Encoding, Header};
+use self::vertices::{Plan, RADIUS};
+use super::model::{Model, Part};
+use super::text::{Findings, whole};
+use crate::mesh::cut_polygons;
 use crate::{Diagnostic, Limits, Source};
 
 /// Reads a PLY file; `None` if a diagnostic is an error. A file without faces is a cloud of
@@ -12,7 +54,137 @@ pub(crate) fn read_ply(
     default_radius: Option<f32>,
     out: &mut Vec<Diagnostic>,
 ) -> Option<Model> {
-    let _ = (path, source, limits, default_radius);
-    out.push(Diagnostic::error("PLY files cannot be read yet", None));
-    None
+    let file: Arc<str> = path.into();
+    let mut findings = Findings::default();
+    let part = read(&file, source, limits, default_radius, &mut findings);
+    let sound = !findings.any_error();
+    findings.tell(&file, out);
+    match part {
+        Ok(part) => {
+            let model = part.map(|part| Model { parts: vec![part], materials: Vec::new() });
+            model.filter(|_| sound)
+        }
+        Err(error) => {
+            out.push(Diagnostic::error(format!("cannot be read: {error}"), whole(&file)));
+            None
+        }
+    }
+}
+
+fn read(
+    file: &Arc<str>,
+    source: &dyn Source,
+    limits: &Limits,
+    default_radius: Option<f32>,
+    findings: &mut Findings,
+) -> io::Result<Option<Part>> {
+    let blob = source.open(file)?;
+    let blob = blob.as_ref();
+    let Some(header) = Header::read(blob, file, findings)? else { return Ok(None) };
+    let Some(vertex) = header.elements.iter().find(|e| e.name == "vertex") else {
+        findings.error(
+            "files without vertices",
+            || whole(file),
+            || "there is nothing to draw: the file has no element `vertex`".to_owned(),
+        );
+        return Ok(None);
+    };
+    let spheres = !header.elements.iter().any(|e| face_kind(e).is_some() && e.count > 0);
+    let Some(plan) = Plan::new(vertex, spheres, default_radius, findings) else { return Ok(None) };
+    let vertex_count = vertex.count;
+    let findings_so_far = std::mem::take(findings);
+    let mut body =
+        Body { blob, file, header: &header, limits, plan, vertex_count, findings: findings_so_far };
+    body.check_faces();
+    body.check_counts();
+    let mut contents = Contents::default();
+    if !body.findings.any_error() && body.has_room(0, 0) {
+        match header.encoding {
+            Encoding::Ascii => body.read_ascii(&mut contents)?,
+            Encoding::Little | Encoding::Big => body.read_binary(&mut contents)?,
+        }
+    }
+    let part = if body.findings.any_error() { None } else { body.finish(contents) };
+    *findings = body.findings;
+    Ok(part)
+}
+
+impl Body<'_> {
+    /// Refuses counts that the file is too short for, before anything is allocated.
+    fn check_counts(&mut self) {
+        let header = self.header;
+        // A last line may lack its end.
+        let mut there = self.blob.len().saturating_sub(header.body).saturating_add(1);
+        for element in &header.elements {
+            let least = element.least(header.encoding);
+            if element.count.saturating_mul(least) > there {
+                let (name, count) = (&element.name, element.count);
+                let at_most = there.checked_div(least).unwrap_or(0);
+                self.findings.error("counts beyond the file", || element.span.clone(), || {
+                    format!("the file has room for {at_most} of {count} rows of the element `{name}`: it is cut short or its header is wrong")
+                });
+                return;
+            }
+            there -= element.count * least;
+        }
+    }
+
+    fn finish(&mut self, contents: Contents) -> Option<Part> {
+        let Contents { vertices, faces } = contents;
+        if self.plan.spheres {
+            let mut points = vertices.into_points(&self.plan);
+            if points.spheres.is_empty() {
+                let span = self.whole();
+                self.findings.error(
+                    "empty models",
+                    || span,
+                    || "there is nothing to draw: the file has no vertex".to_owned(),
+                );
+                return None;
+            }
+            if self.plan.columns[RADIUS].is_none() && self.plan.radius == 0.0 {
+                let radius = radius::automatic(&points.spheres);
+                points.spheres.iter_mut().for_each(|sphere| sphere[3] = radius);
+            }
+            return Some(Part::Points { name: String::new(), points });
+        }
+        let mut mesh = vertices.into_mesh(&self.plan);
+        mesh.indices = faces.indices;
+        let tangled =
+            cut_polygons(&mesh.positions, &faces.polygons, &mut mesh.indices, [&mut [], &mut []]);
+        if tangled > 0 {
+            self.warn("tangled polygons", || {
+                format!(
+                    "{tangled} polygons cross themselves or have no area: their shape is a guess"
+                )
+            });
+        }
+        if faces.dropped > 0 {
+            self.warn("small faces", || {
+                format!("{} faces of fewer than three corners are left out", faces.dropped)
+            });
+        }
+        let collapsed = mesh.drop_collapsed();
+        if collapsed > 0 {
+            self.warn("collapsed triangles", || {
+                format!("{collapsed} triangles use a vertex twice and are left out")
+            });
+        }
+        let zeros = mesh.mend_normals();
+        if zeros > 0 {
+            self.warn("normals of length 0", || {
+                format!("{zeros} normals have length 0: the geometric one stands in for them")
+            });
+        }
+        if mesh.indices.is_empty() {
+            let span = self.whole();
+            self.findings.error(
+                "empty models",
+                || span,
+                || "there is nothing to draw: no face is left".to_owned(),
+            );
+            return None;
+        }
+        Some(Part::Mesh { name: String::new(), mesh })
+    }
 }

@@ -209,6 +209,11 @@ impl<'a> Cursor<'a> {
         self.at >= self.text.len()
     }
 
+    /// Whether nothing stands on the rest of the line, as [`Piece::rows`] counts.
+    pub(crate) fn is_blank(&self) -> bool {
+        self.rest().iter().take_while(|b| **b != b'\n').all(|b| *b <= b' ')
+    }
+
     /// What has not been read yet.
     #[inline]
     pub(crate) fn rest(&self) -> &'a [u8] {
@@ -278,6 +283,24 @@ impl<'a> Cursor<'a> {
             self.at = end;
             decimal
         })
+    }
+
+    /// The next number of the line less `origin`, if it is a finite f32. Else it stays.
+    #[inline]
+    pub(crate) fn float(&mut self, origin: f64) -> Option<f32> {
+        if !self.more() {
+            return None;
+        }
+        let start = self.at;
+        let decimal = self.decimal()?;
+        // One rounding where there is nothing to subtract.
+        let value =
+            if origin == 0.0 { decimal.to_f32() } else { (decimal.to_f64() - origin) as f32 };
+        if !value.is_finite() {
+            self.at = start;
+            return None;
+        }
+        Some(value)
     }
 
     /// Goes to the beginning of the next line, over lines that this one is joined to.

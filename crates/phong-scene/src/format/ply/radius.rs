@@ -1,0 +1,64 @@
+//! A radius for points that bring none: that at which neighbours just touch.
+
+use rayon::prelude::*;
+
+/// Distances taken at most: what a hundred points among a million cost.
+const DISTANCES: usize = 1 << 27;
+
+/// Half the median distance from a point to its nearest neighbour elsewhere, over up to 512 points
+/// spread evenly over the file (fewer among millions); 1 if all are at one place.
+pub(super) fn automatic(spheres: &[[f32; 4]]) -> f32 {
+    let xyz = |s: &[f32; 4]| [s[0], s[1], s[2]];
+    let asked = (DISTANCES / spheres.len().max(1)).clamp(16, 512).min(spheres.len());
+    let queries: Vec<[f32; 3]> =
+        (0..asked).map(|i| xyz(&spheres[i * spheres.len() / asked])).collect();
+    let Some(first) = queries.first() else { return 1.0 };
+    let span = |axis: usize| {
+        let values = || queries.iter().map(|q| q[axis] - first[axis]);
+        values().fold(0.0, f32::max) - values().fold(0.0, f32::min)
+    };
+    let extent = span(0).max(span(1)).max(span(2));
+    // In units of the cloud's size, squares neither vanish nor overflow.
+    let scale = if extent > 0.0 && extent.is_finite() { extent.recip() } else { 1.0 };
+    let nearest = spheres
+        .par_chunks(1 << 14)
+        .map(|part| {
+            let nearest = |q: &[f32; 3]| {
+                part.iter().fold(f32::INFINITY, |least, s| {
+                    let d = [0, 1, 2].map(|axis| (s[axis] - q[axis]) * scale);
+                    let square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+                    if square > 0.0 && square < least { square } else { least }
+                })
+            };
+            queries.iter().map(nearest).collect::<Vec<_>>()
+        })
+        .reduce_with(|a, b| a.iter().zip(&b).map(|(a, b)| a.min(*b)).collect());
+    let mut found: Vec<f32> =
+        nearest.unwrap_or_default().into_iter().filter(|d| d.is_finite()).collect();
+    found.sort_by(f32::total_cmp);
+    let radius = found.get(found.len() / 2).map_or(1.0, |square| 0.5 * square.sqrt() / scale);
+    if radius.is_normal() { radius } else { 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn neighbours_on_a_grid_just_touch_whatever_its_size() {
+        for step in [1e-20_f32, 0.25, 1e12] {
+            let grid: Vec<_> = (0..20 * 20 * 20)
+                .map(|i| [i % 20, i / 20 % 20, i / 400].map(|c| c as f32 * step))
+                .map(|[x, y, z]| [x, y, z, 0.0])
+                .collect();
+            let radius = automatic(&grid);
+            assert!((radius / step - 0.5).abs() < 1e-5, "{radius}");
+        }
+    }
+
+    #[test]
+    fn points_at_one_place_get_a_radius_too() {
+        assert_eq!(automatic(&[]), 1.0);
+        assert_eq!(automatic(&[[5.0, 5.0, 5.0, 0.0]; 3]), 1.0);
+    }
+}

@@ -1,0 +1,240 @@
+//! What the files in `tests/ply/` cannot show: sizes, threads, and limits.
+
+use glam::Vec3;
+use proptest::prelude::*;
+
+use super::*;
+use crate::{Memory, Mesh, Points, Rgb};
+
+fn model(bytes: &[u8], limits: &Limits, radius: Option<f32>) -> (Option<Part>, String) {
+    let source = Memory::new().with("a.ply", bytes);
+    let mut out = Vec::new();
+    let model = read_ply("a.ply", &source, limits, radius, &mut out);
+    let told: Vec<_> = out.iter().map(ToString::to_string).collect();
+    (model.map(|mut model| model.parts.remove(0)), told.join("\n"))
+}
+
+fn mesh(bytes: &[u8]) -> Mesh {
+    match model(bytes, &Limits::default(), None) {
+        (Some(Part::Mesh { mesh, .. }), _) => mesh,
+        other => panic!("{other:?}"),
+    }
+}
+
+fn points(bytes: &[u8], radius: Option<f32>) -> Points {
+    match model(bytes, &Limits::default(), radius) {
+        (Some(Part::Points { points, .. }), _) => points,
+        other => panic!("{other:?}"),
+    }
+}
+
+fn told(bytes: &[u8]) -> String {
+    model(bytes, &Limits::default(), None).1
+}
+
+/// A file whose header says `format` and `elements`.
+fn file(format: &str, elements: &str, body: &[u8]) -> Vec<u8> {
+    let header = format!("ply\nformat {format} 1.0\n{elements}\nend_header\n");
+    [header.as_bytes(), body].concat()
+}
+
+const LITTLE: &str = "binary_little_endian";
+
+fn floats(values: impl IntoIterator<Item = f32>) -> Vec<u8> {
+    values.into_iter().flat_map(f32::to_le_bytes).collect()
+}
+
+#[test]
+fn many_points_are_the_same_for_any_number_of_threads() {
+    let elements = "element vertex 100000\nproperty float x\nproperty float y\nproperty float z\n\
+        property float radius\nproperty uchar red\nproperty uchar green\nproperty uchar blue";
+    let mut body = Vec::new();
+    for i in 0..100_000_u32 {
+        body.extend(floats([i as f32, 0.5, -1.0, 1.0 + i as f32]));
+        body.extend([(i % 256) as u8, 0, 255]);
+    }
+    let bytes = file(LITTLE, elements, &body);
+    let all = points(&bytes, Some(9.0));
+    assert_eq!(all.spheres[77_777], [77_777.0, 0.5, -1.0, 77_778.0]);
+    assert_eq!(all.colors[300], Rgb::from_srgb8([44, 0, 255]));
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    let alone = pool.install(|| points(&bytes, None));
+    assert!(all.spheres == alone.spheres && all.colors == alone.colors);
+}
+
+#[test]
+fn a_bad_vertex_among_many_is_found_by_its_number() {
+    let elements = "element vertex 50000\nproperty float x\nproperty float y\nproperty float z";
+    let mut values: Vec<_> = (0..150_000).map(|i| i as f32).collect();
+    values[3 * 43_210 + 1] = f32::NAN;
+    let told = told(&file(LITTLE, elements, &floats(values)));
+    assert_eq!(told, "a.ply: error: vertex 43210 (counted from 0): its `y` is NaN");
+}
+
+#[test]
+fn faces_of_one_length_and_of_many_give_the_same_triangles() {
+    let face = |corners: &[u32]| {
+        let mut row = vec![corners.len() as u8];
+        row.extend(corners.iter().flat_map(|i| i.to_le_bytes()));
+        row
+    };
+    let vertices = "element vertex 30000\nproperty float x\nproperty float y\nproperty float z\n";
+    let positions =
+        floats((0..30_000).flat_map(|i| [(i / 3) as f32, (i % 3) as f32, (i * i % 7) as f32]));
+    let triangles: Vec<_> = (0..9_999_u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    let list = "property list uchar int vertex_indices";
+    let mut body = positions.clone();
+    for triangle in &triangles {
+        body.extend(face(triangle));
+    }
+    let uniform = mesh(&file(LITTLE, &format!("{vertices}element face 9999\n{list}"), &body));
+    assert!(uniform.indices == triangles);
+    // One quad at the end: nothing of what was read before may be kept twice.
+    body.extend(face(&[0, 3, 4, 1]));
+    let mixed = mesh(&file(LITTLE, &format!("{vertices}element face 10000\n{list}"), &body));
+    assert!(mixed.indices[..9_999] == triangles[..]);
+    assert_eq!(mixed.indices.len(), 10_001);
+}
+
+#[test]
+fn going_over_a_limit_is_an_error_before_anything_is_allocated() {
+    let elements = "element vertex 1000\nproperty float x\nproperty float y\nproperty float z";
+    let bytes = file(LITTLE, elements, &floats(vec![1.0; 3000]));
+    let told = |limits| model(&bytes, &limits, None).1;
+    assert_eq!(
+        told(Limits { bytes: 15_999, ..Limits::default() }),
+        "a.ply: error: the model takes 16000 bytes of memory or more; 15999 are allowed"
+    );
+    assert_eq!(
+        told(Limits { vertices: 999, ..Limits::default() }),
+        "a.ply: error: the model has 1000 vertices, more than the 999 allowed"
+    );
+}
+
+#[test]
+fn a_count_that_no_file_can_hold_is_refused() {
+    for format in ["ascii", LITTLE] {
+        let elements =
+            "element vertex 4000000000000000\nproperty float x\nproperty float y\nproperty float z";
+        let told = told(&file(format, elements, b"0 0 0\n"));
+        assert!(told.contains("the file has room for"), "{told}");
+        let elements = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
+            element face 1\nproperty list uint int vertex_indices";
+        let body = [floats([0.0; 9]), u32::MAX.to_le_bytes().to_vec()].concat();
+        if format == LITTLE {
+            let told = self::told(&file(format, elements, &body));
+            assert_eq!(told, "a.ply: error: the file ends after 0 of 1 rows of the element `face`");
+        }
+    }
+}
+
+#[test]
+fn doubles_far_from_the_origin_keep_their_detail() {
+    let elements = "element vertex 3\nproperty double x\nproperty double y\nproperty double z";
+    let values = [5e6, 1.0, 2.0, 5e6 + 1e-3, 1.5, 2.0, 5e6 + 3.0, 1.0, 2.0_f64];
+    let body: Vec<u8> = values.iter().flat_map(|v| v.to_le_bytes()).collect();
+    let cloud = points(&file(LITTLE, elements, &body), None);
+    let x = cloud.origin.x + f64::from(cloud.spheres[1][0]);
+    assert!((x - 5_000_000.001).abs() < 1e-9, "{x}");
+    assert_eq!((cloud.origin.y, cloud.origin.z), (0.0, 0.0));
+}
+
+#[test]
+fn the_radius_comes_from_the_file_else_from_the_caller_else_from_the_spacing() {
+    let xyz = "element vertex 3\nproperty float x\nproperty float y\nproperty float z";
+    let plain = file("ascii", xyz, b"0 0 0\n4 0 0\n8 0 0\n");
+    assert_eq!(points(&plain, Some(0.5)).spheres[1], [4.0, 0.0, 0.0, 0.5]);
+    assert_eq!(points(&plain, None).spheres[1], [4.0, 0.0, 0.0, 2.0]);
+    let own = file("ascii", &format!("{xyz}\nproperty float radius"), b"0 0 0 1\n4 0 0 2\n8 0 0 3");
+    assert_eq!(points(&own, Some(0.5)).spheres[2][3], 3.0);
+}
+
+/// The same mesh in any of the three formats; `wide` adds what is to be skipped, and doubles.
+fn write(format: &str, mesh: &Mesh, wide: bool) -> Vec<u8> {
+    let number = if wide { "double" } else { "float" };
+    let odd = if wide {
+        "element odd 2\nproperty list ushort short stuff\nproperty char c\n"
+    } else {
+        ""
+    };
+    let flags = if wide { "property list uchar float weights\n" } else { "" };
+    let elements = format!(
+        "comment \nobj_info x\n{odd}element vertex {}\nproperty {number} z\nproperty {number} x\n\
+         property {number} y\n{flags}element face {}\nproperty list uchar uint vertex_index",
+        mesh.positions.len(),
+        mesh.indices.len()
+    );
+    let mut body = Vec::new();
+    let mut put = |little: &[u8], text: String, end: bool| match format {
+        "ascii" => body.extend((text + if end { "\n" } else { " " }).into_bytes()),
+        LITTLE => body.extend(little),
+        _ => body.extend(little.iter().rev()),
+    };
+    if wide {
+        for i in 0..2_u8 {
+            put(&[i, 0], i.to_string(), false);
+            if i == 1 {
+                put(&[7, 1], "263".to_owned(), false);
+            }
+            put(&[9], "9".to_owned(), true);
+        }
+    }
+    for p in &mesh.positions {
+        for (i, v) in [p.z, p.x, p.y].into_iter().enumerate() {
+            let (last, text) = (i == 2 && !wide, format!("{v:?}"));
+            if wide {
+                put(&f64::from(v).to_le_bytes(), text, last);
+            } else {
+                put(&v.to_le_bytes(), text, last);
+            }
+        }
+        if wide {
+            put(&[1], "1".to_owned(), false);
+            put(&0.5_f32.to_le_bytes(), "0.5".to_owned(), true);
+        }
+    }
+    for t in &mesh.indices {
+        put(&[3], "3".to_owned(), false);
+        for (i, v) in t.iter().enumerate() {
+            put(&v.to_le_bytes(), v.to_string(), i == 2);
+        }
+    }
+    file(format, &elements, &body)
+}
+
+proptest! {
+    #[test]
+    fn a_mesh_reads_back_to_the_bit_from_every_format(
+        positions in prop::collection::vec(prop::array::uniform3(-1e6..1e6_f32), 3..40),
+        picks in prop::collection::vec((0..1000_u32, 1..1000_u32, 1..1000_u32), 1..60),
+        wide: bool,
+    ) {
+        let n = positions.len() as u32;
+        // Three different vertices.
+        let indices = picks.iter().map(|&(a, b, c)| {
+            let first = a % n;
+            let second = (first + 1 + b % (n - 1)) % n;
+            let third = (0..n).map(|i| (c + i) % n).find(|i| *i != first && *i != second);
+            [first, second, third.unwrap()]
+        }).collect();
+        let original = Mesh { positions: positions.into_iter().map(Vec3::from).collect(), indices, ..Mesh::default() };
+        for format in ["ascii", LITTLE, "binary_big_endian"] {
+            let read = mesh(&write(format, &original, wide));
+            prop_assert_eq!(&read.positions, &original.positions);
+            prop_assert_eq!(&read.indices, &original.indices);
+        }
+    }
+
+    #[test]
+    fn a_file_cut_anywhere_is_an_error(cut in 0.0..1.0_f64, wide: bool, which in 0..2_usize) {
+        let original = Mesh {
+            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z],
+            indices: vec![[0, 1, 2], [2, 1, 3]],
+            ..Mesh::default()
+        };
+        let whole = write([LITTLE, "binary_big_endian"][which], &original, wide);
+        let cut = (cut * whole.len() as f64) as usize;
+        let (part, told) = model(&whole[..cut], &Limits::default(), None);
+        prop_assert!(part.is_none() && told.contains("error"), "{}", told);
+    }
+}

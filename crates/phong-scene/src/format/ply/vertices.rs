@@ -1,0 +1,342 @@
+//! Vertices: which property is what, and how rows become positions or spheres.
+
+use glam::{DVec3, Vec2, Vec3};
+
+use super::header::{Element, Type};
+use crate::format::text::Findings;
+use crate::{Mesh, Points, Rgb, Span, srgb_decode};
+
+/// What a number of a vertex can be: places in [`Row`].
+pub(super) const RADIUS: usize = 3;
+const NORMAL: usize = 4;
+const COLOR: usize = 7;
+const UV: usize = 10;
+
+/// One vertex: x, y, z, radius, nx, ny, nz, red, green, blue, u, v; 0 where the file has none.
+pub(super) type Row = [f64; 12];
+
+/// Names of each place of a row; the first that the file has counts.
+const NAMES: [&[&str]; 12] = [
+    &["x"],
+    &["y"],
+    &["z"],
+    &["radius"],
+    &["nx"],
+    &["ny"],
+    &["nz"],
+    &["red", "diffuse_red", "r"],
+    &["green", "diffuse_green", "g"],
+    &["blue", "diffuse_blue", "b"],
+    &["s", "u", "texture_u", "texture_s"],
+    &["t", "v", "texture_v", "texture_t"],
+];
+
+/// Which properties are used, for what.
+#[derive(Clone, Debug)]
+pub(super) struct Plan {
+    /// For every place of a row the property that it comes from.
+    pub(super) columns: [Option<usize>; 12],
+    /// How colours become linear.
+    color: Transfer,
+    /// Whether vertices become spheres.
+    pub(super) spheres: bool,
+    /// The radius of spheres that bring none; 0 if it is to be found yet.
+    pub(super) radius: f32,
+    /// Subtracted from every position.
+    pub(super) origin: DVec3,
+}
+
+/// How a stored colour becomes linear.
+#[derive(Clone, Debug)]
+enum Transfer {
+    /// It is.
+    Linear,
+    /// sRGB, this many steps: one linear value each.
+    Srgb(Box<[f32]>),
+}
+
+impl Plan {
+    /// Finds out what the properties are; `None` if `findings` hold an error about them.
+    pub(super) fn new(
+        element: &Element,
+        spheres: bool,
+        radius: Option<f32>,
+        findings: &mut Findings,
+    ) -> Option<Self> {
+        let splat = ["f_dc_0", "scale_0", "rot_0"].iter().find_map(|name| element.find(name));
+        if let Some(property) = splat {
+            let property = &element.properties[property];
+            findings.error(
+                "Gaussian splats",
+                || property.span.clone(),
+                || {
+                    "the file holds Gaussian splats (it has `".to_owned()
+                        + &property.name
+                        + "`), which have no surface to shade"
+                },
+            );
+            return None;
+        }
+        let mut columns: [Option<usize>; 12] =
+            std::array::from_fn(|place| NAMES[place].iter().find_map(|name| element.find(name)));
+        // Half a normal, colour or texture coordinate is none.
+        for group in [NORMAL..COLOR, COLOR..UV, UV..12] {
+            if columns[group.clone()].contains(&None) {
+                columns[group].fill(None);
+            }
+        }
+        if spheres {
+            // Nothing of a sphere is turned or textured by the file.
+            columns[NORMAL..COLOR].fill(None);
+            columns[UV..].fill(None);
+        } else {
+            columns[RADIUS] = None;
+        }
+        for axis in 0..3 {
+            if columns[axis].is_none() {
+                findings.error(
+                    "missing coordinates",
+                    || element.span.clone(),
+                    || format!("the vertices have no property `{}`", NAMES[axis][0]),
+                );
+            }
+        }
+        let kinds = [0, 1, 2].map(|i| columns[COLOR + i].map(|p| element.properties[p].kind));
+        let color = match kinds {
+            [Some(kind), ..] if kinds.iter().all(|k| k.is_some_and(Type::is_float)) => {
+                debug_assert!(kind.is_float());
+                Transfer::Linear
+            }
+            [Some(_), ..] => {
+                let steps = if kinds.contains(&Some(Type::U16)) { 65536 } else { 256 };
+                let decode = |i| srgb_decode(f64::from(i) / f64::from(steps - 1)) as f32;
+                Transfer::Srgb((0..steps).map(decode).collect())
+            }
+            _ => Transfer::Linear,
+        };
+        let radius = radius.unwrap_or(0.0);
+        (!findings.any_error()).then_some(Self {
+            columns,
+            color,
+            spheres,
+            radius,
+            origin: DVec3::ZERO,
+        })
+    }
+
+    fn has(&self, place: usize) -> bool {
+        self.columns[place].is_some()
+    }
+
+    /// Bytes that a vertex takes in memory.
+    pub(super) fn bytes(&self) -> u64 {
+        let position = if self.spheres { 16 } else { 12 };
+        let normal = if self.has(NORMAL) { 12 } else { 0 };
+        let color = if self.has(COLOR) { 12 } else { 0 };
+        position + normal + color + if self.has(UV) { 8 } else { 0 }
+    }
+
+    /// What is wrong with a vertex; `None`: nothing.
+    pub(super) fn blame(&self, row: &Row) -> Option<String> {
+        for (place, name) in NAMES.iter().enumerate() {
+            let stored = row[place];
+            let origin = if place < 3 { self.origin[place] } else { 0.0 };
+            if self.has(place) && !((stored - origin) as f32).is_finite() {
+                let what = if stored.is_nan() { "NaN" } else { "infinite or too large" };
+                return Some(format!("its `{}` is {what}", name[0]));
+            }
+        }
+        let radius = row[RADIUS];
+        if self.has(RADIUS) && radius as f32 <= 0.0 {
+            return Some(format!("its radius is {radius}, but must be above 0"));
+        }
+        if let (Transfer::Srgb(table), true) = (&self.color, self.has(COLOR)) {
+            let wrong = row[COLOR..UV].iter().find(|c| table_entry(table, **c).is_none());
+            return wrong.map(|c| format!("its colour {c} is not from 0 to {}", table.len() - 1));
+        }
+        None
+    }
+}
+
+/// The linear value of an sRGB step; `None` if it is no step.
+fn table_entry(table: &[f32], value: f64) -> Option<f32> {
+    let step = value as usize;
+    table.get(step).copied().filter(|_| step as f64 == value)
+}
+
+/// Vertices read so far, in arrays that become a mesh's or a cloud's without a copy.
+#[derive(Debug, Default)]
+pub(super) struct Vertices {
+    positions: Vec<Vec3>,
+    spheres: Vec<[f32; 4]>,
+    normals: Vec<Vec3>,
+    colors: Vec<Rgb>,
+    uvs: Vec<Vec2>,
+}
+
+impl Vertices {
+    /// `count` vertices to be filled in.
+    pub(super) fn zeros(plan: &Plan, count: usize) -> Self {
+        let count_if = |wanted: bool| if wanted { count } else { 0 };
+        Self {
+            positions: vec![Vec3::ZERO; count_if(!plan.spheres)],
+            spheres: vec![[0.0; 4]; count_if(plan.spheres)],
+            normals: vec![Vec3::ZERO; count_if(plan.has(NORMAL))],
+            colors: vec![Rgb::BLACK; count_if(plan.has(COLOR))],
+            uvs: vec![Vec2::ZERO; count_if(plan.has(UV))],
+        }
+    }
+
+    /// All of them, to be filled in by parts.
+    pub(super) fn rest(&mut self) -> Part<'_> {
+        Part {
+            positions: &mut self.positions,
+            spheres: &mut self.spheres,
+            normals: &mut self.normals,
+            colors: &mut self.colors,
+            uvs: &mut self.uvs,
+        }
+    }
+
+    /// Appends a vertex, which is sound.
+    pub(super) fn push(&mut self, plan: &Plan, row: &Row) {
+        let xyz = (DVec3::new(row[0], row[1], row[2]) - plan.origin).as_vec3();
+        if plan.spheres {
+            let radius = if plan.has(RADIUS) { row[RADIUS] as f32 } else { plan.radius };
+            self.spheres.push([xyz.x, xyz.y, xyz.z, radius]);
+        } else {
+            self.positions.push(xyz);
+        }
+        let three = |at: usize| [row[at] as f32, row[at + 1] as f32, row[at + 2] as f32];
+        if plan.has(NORMAL) {
+            self.normals.push(Vec3::from(three(NORMAL)));
+        }
+        if plan.has(COLOR) {
+            self.colors.push(Rgb::from(match &plan.color {
+                Transfer::Linear => three(COLOR),
+                Transfer::Srgb(table) => {
+                    [0, 1, 2].map(|i| table_entry(table, row[COLOR + i]).unwrap_or(0.0))
+                }
+            }));
+        }
+        if plan.has(UV) {
+            self.uvs.push(Vec2::new(row[UV] as f32, row[UV + 1] as f32));
+        }
+    }
+
+    /// Appends those of a later piece.
+    pub(super) fn append(&mut self, mut later: Self) {
+        self.positions.append(&mut later.positions);
+        self.spheres.append(&mut later.spheres);
+        self.normals.append(&mut later.normals);
+        self.colors.append(&mut later.colors);
+        self.uvs.append(&mut later.uvs);
+    }
+
+    pub(super) fn into_mesh(self, plan: &Plan) -> Mesh {
+        let Self { positions, normals, colors, uvs, .. } = self;
+        Mesh { origin: plan.origin, positions, normals, colors, uvs, ..Mesh::default() }
+    }
+
+    pub(super) fn into_points(self, plan: &Plan) -> Points {
+        Points { origin: plan.origin, spheres: self.spheres, colors: self.colors }
+    }
+}
+
+/// Vertices to be filled in; what the file has none of is empty.
+#[derive(Debug)]
+pub(super) struct Part<'a> {
+    positions: &'a mut [Vec3],
+    spheres: &'a mut [[f32; 4]],
+    normals: &'a mut [Vec3],
+    colors: &'a mut [Rgb],
+    uvs: &'a mut [Vec2],
+}
+
+impl Part<'_> {
+    pub(super) fn len(&self) -> usize {
+        self.positions.len().max(self.spheres.len())
+    }
+
+    /// Takes the first `count` away.
+    pub(super) fn take(&mut self, count: usize) -> Self {
+        macro_rules! take {
+            ($array:ident) => {{
+                let count = count.min(self.$array.len());
+                self.$array.split_off_mut(..count).unwrap_or_default()
+            }};
+        }
+        Self {
+            positions: take!(positions),
+            spheres: take!(spheres),
+            normals: take!(normals),
+            colors: take!(colors),
+            uvs: take!(uvs),
+        }
+    }
+
+    /// Fills everything in, column by column; whether all of it is sound.
+    pub(super) fn fill(&mut self, plan: &Plan, columns: &impl Columns) -> bool {
+        let mut sound = true;
+        for axis in 0..3 {
+            let origin = plan.origin[axis];
+            let Some(column) = plan.columns[axis] else { continue };
+            // One of the two is empty.
+            columns.fill(column, self.positions, |p, v| p[axis] = (v - origin) as f32);
+            columns.fill(column, self.spheres, |p, v| p[axis] = (v - origin) as f32);
+        }
+        match plan.columns[RADIUS] {
+            Some(column) => columns.fill(column, self.spheres, |p, v| p[3] = v as f32),
+            None => self.spheres.iter_mut().for_each(|p| p[3] = plan.radius),
+        }
+        for i in 0..3 {
+            if let Some(column) = plan.columns[NORMAL + i] {
+                columns.fill(column, self.normals, |n, v| n[i] = v as f32);
+            }
+            let Some(column) = plan.columns[COLOR + i] else { continue };
+            let channel =
+                [|c: &mut Rgb, v| c.r = v, |c: &mut Rgb, v| c.g = v, |c: &mut Rgb, v| c.b = v][i];
+            match &plan.color {
+                Transfer::Linear => columns.fill(column, self.colors, |c, v| channel(c, v as f32)),
+                Transfer::Srgb(table) => columns.fill(column, self.colors, |c, v| {
+                    let entry = table_entry(table, v);
+                    sound &= entry.is_some();
+                    channel(c, entry.unwrap_or(0.0));
+                }),
+            }
+        }
+        for i in 0..2 {
+            if let Some(column) = plan.columns[UV + i] {
+                columns.fill(column, self.uvs, |uv, v| uv[i] = v as f32);
+            }
+        }
+        let radii = plan.has(RADIUS);
+        sound
+            && self.positions.iter().all(|p| p.is_finite())
+            && self
+                .spheres
+                .iter()
+                .all(|p| p.iter().all(|c| c.is_finite()) && !(radii && p[3] <= 0.0))
+            && self.normals.iter().all(|n| n.is_finite())
+            && self.colors.iter().all(|c| c.to_array().iter().all(|c| c.is_finite()))
+            && self.uvs.iter().all(|uv| uv.is_finite())
+    }
+}
+
+/// Rows of numbers that can be walked column by column.
+pub(super) trait Columns {
+    /// Calls `set` for every row with the number of that row in `column`.
+    fn fill<T>(&self, column: usize, rows: &mut [T], set: impl FnMut(&mut T, f64));
+}
+
+/// What is said about one vertex or face of `element`.
+pub(super) fn tell(
+    findings: &mut Findings,
+    plural: &'static str,
+    span: impl FnOnce() -> Span,
+    element: &str,
+    number: u64,
+    message: &str,
+) {
+    findings.error(plural, span, || format!("{element} {number} (counted from 0): {message}"));
+}
