@@ -2,17 +2,22 @@
 
 use std::fmt::{self, Display, Formatter, Write};
 
+use glam::DVec3;
 use phong_scene::{Model, Rgb};
 
 use super::{Encoded, End, Explanation, Lit, Onward, RayTold, Sample, Surface};
 use crate::math::{Dir3, lobe};
 use crate::reflectance::Terms;
 
+/// Half a level of 255, where the curve is steepest.
+const NOTICED: f32 = 0.5 / 255.0 / 12.92;
+
 impl Explanation {
     /// The explanation in lines of text. Of several samples all are listed and `sample` (from 0)
-    /// is told in full; `None`: each is.
-    pub fn text(&self, sample: Option<usize>) -> String {
-        let mut out = Page::default();
+    /// is told in full; `None`: each is. Mirror and glass rays that bring the sample less than
+    /// half a level of 255 are only summed up, unless `full`.
+    pub fn text(&self, sample: Option<usize>, full: bool) -> String {
+        let mut out = Page { full, weight: 1.0, ..Page::default() };
         let ([x, y], [width, height]) = (self.pixel, self.size);
         out.line(format_args!("pixel ({x}, {y}) of {width} × {height}"));
         if self.samples.len() > 1 {
@@ -57,6 +62,10 @@ pub(super) fn named(object: &str, element: Option<u32>) -> String {
 struct Page {
     text: String,
     indent: usize,
+    /// Whether everything is told, however little it brings.
+    full: bool,
+    /// What the ray being told weighs in the sample.
+    weight: f32,
 }
 
 impl Page {
@@ -82,12 +91,9 @@ impl Page {
     }
 
     fn ray(&mut self, ray: &RayTold) {
-        let o = ray.origin;
         self.line(format_args!(
-            "ray      from ({}, {}, {}) towards {}",
-            o.x,
-            o.y,
-            o.z,
+            "ray      from {} towards {}",
+            Position(ray.origin),
             Direction(ray.dir)
         ));
         match &ray.end {
@@ -107,7 +113,7 @@ impl Page {
             s.t
         ));
         self.line(format_args!("material {}: {}", s.material.name, described(&s.material)));
-        self.line(format_args!("p      = ({}, {}, {})", s.p.x, s.p.y, s.p.z));
+        self.line(format_args!("p      = {}", Position(s.p)));
         self.line(format_args!("uv     = ({}, {})", s.uv[0], s.uv[1]));
         self.line(format_args!("n_g    = {}", Direction(s.ng)));
         self.line(format_args!("N      = {}", Direction(s.n)));
@@ -191,10 +197,16 @@ impl Page {
         let fresnel = onward.fresnel.map(|f| format!(", F = {f}")).unwrap_or_default();
         self.line(format_args!("{name}, weight {}{fresnel}", Color(onward.weight)));
         self.indent += 2;
+        let outer = self.weight;
+        self.weight *= onward.weight.max_channel();
         match &onward.ray {
+            Some(_) if !self.full && self.weight * onward.light.max_channel() < NOTICED => {
+                self.line(format_args!("it brings less than half a level: not told (--full does)"));
+            }
             Some(ray) => self.ray(ray),
             None => self.line(format_args!("the depth is used up: black")),
         }
+        self.weight = outer;
         self.indent -= 2;
         self.line(format_args!(
             "{name} = {} × {} = {}",
@@ -285,7 +297,7 @@ fn specular_equation(s: &Surface, lit: &Lit) -> String {
     format!(
         "k_s ({name})^{alpha} C_s{factors} = {} × {} × {}{factors}",
         m.k_s,
-        power,
+        Digits(power),
         Color(lit.c_s)
     )
 }
@@ -313,13 +325,40 @@ pub(super) fn described(m: &phong_scene::Material) -> String {
     }
 }
 
+/// A number with all its digits, in powers of ten where they would begin with many zeros.
+pub(super) struct Digits(pub(super) f32);
+
+impl Display for Digits {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let v = self.0;
+        if v == 0.0 || (1e-4..1e9).contains(&v.abs()) {
+            write!(f, "{v}")
+        } else {
+            write!(f, "{v:e}")
+        }
+    }
+}
+
+/// A point in the world; f32s, moved in f64 only where the scene was far from the origin.
+struct Position(DVec3);
+
+impl Display for Position {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let number = |v: f64| {
+            if f64::from(v as f32) == v { (v as f32).to_string() } else { v.to_string() }
+        };
+        let DVec3 { x, y, z } = self.0;
+        write!(f, "({}, {}, {})", number(x), number(y), number(z))
+    }
+}
+
 /// A colour with all its digits.
 pub(super) struct Color(pub(super) Rgb);
 
 impl Display for Color {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let [r, g, b] = self.0.to_array();
-        write!(f, "({r}, {g}, {b})")
+        write!(f, "({}, {}, {})", Digits(r), Digits(g), Digits(b))
     }
 }
 
@@ -329,6 +368,6 @@ pub(super) struct Direction(pub(super) Dir3);
 impl Display for Direction {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let [x, y, z] = self.0.to_array();
-        write!(f, "({x}, {y}, {z})")
+        write!(f, "({}, {}, {})", Digits(x), Digits(y), Digits(z))
     }
 }
