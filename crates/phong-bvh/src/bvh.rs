@@ -9,7 +9,7 @@ use crate::{
     build::{self, Tree},
     level::Token,
     reference, surface,
-    traverse::{Any, Best, Closest, Meter, with_stack},
+    traverse::{Best, Meter, World},
 };
 
 /// A built hierarchy, with the geometry it was built from.
@@ -128,6 +128,13 @@ impl Bvh {
     }
 
     fn closest(&self, ray: &Ray, meter: &mut impl Meter) -> Hit {
+        let mut best = self.outside(ray, meter);
+        self.world().closest(ray, &mut best, meter);
+        best.hit()
+    }
+
+    /// The closest hit outside the tree.
+    fn outside(&self, ray: &Ray, meter: &mut impl Meter) -> Best {
         let mut best = Best::new(ray.t_max);
         for &index in &self.planes {
             meter.primitive();
@@ -137,23 +144,24 @@ impl Bvh {
                 best.offer(t, self.first[index], 0.0, 0.0);
             }
         }
-        with_stack(|stack| {
-            let (tree, geometry) = (&self.tree, self.geometry.as_slice());
-            self.token.run(Closest { tree, geometry, ray, best, stack, meter })
+        best
+    }
+
+    /// Whether anything outside the tree is hit.
+    fn blocked_outside(&self, ray: &Ray) -> bool {
+        self.planes.iter().any(|&index| match &self.geometry[index] {
+            Geometry::Plane(plane) => plane.intersect(ray).is_some(),
+            _ => false,
         })
-        .hit()
+    }
+
+    fn world(&self) -> World<'_> {
+        World::new(&self.tree, &self.geometry, self.token)
     }
 
     /// Whether anything is hit with `t_min < t < t_max`.
     pub fn occluded(&self, ray: &Ray) -> bool {
-        let plane = |&index: &usize| match &self.geometry[index] {
-            Geometry::Plane(plane) => plane.intersect(ray).is_some(),
-            _ => false,
-        };
-        self.planes.iter().any(plane)
-            || with_stack(|stack| {
-                self.token.run(Any { tree: &self.tree, geometry: &self.geometry, ray, stack })
-            })
+        self.blocked_outside(ray) || self.world().any(ray)
     }
 
     /// [`Bvh::intersect`] for each ray of a bundle: the same bits, faster where the rays are
@@ -163,8 +171,12 @@ impl Bvh {
     /// If `hits` has not the length of `rays`.
     pub fn intersect_bundle(&self, rays: &[Ray], hits: &mut [Hit]) {
         assert_eq!(rays.len(), hits.len(), "one hit for each ray");
-        for (ray, hit) in rays.iter().zip(hits) {
-            *hit = self.intersect(ray);
+        for (ray, hit) in rays.iter().zip(&mut *hits) {
+            *hit = self.outside(ray, &mut ()).0;
+        }
+        self.world().closest_of_many(rays, hits);
+        for hit in hits {
+            *hit = Best(*hit).hit();
         }
     }
 
@@ -174,9 +186,10 @@ impl Bvh {
     /// If `blocked` has not the length of `rays`.
     pub fn occluded_bundle(&self, rays: &[Ray], blocked: &mut [bool]) {
         assert_eq!(rays.len(), blocked.len(), "one answer for each ray");
-        for (ray, blocked) in rays.iter().zip(blocked) {
-            *blocked = self.occluded(ray);
+        for (ray, blocked) in rays.iter().zip(&mut *blocked) {
+            *blocked = self.blocked_outside(ray);
         }
+        self.world().any_of_many(rays, blocked);
     }
 
     /// [`Bvh::intersect`] with what it cost.

@@ -15,6 +15,7 @@ mod node8;
 mod primitives;
 mod ray;
 mod reference;
+mod simd;
 mod surface;
 mod traverse;
 #[cfg(test)]

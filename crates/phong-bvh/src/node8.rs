@@ -11,6 +11,8 @@
 //! is a run of rows that means the same wherever it is put: subtrees are built apart, by as
 //! many threads as there are, and then laid end to end.
 
+use crate::Geometry;
+
 /// Eight numbers: f32, or the bits of u32.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(32))]
@@ -49,6 +51,18 @@ pub(crate) enum Kind {
     Triangles,
     Spheres,
     Solid,
+}
+
+impl Kind {
+    /// The kind of leaf a geometry's primitives make, or none: they have no bounds.
+    pub(crate) const fn of(geometry: &Geometry) -> Option<Self> {
+        match geometry {
+            Geometry::Triangles { .. } => Some(Self::Triangles),
+            Geometry::Spheres(_) => Some(Self::Spheres),
+            Geometry::Solid(_) => Some(Self::Solid),
+            Geometry::Plane(_) => None,
+        }
+    }
 }
 
 impl Ref {

@@ -21,8 +21,7 @@ pub(crate) fn intersect(bvh: &Bvh, ray: &Ray) -> Hit {
                 for (prim, corners) in (first..).zip(indices) {
                     let corners = corners.map(|i| positions[i as usize]);
                     if !triangle::is_degenerate(corners)
-                        && let Some([t, u, v]) =
-                            triangle::verdict(&shear, corners.map(|v| v.to_array()))
+                        && let Some([t, u, v]) = shear.intersect(corners)
                     {
                         best.offer(t, prim, u, v);
                     }

@@ -1,10 +1,18 @@
-//! Turns a run of boxes into nodes and leaves.
+//! A subtree by one thread: cut in two down to leaves, then gathered into nodes of eight.
+//!
+//! Which branches of the binary tree become children of one node is decided by dynamic programming
+//! (Ylitie, Karras and Laine, *Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide
+//! BVHs*, 2017): with `A` the surface of a branch, a forest of at most `i` trees under it costs
+//! `C(1) = A + min C_left(k) + C_right(8 − k)` as a node and
+//! `C(i) = min(C(i − 1), min C_left(k) + C_right(i − k))` as several.
+
+use std::ops::Range;
 
 use fearless_simd::Simd;
 
 use super::{
     WIDTH,
-    boxes::Boxed,
+    boxes::{Boxed, half_area},
     cut,
     sah::{Bins, Run},
 };
@@ -21,17 +29,33 @@ pub(super) struct Emitter<'a> {
     pub(super) bins: usize,
     pub(super) rows: Vec<Row>,
     pub(super) nodes: u64,
+    branches: Vec<Branch>,
 }
 
-/// A child before it is written.
-struct Child<'b> {
-    boxes: &'b mut [Boxed],
-    run: Run,
-    depth: u32,
+/// A node of the binary tree.
+struct Branch {
+    bounds: [f32; 8],
+    shape: Shape,
+    /// C(1) … C(7).
+    costs: [f32; WIDTH - 1],
+    /// For two to eight trees: how many of them are on the left; 0: the same as for one fewer. The
+    /// first entry is for eight trees, the children of a node here.
+    left: [u8; WIDTH],
 }
 
-impl Emitter<'_> {
+/// What is under a branch.
+enum Shape {
+    Leaf(Kind, Range<usize>),
+    Pair([usize; 2]),
+}
+
+impl<'a> Emitter<'a> {
+    pub(super) fn new(geometry: &'a [Geometry], first: &'a [u32], bins: usize) -> Self {
+        Self { geometry, first, bins, rows: Vec::new(), nodes: 0, branches: Vec::new() }
+    }
+
     /// Writes the subtree over `boxes`; where its root is.
+    #[inline(always)]
     pub(super) fn emit<S: Simd>(
         &mut self,
         simd: S,
@@ -39,46 +63,108 @@ impl Emitter<'_> {
         run: &Run,
         depth: u32,
     ) -> Ref {
+        let root = self.grow(simd, boxes, run, 0..boxes.len(), depth);
+        self.write(boxes, root)
+    }
+
+    /// Cuts the boxes of `range` down to leaves; the number of their branch.
+    fn grow<S: Simd>(
+        &mut self,
+        simd: S,
+        boxes: &mut [Boxed],
+        run: &Run,
+        range: Range<usize>,
+        depth: u32,
+    ) -> usize {
         simd.vectorize(
             #[inline(always)]
-            || self.subtree(simd, boxes, run, depth),
+            || {
+                let mine = &mut boxes[range.clone()];
+                if let Some(kind) = self.leaf_kind(mine) {
+                    // A leaf's own cost is the same wherever it hangs.
+                    return self.branch(run, Shape::Leaf(kind, range), [0.0; 7], [0; 8]);
+                }
+                let [left, right] = if mine.len() > WIDTH {
+                    let bins = Bins::of(simd, mine, run, self.bins);
+                    cut(simd, Some(&bins), mine, depth)
+                } else {
+                    self.cut_by_kind(simd, mine)
+                };
+                let middle = range.start + left.len;
+                let left = self.grow(simd, boxes, &left, range.start..middle, depth + 1);
+                let right = self.grow(simd, boxes, &right, middle..range.end, depth + 1);
+                let (costs, split) = self.gather(run, [left, right]);
+                self.branch(run, Shape::Pair([left, right]), costs, split)
+            },
         )
     }
 
-    #[inline(always)]
-    fn subtree<S: Simd>(&mut self, simd: S, boxes: &mut [Boxed], run: &Run, depth: u32) -> Ref {
-        if let Some(kind) = self.leaf_kind(boxes) {
-            return self.leaf(boxes, kind);
+    fn branch(&mut self, run: &Run, shape: Shape, costs: [f32; 7], left: [u8; 8]) -> usize {
+        self.branches.push(Branch { bounds: run.bounds, shape, costs, left });
+        self.branches.len() - 1
+    }
+
+    /// The least costs of forests over two branches, and how to divide them.
+    fn gather(&self, run: &Run, [left, right]: [usize; 2]) -> ([f32; 7], [u8; 8]) {
+        let [l, r] = [&self.branches[left].costs, &self.branches[right].costs];
+        let least = |trees: usize| {
+            let cost = |k: usize| l[k - 1] + r[trees - k - 1];
+            let mut best = (f32::INFINITY, 1);
+            for k in 1.max(trees.saturating_sub(7))..=(trees - 1).min(7) {
+                if cost(k) < best.0 {
+                    best = (cost(k), k as u8);
+                }
+            }
+            best
+        };
+        let (mut costs, mut split) = ([0.0; 7], [0; 8]);
+        let (below, k) = least(WIDTH);
+        costs[0] = half_area(&run.bounds) + below;
+        split[0] = k;
+        for trees in 2..WIDTH {
+            let (cost, k) = least(trees);
+            let better = cost < costs[trees - 2];
+            costs[trees - 1] = if better { cost } else { costs[trees - 2] };
+            split[trees - 1] = if better { k } else { 0 };
         }
-        let mut children = vec![Child { boxes, run: *run, depth }];
-        while children.len() < WIDTH {
-            let widest = (0..children.len())
-                .filter(|&i| self.leaf_kind(children[i].boxes).is_none())
-                .max_by(|&i, &j| {
-                    children[i].run.half_area().total_cmp(&children[j].run.half_area())
-                });
-            let Some(widest) = widest else { break };
-            let Child { boxes, run, depth } = children.swap_remove(widest);
-            let [left, right] = if boxes.len() > WIDTH {
-                let bins = Bins::of(simd, boxes, &run, self.bins);
-                cut(simd, Some(&bins), boxes, depth)
-            } else {
-                self.cut_by_kind(simd, boxes)
-            };
-            let (front, back) = boxes.split_at_mut(left.len);
-            children.push(Child { boxes: front, run: left, depth: depth + 1 });
-            children.push(Child { boxes: back, run: right, depth: depth + 1 });
+        (costs, split)
+    }
+
+    /// The branches that are the trees of a forest of at most `trees` under a branch.
+    fn forest(&self, branch: usize, trees: usize, found: &mut Vec<usize>) {
+        let Branch { shape, left, .. } = &self.branches[branch];
+        match (shape, left[trees - 1]) {
+            (Shape::Pair([l, r]), k) if trees > 1 && k > 0 => {
+                self.forest(*l, usize::from(k), found);
+                self.forest(*r, trees - usize::from(k), found);
+            }
+            (Shape::Pair(_), _) if trees > 1 => self.forest(branch, trees - 1, found),
+            _ => found.push(branch),
         }
+    }
+
+    /// Writes a branch and all under it.
+    fn write(&mut self, boxes: &mut [Boxed], branch: usize) -> Ref {
+        let pair = match &self.branches[branch].shape {
+            Shape::Leaf(kind, range) => {
+                let (kind, range) = (*kind, range.clone());
+                return self.leaf(&mut boxes[range], kind);
+            }
+            Shape::Pair(pair) => *pair,
+        };
+        let k = usize::from(self.branches[branch].left[0]);
+        let mut children = Vec::with_capacity(WIDTH);
+        self.forest(pair[0], k, &mut children);
+        self.forest(pair[1], WIDTH - k, &mut children);
+        // Leaves first: they lie beside their node.
+        children.sort_by_key(|&child| matches!(self.branches[child].shape, Shape::Pair(_)));
         let at = self.rows.len();
         self.nodes += 1;
         self.rows.resize(at + NODE, Row::ZERO);
         let mut written = Vec::with_capacity(WIDTH);
-        // Leaves first: they lie beside their node.
-        children.sort_by_key(|child| self.leaf_kind(child.boxes).is_none());
         for child in children {
-            let bounds = child.run.bounds;
-            let child = self.emit(simd, child.boxes, &child.run, child.depth);
-            written.push((Ref(child.0 - at as u32), bounds));
+            let row = self.write(boxes, child);
+            written.push((Ref(row.0 - at as u32), self.branches[child].bounds));
         }
         self.rows[at..at + NODE].copy_from_slice(&node(&written));
         Ref::node(at)
@@ -95,11 +181,7 @@ impl Emitter<'_> {
     }
 
     fn kind(&self, b: &Boxed) -> Kind {
-        match self.geometry[b.geometry()] {
-            Geometry::Triangles { .. } => Kind::Triangles,
-            Geometry::Spheres(_) => Kind::Spheres,
-            Geometry::Solid(_) | Geometry::Plane(_) => Kind::Solid,
-        }
+        Kind::of(&self.geometry[b.geometry()]).unwrap_or(Kind::Solid)
     }
 
     /// Parts a few boxes of several kinds, or several solids.
@@ -131,11 +213,10 @@ impl Emitter<'_> {
             match &self.geometry[b.geometry()] {
                 Geometry::Triangles { positions, indices } => {
                     for (corner, &index) in indices[b.local()].iter().enumerate() {
-                        for (axis, x) in
-                            positions[index as usize].to_array().into_iter().enumerate()
-                        {
-                            block[3 * corner + axis].0[lane] = x;
-                        }
+                        let [x, y, z] = positions[index as usize].to_array();
+                        block[3 * corner].0[lane] = x;
+                        block[3 * corner + 1].0[lane] = y;
+                        block[3 * corner + 2].0[lane] = z;
                     }
                 }
                 Geometry::Spheres(spheres) => {

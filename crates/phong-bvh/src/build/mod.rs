@@ -20,7 +20,7 @@ use crate::{
     Geometry,
     bvh::Preset,
     level::{Kernel, Token},
-    node8::{MAX_ROWS, Ref, Row},
+    node8::{Kind, MAX_ROWS, Ref, Row},
 };
 
 /// Boxes of a run that one thread makes a subtree of.
@@ -39,6 +39,8 @@ pub(crate) struct Tree {
     pub(crate) root: Option<Ref>,
     /// Inner nodes.
     pub(crate) nodes: u64,
+    /// The kind of all leaves, if it is one.
+    pub(crate) only: Option<Kind>,
 }
 
 /// More rows than can be referred to.
@@ -60,7 +62,7 @@ pub(crate) fn build(
     let run = builder.bounds(&boxes);
     let root = builder.grow(&mut boxes, run, 0);
     drop(boxes);
-    let mut tree = Tree::default();
+    let mut tree = Tree { only: only(geometry), ..Tree::default() };
     let size = root.size();
     if size > MAX_ROWS {
         return Err(TooLarge);
@@ -68,6 +70,13 @@ pub(crate) fn build(
     tree.rows.reserve_exact(size);
     tree.root = Some(root.lay(&mut tree));
     Ok(tree)
+}
+
+/// The kind of all primitives that have bounds, if it is one.
+fn only(geometry: &[Geometry]) -> Option<Kind> {
+    let mut kinds = geometry.iter().filter(|g| !g.is_empty()).filter_map(Kind::of);
+    let first = kinds.next()?;
+    kinds.all(|kind| kind == first).then_some(first)
 }
 
 /// Bins along each axis.
@@ -245,7 +254,7 @@ impl Kernel for Subtree<'_, '_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> Part {
         let Builder { geometry, first, bins, .. } = *self.builder;
-        let mut emitter = Emitter { geometry, first, bins, rows: Vec::new(), nodes: 0 };
+        let mut emitter = Emitter::new(geometry, first, bins);
         let root = emitter.emit(simd, self.boxes, &self.run, self.depth);
         Part::Rows { rows: emitter.rows, root, nodes: emitter.nodes }
     }

@@ -12,7 +12,7 @@
 
 use fearless_simd::{Simd, f32x8, prelude::*};
 
-use crate::{Sphere, node8::Row, ray::Ray};
+use crate::{Sphere, node8::Row, primitives::splat3, ray::Ray};
 
 /// What the test needs of a ray.
 #[derive(Clone, Copy, Debug)]
@@ -74,8 +74,8 @@ impl<S: Simd> Closest8<S> {
     #[inline(always)]
     pub(crate) fn new(simd: S, ray: &Closest) -> Self {
         Self {
-            origin: ray.origin.map(|x| f32x8::splat(simd, x)),
-            dir: ray.dir.map(|x| f32x8::splat(simd, x)),
+            origin: splat3(simd, ray.origin),
+            dir: splat3(simd, ray.dir),
             scale: f32x8::splat(simd, ray.scale),
             t_min: f32x8::splat(simd, ray.t_min),
             t_max: f32x8::splat(simd, ray.t_max),

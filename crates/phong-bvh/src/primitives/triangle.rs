@@ -21,7 +21,7 @@
 use fearless_simd::{Simd, f32x8, prelude::*};
 use glam::{DVec3, Vec3};
 
-use crate::{node8::Row, ray::Ray};
+use crate::{node8::Row, primitives::splat3, ray::Ray};
 
 /// What the test needs of a ray.
 #[derive(Clone, Copy, Debug)]
@@ -53,10 +53,9 @@ impl Shear {
         } else {
             2
         };
-        let axes = [[1, 2, 0], [2, 0, 1], [0, 1, 2]][z];
-        let [x, y, z] = axes;
+        let [x, y] = [(z + 1) % 3, (z + 2) % 3];
         Self {
-            axes,
+            axes: [x, y, z],
             origin: [o[x], o[y], o[z]],
             slope: [d[x] / d[z], d[y] / d[z]],
             along: d[z],
@@ -67,22 +66,40 @@ impl Shear {
 
     /// A corner in the sheared space; z is along the ray but not divided by its direction.
     #[inline(always)]
-    fn corner(&self, v: [f32; 3]) -> [f32; 3] {
-        let [x, y, z] = self.axes;
-        let z = v[z] - self.origin[2];
-        let x = v[x] - self.origin[0] - self.slope[0] * z;
-        let y = v[y] - self.origin[1] - self.slope[1] * z;
+    fn corner(&self, [x, y, z]: [f32; 3]) -> [f32; 3] {
+        let z = z - self.origin[2];
+        let x = x - self.origin[0] - self.slope[0] * z;
+        let y = y - self.origin[1] - self.slope[1] * z;
         [x, y, z]
+    }
+
+    /// [`verdict`] on corners as they are in the world.
+    pub(crate) fn intersect(&self, corners: [Vec3; 3]) -> Option<[f32; 3]> {
+        let [x, y, z] = self.axes;
+        verdict(self, corners.map(|v| [v[x], v[y], v[z]]))
+    }
+
+    /// [`verdict`] on one lane of a block.
+    #[inline(always)]
+    pub(crate) fn intersect_lane(&self, block: &[Row; BLOCK], lane: usize) -> Option<[f32; 3]> {
+        let at = |corner: usize, axis: usize| block[corner + (axis & 3)].0[lane & 7];
+        let [x, y, z] = self.axes;
+        let a = [at(0, x), at(0, y), at(0, z)];
+        let b = [at(3, x), at(3, y), at(3, z)];
+        let c = [at(6, x), at(6, y), at(6, z)];
+        verdict(self, [a, b, c])
     }
 }
 
-/// Distance and barycentric weights of the second and third corner, or none.
+/// Distance and barycentric weights of the second and third corner, or none; the corners' coordinates
+/// in the order of the ray's axes.
 #[inline(always)]
-pub(crate) fn verdict(ray: &Shear, corners: [[f32; 3]; 3]) -> Option<[f32; 3]> {
-    let [a, b, c] = corners.map(|v| ray.corner(v).map(f64::from));
-    let u = c[0] * b[1] - c[1] * b[0];
-    let v = a[0] * c[1] - a[1] * c[0];
-    let w = b[0] * a[1] - b[1] * a[0];
+fn verdict(ray: &Shear, [a, b, c]: [[f32; 3]; 3]) -> Option<[f32; 3]> {
+    let ([ax, ay, az], [bx, by, bz], [cx, cy, cz]) = (ray.corner(a), ray.corner(b), ray.corner(c));
+    let product = |p: f32, q: f32| f64::from(p) * f64::from(q);
+    let u = product(cx, by) - product(cy, bx);
+    let v = product(ax, cy) - product(ay, cx);
+    let w = product(bx, ay) - product(by, ax);
     let inside = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
     let det = u + v + w;
     if !inside || det == 0.0 {
@@ -90,7 +107,7 @@ pub(crate) fn verdict(ray: &Shear, corners: [[f32; 3]; 3]) -> Option<[f32; 3]> {
     }
     let along = f64::from(ray.along);
     let scale = 1.0 / (det * along);
-    let t = ((u * a[2] + v * b[2] + w * c[2]) * scale) as f32;
+    let t = ((u * f64::from(az) + v * f64::from(bz) + w * f64::from(cz)) * scale) as f32;
     let scale = scale * along;
     (ray.t_min < t && t < ray.t_max).then_some([t, (v * scale) as f32, (w * scale) as f32])
 }
@@ -117,9 +134,9 @@ impl<S: Simd> Shear8<S> {
     #[inline(always)]
     pub(crate) fn new(simd: S, ray: &Shear) -> Self {
         Self {
-            axes: ray.axes.map(|axis| axis & 3),
-            origin: ray.origin.map(|x| f32x8::splat(simd, x)),
-            slope: ray.slope.map(|x| f32x8::splat(simd, x)),
+            axes: ray.axes,
+            origin: splat3(simd, ray.origin),
+            slope: [f32x8::splat(simd, ray.slope[0]), f32x8::splat(simd, ray.slope[1])],
         }
     }
 
@@ -150,7 +167,7 @@ impl<S: Simd> Shear8<S> {
 }
 
 /// The corners of one lane.
-#[inline(always)]
+#[cfg(test)]
 pub(crate) fn corners(block: &[Row; BLOCK], lane: usize) -> [[f32; 3]; 3] {
     let corner =
         |i: usize| [block[i].0[lane & 7], block[i + 1].0[lane & 7], block[i + 2].0[lane & 7]];
@@ -164,10 +181,10 @@ mod tests {
     #[test]
     fn a_hit_has_its_distance_and_the_weights_of_its_corners() {
         let ray = Shear::new(&Ray::new(Vec3::new(0.25, 0.5, 3.0), Vec3::NEG_Z));
-        let corners = [[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]];
-        assert_eq!(verdict(&ray, corners), Some([2.0, 0.25, 0.5]));
+        let corners = [Vec3::Z, Vec3::new(1.0, 0.0, 1.0), Vec3::new(0.0, 1.0, 1.0)];
+        assert_eq!(ray.intersect(corners), Some([2.0, 0.25, 0.5]));
         let back = [corners[0], corners[2], corners[1]];
-        assert_eq!(verdict(&ray, back), Some([2.0, 0.5, 0.25]), "from behind as well");
+        assert_eq!(ray.intersect(back), Some([2.0, 0.5, 0.25]), "from behind as well");
     }
 
     #[test]

@@ -1,29 +1,118 @@
 //! Rays through the tree.
 
+mod interleaved;
+mod leaves;
 mod single;
 mod slabs;
+mod walk;
 
-use std::cell::RefCell;
+use std::{cell::RefCell, marker::PhantomData};
 
-pub(crate) use self::single::{Any, Closest};
-use crate::{Cost, Hit};
+use self::{
+    interleaved::{AnyOfMany, ClosestOfMany, RAYS, Stacks},
+    leaves::{Anything, Content, OnlySpheres, OnlyTriangles},
+};
+use crate::{
+    Cost, Geometry, Hit, Ray,
+    build::Tree,
+    level::Token,
+    node8::{Kind, Ref, Row},
+};
+
+/// A tree and what its leaves refer to.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct World<'a> {
+    rows: &'a [Row],
+    root: Option<Ref>,
+    only: Option<Kind>,
+    geometry: &'a [Geometry],
+    token: Token,
+}
+
+impl<'a> World<'a> {
+    /// The world of a tree.
+    pub(crate) fn new(tree: &'a Tree, geometry: &'a [Geometry], token: Token) -> Self {
+        Self { rows: &tree.rows, root: tree.root, only: tree.only, geometry, token }
+    }
+
+    /// The closest hit of a ray, given the best outside the tree.
+    pub(crate) fn closest(&self, ray: &Ray, best: &mut Best, meter: &mut impl Meter) {
+        match self.only {
+            Some(Kind::Triangles) => self.closest_in::<OnlyTriangles>(ray, best, meter),
+            Some(Kind::Spheres) => self.closest_in::<OnlySpheres>(ray, best, meter),
+            _ => self.closest_in::<Anything>(ray, best, meter),
+        }
+    }
+
+    /// The closest hit of each ray; `hits` come with the best outside the tree.
+    pub(crate) fn closest_of_many(&self, rays: &[Ray], hits: &mut [Hit]) {
+        match self.only {
+            Some(Kind::Triangles) => self.closest_of_many_in::<OnlyTriangles>(rays, hits),
+            Some(Kind::Spheres) => self.closest_of_many_in::<OnlySpheres>(rays, hits),
+            _ => self.closest_of_many_in::<Anything>(rays, hits),
+        }
+    }
+
+    /// Whether each ray hits anything; those already `blocked` stay so.
+    pub(crate) fn any_of_many(&self, rays: &[Ray], blocked: &mut [bool]) {
+        match self.only {
+            Some(Kind::Triangles) => self.any_of_many_in::<OnlyTriangles>(rays, blocked),
+            Some(Kind::Spheres) => self.any_of_many_in::<OnlySpheres>(rays, blocked),
+            _ => self.any_of_many_in::<Anything>(rays, blocked),
+        }
+    }
+
+    /// Whether a ray hits anything.
+    pub(crate) fn any(&self, ray: &Ray) -> bool {
+        match self.only {
+            Some(Kind::Triangles) => self.any_in::<OnlyTriangles>(ray),
+            Some(Kind::Spheres) => self.any_in::<OnlySpheres>(ray),
+            _ => self.any_in::<Anything>(ray),
+        }
+    }
+
+    #[inline(always)]
+    fn closest_in<C: Content>(&self, ray: &Ray, best: &mut Best, meter: &mut impl Meter) {
+        let Some(root) = self.root else { return };
+        let (world, content) = (self, PhantomData::<C>);
+        STACKS.with_borrow_mut(|[stack, ..]| {
+            self.token.run(single::Closest { world, root, ray, best, stack, meter, content });
+        });
+    }
+
+    fn closest_of_many_in<C: Content>(&self, rays: &[Ray], hits: &mut [Hit]) {
+        let Some(root) = self.root else { return };
+        let (world, content) = (self, PhantomData::<C>);
+        STACKS.with_borrow_mut(|stacks| {
+            self.token.run(ClosestOfMany { world, root, rays, hits, stacks, content });
+        });
+    }
+
+    fn any_of_many_in<C: Content>(&self, rays: &[Ray], blocked: &mut [bool]) {
+        let Some(root) = self.root else { return };
+        let (world, content) = (self, PhantomData::<C>);
+        STACKS.with_borrow_mut(|stacks| {
+            self.token.run(AnyOfMany { world, root, rays, blocked, stacks, content });
+        });
+    }
+
+    #[inline(always)]
+    fn any_in<C: Content>(&self, ray: &Ray) -> bool {
+        let Some(root) = self.root else { return false };
+        let (world, content) = (self, PhantomData::<C>);
+        STACKS.with_borrow_mut(|[stack, ..]| {
+            self.token.run(single::Any { world, root, ray, stack, content })
+        })
+    }
+}
 
 /// Entries a stack can need: a tree is at most [`DEEP`](crate::build) cuts and 32 halvings deep, and
 /// each node leaves seven children behind.
 const STACK: usize = 7 * (64 + 32);
 
 thread_local! {
-    /// One stack a thread: clearing one for each ray would cost a tenth of its time.
-    static STACKS: RefCell<Stack> = const { RefCell::new(Stack([0; STACK])) };
-}
-
-/// Nodes to visit: entry distance in the upper half, [`Ref`](crate::node8::Ref) in the lower.
-pub(crate) struct Stack([u64; STACK]);
-
-/// Runs with this thread's stack.
-#[inline(always)]
-pub(crate) fn with_stack<R>(run: impl FnOnce(&mut Stack) -> R) -> R {
-    STACKS.with_borrow_mut(run)
+    /// Stacks of a thread: clearing one for each ray would cost a tenth of its time.
+    static STACKS: RefCell<Stacks> = const { RefCell::new([[0; STACK]; RAYS]) };
 }
 
 /// Who counts what a ray costs; `()` does not.
@@ -63,6 +152,15 @@ impl Best {
     #[inline(always)]
     pub(crate) fn new(t_max: f32) -> Self {
         Self(Hit { t: t_max, ..Hit::NONE })
+    }
+
+    /// The best hit outside the tree: it has no barycentric weights.
+    ///
+    /// Its two numbers are handed over one by one: read back together, right after they were written
+    /// apart, they would stall for longer than a node takes.
+    #[inline(always)]
+    pub(crate) fn outside(t: f32, prim: u32) -> Self {
+        Self(Hit { t, prim, u: 0.0, v: 0.0 })
     }
 
     /// Takes a hit that is nearer, or as near and of a lower number.

@@ -9,8 +9,11 @@
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 
+use glam::{BVec3, Vec3};
+
 use crate::{
     node8::{NODE, Row},
+    primitives::splat3,
     ray::Ray,
 };
 
@@ -21,7 +24,8 @@ pub(super) struct Slabs<S: Simd> {
     near: [usize; 3],
     near_origin: [f32x8<S>; 3],
     far_origin: [f32x8<S>; 3],
-    reciprocal: [f32x8<S>; 3],
+    near_reciprocal: [f32x8<S>; 3],
+    far_reciprocal: [f32x8<S>; 3],
     t_min: f32x8<S>,
 }
 
@@ -32,19 +36,23 @@ impl<S: Simd> Slabs<S> {
     /// Prepares a ray.
     #[inline(always)]
     pub(super) fn new(simd: S, ray: &Ray) -> Self {
-        let (o, d) = (ray.origin.to_array(), ray.dir.to_array());
-        let pad = ray.origin.abs().max_element() * SLACK + 1e-24;
-        let splat = |x: f32| f32x8::splat(simd, x);
-        let negative = d.map(f32::is_sign_negative);
-        let side = |axis: usize, pad: f32| {
-            splat(if negative[axis] { o[axis] - pad } else { o[axis] + pad })
-        };
+        let (o, d) = (ray.origin, ray.dir);
+        let pad = Vec3::splat(o.abs().max_element() * SLACK + 1e-24);
+        let negative = d.is_negative_bitmask();
+        let back = Vec3::select(
+            BVec3::new(negative & 1 != 0, negative & 2 != 0, negative & 4 != 0),
+            -pad,
+            pad,
+        );
+        let reciprocal = d.recip().clamp(Vec3::splat(-1e37), Vec3::splat(1e37));
+        let near = |axis: usize| 2 * axis + (negative >> axis & 1) as usize;
         Self {
-            near: [0, 1, 2].map(|axis| 2 * axis + usize::from(negative[axis])),
-            near_origin: [0, 1, 2].map(|axis| side(axis, pad)),
-            far_origin: [0, 1, 2].map(|axis| side(axis, -pad)),
-            reciprocal: d.map(|d| splat((1.0 / d).clamp(-1e37, 1e37))),
-            t_min: splat(ray.t_min),
+            near: [near(0), near(1), near(2)],
+            near_origin: splat3(simd, (o + back).to_array()),
+            far_origin: splat3(simd, (o - back).to_array()),
+            near_reciprocal: splat3(simd, reciprocal.to_array()),
+            far_reciprocal: splat3(simd, (reciprocal * (1.0 + SLACK)).to_array()),
+            t_min: f32x8::splat(simd, ray.t_min),
         }
     }
 
@@ -56,13 +64,16 @@ impl<S: Simd> Slabs<S> {
         node: &[Row; NODE],
         t_max: f32x8<S>,
     ) -> (mask32x8<S>, f32x8<S>) {
-        let side = |axis: usize, row: usize, origin: f32x8<S>| {
-            (f32x8::load_array_ref(simd, &node[row & 7].0) - origin) * self.reciprocal[axis]
+        let near = |axis: usize| {
+            let side = f32x8::load_array_ref(simd, &node[self.near[axis] & 7].0);
+            (side - self.near_origin[axis]) * self.near_reciprocal[axis]
         };
-        let near = |axis: usize| side(axis, self.near[axis], self.near_origin[axis]);
-        let far = |axis: usize| side(axis, self.near[axis] ^ 1, self.far_origin[axis]);
+        let far = |axis: usize| {
+            let side = f32x8::load_array_ref(simd, &node[(self.near[axis] ^ 1) & 7].0);
+            (side - self.far_origin[axis]) * self.far_reciprocal[axis]
+        };
         let enter = near(0).max(near(1)).max(near(2).max(self.t_min));
-        let leave = far(0).min(far(1)).min(far(2)) * (1.0 + SLACK);
-        (enter.simd_le(leave.min(t_max)), enter)
+        let leave = far(0).min(far(1)).min(far(2).min(t_max));
+        (enter.simd_le(leave), enter)
     }
 }

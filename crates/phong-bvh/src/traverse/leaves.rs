@@ -1,0 +1,178 @@
+//! What hangs on the tree: the primitives of a leaf against one ray.
+//!
+//! Most trees hold triangles alone or spheres alone. Each kind of tree has its own copy of the
+//! traversal, which prepares of a ray only what its leaves ask for.
+
+use fearless_simd::{Simd, prelude::*};
+
+use super::{Best, World};
+use crate::{
+    Geometry, Ray,
+    node8::{Kind, Ref, rows},
+    primitives::{
+        sphere::{self, Closest, Closest8},
+        triangle::{self, Shear, Shear8},
+    },
+};
+
+/// A kind of tree.
+pub(super) trait Content {
+    /// Its leaves' tests.
+    type Leaves<S: Simd>: Leaves<S>;
+}
+
+/// A ray prepared for the primitives of leaves.
+pub(super) trait Leaves<S: Simd> {
+    /// Prepares a ray.
+    fn new(simd: S, ray: &Ray) -> Self;
+
+    /// Offers the hits in a leaf.
+    fn offer(&self, simd: S, world: &World<'_>, ray: &Ray, leaf: Ref, best: &mut Best);
+
+    /// Whether anything in a leaf is hit.
+    fn any(&self, simd: S, world: &World<'_>, ray: &Ray, leaf: Ref) -> bool;
+}
+
+/// Triangles alone.
+pub(super) struct OnlyTriangles;
+/// Spheres alone.
+pub(super) struct OnlySpheres;
+/// All there is.
+pub(super) struct Anything;
+
+impl Content for OnlyTriangles {
+    type Leaves<S: Simd> = Triangles<S>;
+}
+
+impl Content for OnlySpheres {
+    type Leaves<S: Simd> = Spheres<S>;
+}
+
+impl Content for Anything {
+    type Leaves<S: Simd> = Mixed<S>;
+}
+
+/// A ray prepared for triangles.
+pub(super) struct Triangles<S: Simd> {
+    shear: Shear,
+    shear8: Shear8<S>,
+}
+
+impl<S: Simd> Leaves<S> for Triangles<S> {
+    #[inline(always)]
+    fn new(simd: S, ray: &Ray) -> Self {
+        let shear = Shear::new(ray);
+        Self { shear, shear8: Shear8::new(simd, &shear) }
+    }
+
+    #[inline(always)]
+    fn offer(&self, simd: S, world: &World<'_>, _: &Ray, leaf: Ref, best: &mut Best) {
+        let block = rows(world.rows, leaf.row());
+        let mut mask = self.shear8.filter(simd, block);
+        while mask != 0 {
+            let lane = mask.trailing_zeros() as usize;
+            mask &= mask - 1;
+            let prim = block[triangle::BLOCK - 1].bits(lane);
+            if prim != u32::MAX
+                && let Some([t, u, v]) = self.shear.intersect_lane(block, lane)
+            {
+                best.offer(t, prim, u, v);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn any(&self, simd: S, world: &World<'_>, _: &Ray, leaf: Ref) -> bool {
+        let block = rows(world.rows, leaf.row());
+        let mut mask = self.shear8.filter(simd, block);
+        while mask != 0 {
+            let lane = mask.trailing_zeros() as usize;
+            mask &= mask - 1;
+            if self.shear.intersect_lane(block, lane).is_some() {
+                return true;
+            }
+        }
+        false
+    }
+}
+
+/// A ray prepared for spheres.
+pub(super) struct Spheres<S: Simd> {
+    closest8: Closest8<S>,
+}
+
+impl<S: Simd> Leaves<S> for Spheres<S> {
+    #[inline(always)]
+    fn new(simd: S, ray: &Ray) -> Self {
+        Self { closest8: Closest8::new(simd, &Closest::new(ray)) }
+    }
+
+    #[inline(always)]
+    fn offer(&self, simd: S, world: &World<'_>, _: &Ray, leaf: Ref, best: &mut Best) {
+        let block = rows(world.rows, leaf.row());
+        let (mut mask, t) = self.closest8.intersect(simd, block);
+        if mask != 0 {
+            let t = t.to_array();
+            while mask != 0 {
+                let lane = mask.trailing_zeros() as usize & 7;
+                mask &= mask - 1;
+                // An unused lane has no number, and loses every tie to the one it repeats.
+                best.offer(t[lane], block[sphere::BLOCK - 1].bits(lane), 0.0, 0.0);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn any(&self, simd: S, world: &World<'_>, _: &Ray, leaf: Ref) -> bool {
+        self.closest8.intersect(simd, rows(world.rows, leaf.row())).0 != 0
+    }
+}
+
+/// A ray prepared for everything.
+pub(super) struct Mixed<S: Simd> {
+    triangles: Triangles<S>,
+    spheres: Spheres<S>,
+}
+
+impl<S: Simd> Leaves<S> for Mixed<S> {
+    #[inline(always)]
+    fn new(simd: S, ray: &Ray) -> Self {
+        Self { triangles: Triangles::new(simd, ray), spheres: Spheres::new(simd, ray) }
+    }
+
+    #[inline(always)]
+    fn offer(&self, simd: S, world: &World<'_>, ray: &Ray, leaf: Ref, best: &mut Best) {
+        match leaf.kind() {
+            Some(Kind::Triangles) => self.triangles.offer(simd, world, ray, leaf, best),
+            Some(Kind::Spheres) => self.spheres.offer(simd, world, ray, leaf, best),
+            Some(Kind::Solid) => {
+                let (t, prim) = solid(world, ray, leaf);
+                if let Some(t) = t {
+                    best.offer(t, prim, 0.0, 0.0);
+                }
+            }
+            None => {}
+        }
+    }
+
+    #[inline(always)]
+    fn any(&self, simd: S, world: &World<'_>, ray: &Ray, leaf: Ref) -> bool {
+        match leaf.kind() {
+            Some(Kind::Triangles) => self.triangles.any(simd, world, ray, leaf),
+            Some(Kind::Spheres) => self.spheres.any(simd, world, ray, leaf),
+            Some(Kind::Solid) => solid(world, ray, leaf).0.is_some(),
+            None => false,
+        }
+    }
+}
+
+/// Where a solid is hit, and its number.
+#[inline(never)]
+fn solid(world: &World<'_>, ray: &Ray, leaf: Ref) -> (Option<f32>, u32) {
+    let row = world.rows[leaf.row()];
+    let t = match &world.geometry[row.bits(1) as usize] {
+        Geometry::Solid(solid) => solid.intersect(ray),
+        _ => None,
+    };
+    (t, row.bits(0))
+}
