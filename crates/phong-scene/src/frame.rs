@@ -12,12 +12,20 @@ use crate::{
 const FILL: f64 = 0.9;
 
 /// From where a bare model is looked at.
-#[derive(Clone, Debug, Default, PartialEq)]
+///
+/// ```
+/// use glam::DVec3;
+/// use phong_scene::{Side, View};
+/// // A map, north at the picture's upper edge.
+/// let above = View { side: Side::Top, up: DVec3::Z, ..View::default() };
+/// ```
+#[derive(Clone, Debug, PartialEq)]
 pub struct View {
     /// Which side faces the camera. Default: [`Side::Iso`].
     pub side: Side,
-    /// Which axis of the model points up. Default: Y.
-    pub up: Up,
+    /// The direction of the model that points up, of any length but 0. Default: +Y. For any other
+    /// the sides are turned with it by the shortest way: where Z is up, −Y is the front.
+    pub up: DVec3,
     /// Position of the eye; `None`: where everything fits into the picture.
     pub eye: Option<DVec3>,
     /// The point in the middle of the picture; `None`: the middle of the model's box.
@@ -28,10 +36,23 @@ pub struct View {
     pub color: Option<Rgb>,
 }
 
+impl Default for View {
+    fn default() -> Self {
+        Self {
+            side: Side::default(),
+            up: DVec3::Y,
+            eye: None,
+            look_at: None,
+            fov: None,
+            color: None,
+        }
+    }
+}
+
 /// The side of a model that faces the camera.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Side {
-    /// The side that +Z points to (−Y where Z is up).
+    /// The side that +Z points to.
     Front,
     /// The side opposite to the front.
     Back,
@@ -48,22 +69,14 @@ pub enum Side {
     Iso,
 }
 
-/// The axis of a model that points up.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Up {
-    /// +Y.
-    #[default]
-    Y,
-    /// +Z, as in geography and CAD.
-    Z,
-}
-
 /// A scene that shows `model` from `view`: camera, lights and background are automatic.
 ///
 /// Material 0 is of what has none; the model's own follow. Meshes without normals are smoothed
 /// where faces meet under 60°.
 pub(crate) fn frame(model: Model, view: &View, place: &Place) -> Scene {
-    let mut materials = vec![Material { place: place.clone(), ..Material::default() }];
+    // Materials of foreign files often have a white ambient colour; a dim light suits them all.
+    let ambient = Rgb::grey(0.15);
+    let mut materials = vec![Material { k_a: 1.0, place: place.clone(), ..Material::default() }];
     materials.extend(model.materials);
     let (mut meshes, mut clouds) = (0, 0);
     let objects = model
@@ -98,7 +111,7 @@ pub(crate) fn frame(model: Model, view: &View, place: &Place) -> Scene {
             aperture: 0.0,
             focus: None,
         },
-        ambient: Rgb::WHITE,
+        ambient,
         lights: Vec::new(),
         materials,
         objects,
@@ -155,7 +168,7 @@ fn camera(bounds: Bounds, view: &View, aspect: f64) -> Camera {
 }
 
 /// The unit direction from the model to the eye, and the picture's up.
-fn directions(side: Side, up: Up) -> (DVec3, DVec3) {
+fn directions(side: Side, up: DVec3) -> (DVec3, DVec3) {
     // In a frame where Y is up and Z is the front.
     let (to_eye, image_up) = match side {
         Side::Front => (DVec3::Z, DVec3::Y),
@@ -166,11 +179,17 @@ fn directions(side: Side, up: Up) -> (DVec3, DVec3) {
         Side::Bottom => (DVec3::NEG_Y, DVec3::Z),
         Side::Iso => (DVec3::ONE.normalize_or(DVec3::Z), DVec3::Y),
     };
-    let place = |v: DVec3| match up {
-        Up::Y => v,
-        Up::Z => DVec3::new(v.x, -v.z, v.y),
+    let up = up.normalize_or(DVec3::Y);
+    // The shortest turn from Y to up (Rodrigues); half a turn goes about X.
+    let (axis, cosine) = (DVec3::Y.cross(up), up.y);
+    let turn = |v: DVec3| {
+        if cosine < -1.0 + 1e-12 {
+            DVec3::new(v.x, -v.y, -v.z)
+        } else {
+            cosine * v + axis.cross(v) + axis * (axis.dot(v) / (1.0 + cosine))
+        }
     };
-    (place(to_eye), place(image_up))
+    (turn(to_eye), turn(image_up))
 }
 
 /// A key light over the camera's left shoulder, and a weaker one low on its right.
@@ -190,4 +209,100 @@ fn lights(camera: &Camera) -> Vec<Light> {
         light("key light", forward + 0.6 * right - 0.8 * up, 1.0, true),
         light("fill light", forward - 0.9 * right - 0.1 * up, 0.3, false),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+    use crate::Mesh;
+
+    const SIDES: [Side; 7] =
+        [Side::Front, Side::Back, Side::Left, Side::Right, Side::Top, Side::Bottom, Side::Iso];
+
+    /// Where a point is in the picture: −1 to 1 across and up if it is within.
+    fn project(camera: &Camera, aspect: f64, p: DVec3) -> (f64, f64) {
+        let CameraKind::Perspective { fov } = camera.kind else { panic!("{camera:?}") };
+        let forward = (camera.look_at - camera.eye).normalize_or(DVec3::ZERO);
+        let right = forward.cross(camera.up).normalize_or(DVec3::ZERO);
+        let d = p - camera.eye;
+        let half = d.dot(forward) * libm::tan(0.5 * fov.to_radians());
+        (d.dot(right) / (half * aspect), d.dot(right.cross(forward)) / half)
+    }
+
+    #[test]
+    fn everything_fits_with_a_margin_and_fills_the_picture_from_every_side() {
+        let boxes = [
+            (DVec3::ZERO, DVec3::ONE),
+            (DVec3::splat(-1e9), DVec3::new(1e9, -0.9e9, 1e3)),
+            (DVec3::splat(1e-9), DVec3::new(2e-9, 1.5e-9, 9e-9)),
+            (DVec3::new(-5.0, 2.0, -5.0), DVec3::new(5.0, 2.0, 5.0)),
+            (DVec3::new(5e6, 0.0, 5e6), DVec3::new(5e6 + 1.0, 1.0, 5e6 + 1.0)),
+        ];
+        for (min, max) in boxes {
+            for side in SIDES {
+                for up in [DVec3::Y, DVec3::Z, DVec3::NEG_Y, DVec3::new(1.0, 2.0, -3.0)] {
+                    for aspect in [0.25, 1.0, 16.0 / 9.0] {
+                        let bounds = Bounds { min, max };
+                        let camera = camera(bounds, &View { side, up, ..View::default() }, aspect);
+                        let reach = bounds.corners().map(|c| {
+                            let (x, y) = project(&camera, aspect, c);
+                            x.abs().max(y.abs())
+                        });
+                        let most = reach.into_iter().fold(0.0, f64::max);
+                        let told = format!("{side:?} {up} {aspect} {bounds:?}: {most}");
+                        assert!((most - FILL).abs() < 1e-4, "{told}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_single_point_and_nothing_at_all_have_a_camera_that_looks_at_them() {
+        for bounds in [Bounds::EMPTY, Bounds::EMPTY.with(DVec3::new(1e7, 0.0, -3.0))] {
+            let camera = camera(bounds, &View::default(), 1.5);
+            assert!(camera.eye.is_finite() && camera.eye != camera.look_at, "{camera:?}");
+        }
+    }
+
+    #[test]
+    fn the_front_is_what_z_points_to_or_minus_y_where_z_is_up() {
+        assert_eq!(directions(Side::Front, DVec3::Y), (DVec3::Z, DVec3::Y));
+        assert_eq!(directions(Side::Front, DVec3::Z), (DVec3::NEG_Y, DVec3::Z));
+        assert_eq!(directions(Side::Right, 2.0 * DVec3::Z), (DVec3::X, DVec3::Z));
+        assert_eq!(directions(Side::Top, DVec3::Z), (DVec3::Z, DVec3::Y));
+        assert_eq!(directions(Side::Front, DVec3::NEG_Y), (DVec3::NEG_Z, DVec3::NEG_Y));
+    }
+
+    #[test]
+    fn an_eye_of_ones_own_wins_and_looking_along_up_still_has_an_up() {
+        let view = View { eye: Some(DVec3::new(0.5, 9.0, 0.5)), ..View::default() };
+        let camera = camera(Bounds { min: DVec3::ZERO, max: DVec3::ONE }, &view, 1.0);
+        assert_eq!(camera.eye.y, 9.0);
+        assert!((camera.look_at - camera.eye).cross(camera.up).length() > 0.1);
+    }
+
+    #[test]
+    fn a_bare_mesh_becomes_a_smooth_object_with_its_materials_behind_the_default() {
+        let mesh = Mesh {
+            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+            indices: vec![[0, 1, 2]],
+            face_materials: vec![0],
+            ..Mesh::default()
+        };
+        let red = Material { name: "red".to_owned(), ..Material::default() };
+        let model =
+            Model { parts: vec![Part::Mesh { name: String::new(), mesh }], materials: vec![red] };
+        let place = Place::default();
+        let scene = frame(model, &View { color: Some(Rgb::BLACK), ..View::default() }, &place);
+        assert_eq!(
+            (scene.materials[0].color, scene.materials[1].name.as_str()),
+            (Rgb::BLACK, "red")
+        );
+        assert_eq!((scene.objects[0].name.as_str(), scene.lights.len()), ("mesh 1", 2));
+        let Shape::Mesh(mesh) = &scene.objects[0].shape else { panic!("{:?}", scene.objects) };
+        assert_eq!((mesh.face_materials[0], mesh.normals.len()), (1, 3));
+    }
 }

@@ -22,7 +22,7 @@ mod source;
 pub use camera::{Camera, CameraKind};
 pub use color::{Rgb, srgb_decode, srgb_encode};
 pub use diagnostic::{Diagnostic, Label, Place, Severity, Span};
-pub use frame::{Side, Up, View};
+pub use frame::{Side, View};
 pub use light::{Light, LightKind};
 pub use limits::Limits;
 pub use material::{
