@@ -71,7 +71,8 @@ pub(crate) fn surface(bvh: &Bvh, ray: &Ray, hit: &Hit) -> Surface {
             let (normal, from) = (plane.normal, p - plane.point);
             let uv = DVec2::new(from.dot(u), from.dot(v));
             // The plane's own numbers round in f64 only.
-            facing(Patch { p, normal, tangent: u, uv }, f64::EPSILON * 8.0 * plane.point.abs())
+            let patch = Patch { p, normal, tangent: u, uv, curvature: 0.0 };
+            facing(patch, f64::EPSILON * 8.0 * plane.point.abs())
         }
         Geometry::Solid(solid) => {
             let m = &solid.to_world.matrix3;
@@ -84,15 +85,16 @@ pub(crate) fn surface(bvh: &Bvh, ray: &Ray, hit: &Hit) -> Surface {
 
 /// Interpolates in f64, so the point is in the triangle's plane whatever the rounding of u and v.
 ///
-/// Kernels subtract the ray's origin from the corners and round: the error is relative to how far
-/// the corners are, not to where they are.
+/// The kernel takes the corners relative to the ray's origin, and shears them. Of each coordinate
+/// so made up to six roundings are relative to how far the corners are, along any axis.
 fn triangle([a, b, c]: [DVec3; 3], hit: &Hit) -> Surface {
     let (u, v) = (f64::from(hit.u), f64::from(hit.v));
     let (ab, ac) = (b - a, c - a);
     let p = a + u * ab + v * ac;
     let far = (a - p).abs().max((b - p).abs()).max((c - p).abs());
-    let patch = Patch { p, normal: ab.cross(ac), tangent: ab, uv: DVec2::new(u, v) };
-    facing(patch, 8.0 * ROUNDING * far)
+    let patch =
+        Patch { p, normal: ab.cross(ac), tangent: ab, uv: DVec2::new(u, v), curvature: 0.0 };
+    facing(patch, DVec3::splat(8.0 * ROUNDING * far.max_element()))
 }
 
 /// Of the two points where the line of the ray meets the sphere the one nearer to the hit; where
@@ -105,19 +107,26 @@ fn sphere(sphere: &Sphere, ray: &Ray, t: f32) -> Surface {
     let half = ((radius * radius - off.length_squared()).max(0.0) / d.length_squared()).sqrt();
     let reach = if f64::from(t) > middle { half } else { -half };
     let patch = ellipsoid::patch(off + reach * d);
-    let world = Patch { p: center + radius * patch.p, ..patch };
-    facing(world, DVec3::splat(8.0 * ROUNDING * radius))
+    let world = Patch { p: center + radius * patch.p, curvature: 1.0 / radius, ..patch };
+    facing(world, DVec3::splat(16.0 * ROUNDING * radius))
 }
 
 /// A patch in the world's space rounded to a surface, given how far the next ray must keep off
 /// besides what rounding `p` costs.
+///
+/// Rounding moves `p` along the surface as well, and so does rounding away from it, by as much as
+/// two roundings more; and a curved surface bends away below: by `e² κ / 2`. That matters to rays
+/// going in, on small shapes far from the world's origin.
 fn facing(patch: Patch, slack: DVec3) -> Surface {
     let ng = patch.normal.normalize_or(DVec3::Z);
-    let along = patch.tangent - patch.tangent.dot(ng) * ng;
-    let tangent = along.try_normalize().unwrap_or_else(|| ng.any_orthonormal_vector());
+    let tangent = patch.tangent - patch.tangent.dot(ng) * ng;
+    let tangent = tangent.try_normalize().unwrap_or_else(|| ng.any_orthonormal_vector());
+    let rounding = ROUNDING * patch.p.abs();
+    let along = (3.0 * rounding).length();
+    let bend = (0.5 * patch.curvature * along * along).min(along);
     Surface {
         p: patch.p.as_vec3(),
-        p_error: (ROUNDING * patch.p.abs() + slack).as_vec3(),
+        p_error: (rounding + bend + slack).as_vec3(),
         ng: ng.as_vec3(),
         tangent: tangent.as_vec3(),
         uv: patch.uv.as_vec2(),

@@ -34,5 +34,11 @@ pub(super) fn patch(p: DVec3, face: u8) -> Patch {
     let mut on = p.clamp(DVec3::NEG_ONE, DVec3::ONE);
     on[k] = side;
     let uv = DVec2::new(0.5 + 0.5 * side * on[i], 0.5 + 0.5 * on[j]);
-    Patch { p: on, normal: side * DVec3::AXES[k], tangent: side * DVec3::AXES[i], uv }
+    Patch {
+        p: on,
+        normal: side * DVec3::AXES[k],
+        tangent: side * DVec3::AXES[i],
+        uv,
+        curvature: 0.0,
+    }
 }

@@ -94,6 +94,7 @@ pub(super) fn patch(p: DVec3, [radius, radius_to]: Radii, face: u8) -> Patch {
                 normal,
                 tangent: DVec3::new(-out.y, out.x, 0.0),
                 uv: DVec2::new(turn(out.y, out.x), z),
+                curvature: 1.0 / r,
             }
         }
     }

@@ -53,11 +53,13 @@ pub(super) fn patch(p: DVec3, face: u8) -> Patch {
         2 => disc::patch(p, 1.0, 1.0, true),
         _ => {
             let n = p.truncate().normalize_or(DVec2::X).extend(0.0);
+            let z = p.z.clamp(0.0, 1.0);
             Patch {
-                p: DVec3::new(n.x, n.y, p.z),
+                p: DVec3::new(n.x, n.y, z),
                 normal: n,
                 tangent: DVec3::new(-n.y, n.x, 0.0),
-                uv: DVec2::new(turn(n.y, n.x), p.z),
+                uv: DVec2::new(turn(n.y, n.x), z),
+                curvature: 1.0,
             }
         }
     }

@@ -41,5 +41,6 @@ pub(super) fn patch(p: DVec3, z: f64, radius: f64, up: bool) -> Patch {
         normal: if up { DVec3::Z } else { DVec3::NEG_Z },
         tangent: DVec3::X,
         uv: 0.5 + 0.5 * uv,
+        curvature: 0.0,
     }
 }

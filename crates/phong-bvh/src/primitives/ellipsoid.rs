@@ -44,5 +44,6 @@ pub(crate) fn patch(p: DVec3) -> Patch {
         normal: n,
         tangent: DVec3::new(-n.y, n.x, 0.0),
         uv: DVec2::new(turn(n.y, n.x), latitude),
+        curvature: 1.0,
     }
 }

@@ -22,6 +22,8 @@ pub(crate) struct Patch {
     pub(crate) tangent: DVec3,
     /// Surface coordinates.
     pub(crate) uv: DVec2,
+    /// No less than the greatest curvature in any direction: 1 / radius.
+    pub(crate) curvature: f64,
 }
 
 /// The angle of (x, y) from the x axis towards the y axis, in turns: [0, 1].
@@ -80,11 +82,17 @@ impl Solid {
         // Normals are gradients, so they go by the transposed inverse, which also keeps them
         // outwards under a mirror image.
         let m = &self.to_world.matrix3;
+        let inverse = m.inverse();
+        // Of an ellipsoid the sharpest is its longest axis over the square of the shortest; and no
+        // axis is longer or shorter than these norms.
+        let norm = |m: &DMat3| m.to_cols_array().iter().map(|x| x * x).sum::<f64>().sqrt();
+        let shrink = norm(&inverse);
         Patch {
             p: self.to_world.transform_point3(local.p),
-            normal: m.inverse().transpose() * local.normal,
+            normal: inverse.transpose() * local.normal,
             tangent: *m * local.tangent,
             uv: local.uv,
+            curvature: local.curvature * norm(m) * shrink * shrink,
         }
     }
 

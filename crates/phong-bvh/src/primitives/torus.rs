@@ -119,5 +119,6 @@ pub(super) fn patch(p: DVec3, tube: f64) -> Patch {
         normal,
         tangent: DVec3::new(-out.y, out.x, 0.0),
         uv: DVec2::new(turn(out.y, out.x), turn(normal.z, normal.dot(ring))),
+        curvature: (1.0 / tube).max(1.0 / (1.0 - tube)),
     }
 }

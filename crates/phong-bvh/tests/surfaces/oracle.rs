@@ -129,9 +129,10 @@ pub(crate) fn shapes() -> impl Strategy<Value = Canonical> {
         Just(Canonical::Disc),
         Just(Canonical::Box),
         any::<bool>().prop_map(|capped| Canonical::Cylinder { capped }),
-        (radii(), radii(), any::<bool>())
-            .prop_filter("not both 0", |&(r, s, _)| r > 0.0 || s > 0.0)
-            .prop_map(|(radius, radius_to, capped)| Canonical::Cone { radius, radius_to, capped }),
+        (radii(), 0.01..3.0_f64, any::<bool>(), any::<bool>()).prop_map(|(r, s, swap, capped)| {
+            let (radius, radius_to) = if swap { (s, r) } else { (r, s) };
+            Canonical::Cone { radius, radius_to, capped }
+        }),
         (0.02..0.98_f64).prop_map(|tube| Canonical::Torus { tube }),
     ]
 }
@@ -141,10 +142,10 @@ pub(crate) fn directions() -> impl Strategy<Value = DVec3> {
     let axes = [DVec3::X, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z];
     prop_oneof![
         1 => proptest::sample::select(axes.to_vec()),
-        7 => [-1.0..1.0_f64, -1.0..1.0, -1.0..1.0]
-            .prop_map(DVec3::from_array)
-            .prop_filter("long enough", |v| (0.1..1.0).contains(&v.length()))
-            .prop_map(|v| v / v.length()),
+        7 => (-1.0..1.0_f64, 0.0..6.3_f64).prop_map(|(z, angle)| {
+            let rho = (1.0 - z * z).sqrt();
+            DVec3::new(rho * libm::cos(angle), rho * libm::sin(angle), z)
+        }),
     ]
 }
 
