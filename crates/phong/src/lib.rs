@@ -12,6 +12,7 @@ pub mod eval;
 pub mod explain;
 pub mod film;
 pub mod filter;
+pub mod fit;
 pub mod grade;
 pub mod image;
 pub mod integrator;
