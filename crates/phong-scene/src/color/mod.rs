@@ -1,7 +1,11 @@
 //! Linear colour and the sRGB transfer curve.
 
+mod names;
+
 use std::iter::Sum;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Sub};
+
+pub use names::ColorError;
 
 /// A linear colour with Rec. 709 primaries; unclamped, any finite value (1 is display white).
 ///
@@ -28,26 +32,31 @@ impl Rgb {
     pub const WHITE: Self = Self::grey(1.0);
 
     /// A colour from its linear channels.
+    #[must_use]
     pub const fn new(r: f32, g: f32, b: f32) -> Self {
         Self { r, g, b }
     }
 
     /// The same value in all three channels.
+    #[must_use]
     pub const fn grey(v: f32) -> Self {
         Self::new(v, v, v)
     }
 
     /// Channels in the order red, green, blue.
+    #[must_use]
     pub const fn to_array(self) -> [f32; 3] {
         [self.r, self.g, self.b]
     }
 
     /// Whether all channels are exactly 0.
+    #[must_use]
     pub fn is_black(self) -> bool {
         self == Self::BLACK
     }
 
     /// The largest channel.
+    #[must_use]
     pub fn max_channel(self) -> f32 {
         self.r.max(self.g).max(self.b)
     }
@@ -59,6 +68,7 @@ impl Rgb {
     }
 
     /// A colour from sRGB-encoded bytes (`#rrggbb`), decoded to linear.
+    #[must_use]
     pub fn from_srgb8(bytes: [u8; 3]) -> Self {
         let [r, g, b] = bytes.map(|byte| srgb_decode(f64::from(byte) / 255.0) as f32);
         Self::new(r, g, b)
@@ -132,11 +142,13 @@ impl Sum for Rgb {
 }
 
 /// sRGB-encoded value in [0, 1] to linear, by the piecewise curve of IEC 61966-2-1.
+#[must_use]
 pub fn srgb_decode(v: f64) -> f64 {
     if v <= 0.04045 { v / 12.92 } else { libm::pow((v + 0.055) / 1.055, 2.4) }
 }
 
 /// Linear value in [0, 1] to sRGB-encoded, by the piecewise curve of IEC 61966-2-1.
+#[must_use]
 pub fn srgb_encode(v: f64) -> f64 {
     if v <= 0.003_130_8 { v * 12.92 } else { 1.055 * libm::pow(v, 1.0 / 2.4) - 0.055 }
 }

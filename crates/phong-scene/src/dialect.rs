@@ -1,0 +1,183 @@
+//! What other programs mean by "Phong": presets of a material's four switches.
+//!
+//! The model fixes the lobe and `shininess` is always the exponent that is applied, so a dialect
+//! says only the rest: whether the highlight is multiplied by N·L, whether the lobe is normalised,
+//! what tints it, and how often ambient light is added. Each row was read in that program's own
+//! source or specification.
+//!
+//! | name | lobe | × N·L | normalised | tint | ambient |
+//! |---|---|---|---|---|---|
+//! | `lecture` | R·E or N·H | no | no | light | once |
+//! | `mtl` | N·H | no | no | light | once |
+//! | `pov-ray` | R·E (`phong`) or N·H (`specular`) | no | no | light | once |
+//! | `tachyon` | N·H, or R·E with `-shade_phong` | no | no | light | once |
+//! | `tachyon-metal` | as `tachyon` | no | no | object | once |
+//! | `vtk` | R·E | no | no | light | once |
+//! | `opengl` | N·H | no | no | light | per light |
+//! | `direct3d9` | N·H | no | no | light | per light |
+//! | `ospray` | N·H | no | yes | light | once |
+//! | `three-js` | N·H | yes | yes | light | once |
+//! | `pymol` | N·H | no | no | light | once |
+//! | `x3d` | N·H | no | no | light | per light |
+//! | `collada` | R·E (`phong`) or N·H (`blinn`) | no | no | light | once |
+//! | `rtc` | R·E | no | no | light | per light |
+
+use crate::{AmbientRule, Dialect, Model, Tint};
+
+/// The dialects' names in the scene text, in the order of [`Dialect::ALL`].
+pub(crate) const NAMES: [&str; 14] = {
+    let mut names = [""; 14];
+    let mut i = 0;
+    while i < names.len() {
+        names[i] = Dialect::ALL[i].name();
+        i += 1;
+    }
+    names
+};
+
+/// The four switches that a dialect presets.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Switches {
+    /// Whether the specular term is multiplied by N·L.
+    pub times_cosine: bool,
+    /// Whether the lobe is scaled so that its energy does not depend on the exponent.
+    pub normalize: bool,
+    /// What tints the highlight.
+    pub tint: Tint,
+    /// How often the ambient term is added.
+    pub ambient_rule: AmbientRule,
+}
+
+impl Dialect {
+    /// Every dialect, the lecture's first.
+    pub const ALL: [Self; 14] = [
+        Self::Lecture,
+        Self::Mtl,
+        Self::PovRay,
+        Self::Tachyon,
+        Self::TachyonMetal,
+        Self::Vtk,
+        Self::OpenGl,
+        Self::Direct3d9,
+        Self::Ospray,
+        Self::ThreeJs,
+        Self::Pymol,
+        Self::X3d,
+        Self::Collada,
+        Self::Rtc,
+    ];
+
+    /// Its name in the scene text.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Lecture => "lecture",
+            Self::Mtl => "mtl",
+            Self::PovRay => "pov-ray",
+            Self::Tachyon => "tachyon",
+            Self::TachyonMetal => "tachyon-metal",
+            Self::Vtk => "vtk",
+            Self::OpenGl => "opengl",
+            Self::Direct3d9 => "direct3d9",
+            Self::Ospray => "ospray",
+            Self::ThreeJs => "three-js",
+            Self::Pymol => "pymol",
+            Self::X3d => "x3d",
+            Self::Collada => "collada",
+            Self::Rtc => "rtc",
+        }
+    }
+
+    /// The dialect of this name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|dialect| dialect.name() == name)
+    }
+
+    /// The switches it presets.
+    ///
+    /// ```
+    /// use phong_scene::{Dialect, Tint};
+    /// assert_eq!(Dialect::TachyonMetal.switches().tint, Tint::Object);
+    /// assert!(Dialect::ThreeJs.switches().times_cosine);
+    /// ```
+    #[must_use]
+    pub fn switches(self) -> Switches {
+        Switches {
+            times_cosine: self == Self::ThreeJs,
+            normalize: matches!(self, Self::Ospray | Self::ThreeJs),
+            tint: if self == Self::TachyonMetal { Tint::Object } else { Tint::Light },
+            ambient_rule: match self {
+                Self::OpenGl | Self::Direct3d9 | Self::X3d | Self::Rtc => AmbientRule::PerLight,
+                _ => AmbientRule::Once,
+            },
+        }
+    }
+
+    /// Whether a material of this model can be meant in this dialect: its lobe is one the program
+    /// has. Lambert's has no lobe and suits all; the lecture's own suits every model.
+    #[must_use]
+    pub fn allows(self, model: &Model) -> bool {
+        match model {
+            _ if self == Self::Lecture => true,
+            Model::Lambert => true,
+            Model::Phong => matches!(
+                self,
+                Self::PovRay
+                    | Self::Tachyon
+                    | Self::TachyonMetal
+                    | Self::Vtk
+                    | Self::Collada
+                    | Self::Rtc
+            ),
+            Model::BlinnPhong => !matches!(self, Self::Vtk | Self::Rtc),
+            Model::Microfacet { .. } | Model::OrenNayar { .. } | Model::Ward { .. } => false,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_dialect_is_found_by_its_name() {
+        for dialect in Dialect::ALL {
+            assert_eq!(Dialect::from_name(dialect.name()), Some(dialect));
+        }
+    }
+
+    #[test]
+    fn the_lecture_leaves_every_switch_off() {
+        assert_eq!(Dialect::Lecture.switches(), Switches::default());
+    }
+
+    #[test]
+    fn a_dialect_allows_the_lobes_its_program_has() {
+        assert!(!Dialect::Mtl.allows(&Model::Phong), "MTL's lobe is N·H");
+        assert!(Dialect::Mtl.allows(&Model::BlinnPhong));
+        assert!(!Dialect::Vtk.allows(&Model::BlinnPhong), "VTK's lobe is R·E");
+        for dialect in Dialect::ALL {
+            let lobes = [Model::Phong, Model::BlinnPhong].map(|model| dialect.allows(&model));
+            assert!(lobes.contains(&true), "{} has some lobe", dialect.name());
+        }
+    }
+
+    /// The table in the module's doc is what users read; it must be what the code does.
+    #[test]
+    fn the_table_above_says_what_the_code_does() {
+        let source = include_str!("dialect.rs");
+        for dialect in Dialect::ALL {
+            let start = format!("//! | `{}` |", dialect.name());
+            let row = source.lines().find(|line| line.starts_with(&start)).expect("a row");
+            let cells: Vec<_> = row.trim_start_matches("//! ").split('|').map(str::trim).collect();
+            let Switches { times_cosine, normalize, tint, ambient_rule } = dialect.switches();
+            let yes = |b| if b { "yes" } else { "no" };
+            assert_eq!(cells[3], yes(times_cosine), "{row}");
+            assert_eq!(cells[4], yes(normalize), "{row}");
+            assert_eq!(cells[5], if tint == Tint::Object { "object" } else { "light" }, "{row}");
+            let once = ambient_rule == AmbientRule::Once;
+            assert_eq!(cells[6], if once { "once" } else { "per light" }, "{row}");
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! `[materials.NAME]`.
+
+use super::notes::Notes;
+use super::table::Values;
+use crate::{
+    AmbientRule, Dialect, Distribution, Fresnel, Material, Model, Rgb, Shadowing, Tint, WardForm,
+};
+
+/// A material; what is wrong with it has been said.
+pub(super) fn material(v: &Values, name: &str, notes: &mut Notes) -> Option<Material> {
+    let model = match v.word("model")? {
+        "lambert" => Model::Lambert,
+        "blinn-phong" => Model::BlinnPhong,
+        "cook-torrance" => cook_torrance(v, notes)?,
+        "ggx" => Model::Microfacet {
+            distribution: Distribution::Ggx,
+            roughness: v.number("roughness")? as f32,
+            shadowing: shadowing(v)?,
+            fresnel: fresnel(v, notes)?,
+        },
+        "oren-nayar" => Model::OrenNayar {
+            sigma: v.number("sigma")?.to_radians() as f32,
+            full: v.word("form")? == "full",
+        },
+        "ward" => {
+            let roughness_x = v.number("roughness_x")? as f32;
+            Model::Ward {
+                roughness_x,
+                roughness_y: v.number("roughness_y").map_or(roughness_x, |r| r as f32),
+                form: if v.word("form")? == "gmd" { WardForm::Gmd } else { WardForm::Ward },
+            }
+        }
+        _ => Model::Phong,
+    };
+    let dialect = dialect(v, &model, notes)?;
+    let preset = dialect.switches();
+    let plain = Material::default();
+    let transmission = v.color("transmission")?;
+    Some(Material {
+        name: name.to_owned(),
+        model,
+        color: v.color("color")?,
+        ambient_color: v.color("ambient_color"),
+        // White where a model has no highlight, which the key is then an error for.
+        specular_color: match v.word("specular_color") {
+            Some(_) => None,
+            None => Some(v.color("specular_color").unwrap_or(Rgb::WHITE)),
+        },
+        k_a: v.number("k_a")? as f32,
+        k_d: v.number("k_d")? as f32,
+        k_s: v.number("k_s").unwrap_or(0.0) as f32,
+        shininess: v.number("shininess").map_or(plain.shininess, |n| n as f32),
+        reflection: v.color("reflection")?,
+        transmission,
+        ior: v.number("ior")? as f32,
+        fresnel: v.flag("fresnel").unwrap_or(!transmission.is_black()),
+        dialect,
+        times_cosine: v.flag("times_cosine").unwrap_or(preset.times_cosine),
+        normalize: v.flag("normalize").unwrap_or(preset.normalize),
+        tint: match v.word("tint") {
+            Some("object") => Tint::Object,
+            Some(_) => Tint::Light,
+            None => preset.tint,
+        },
+        ambient_rule: match v.word("ambient_rule") {
+            Some("per-light") => AmbientRule::PerLight,
+            Some(_) => AmbientRule::Once,
+            None => preset.ambient_rule,
+        },
+        place: notes.place(v.spot),
+    })
+}
+
+/// Cook and Torrance's model: the exponent goes with Blinn's distribution, the roughness with
+/// the others.
+fn cook_torrance(v: &Values, notes: &mut Notes) -> Option<Model> {
+    let (distribution, takes, other) = match v.word("distribution")? {
+        "blinn" => (Distribution::Blinn, "shininess", "roughness"),
+        "ggx" => (Distribution::Ggx, "roughness", "shininess"),
+        _ => (Distribution::Beckmann, "roughness", "shininess"),
+    };
+    if v.has(other) {
+        let message = format!("`{other}` means nothing to this distribution");
+        let word = v.word("distribution")?;
+        let help = format!("`distribution = \"{word}\"` takes `{takes}`");
+        notes.error(v.spot_of(other), message).help = Some(help);
+    }
+    let roughness = v.number(takes)? as f32;
+    if roughness <= 0.0 {
+        notes.error(v.spot_of(takes), format!("`{takes}` must be above 0 for facets"));
+        return None;
+    }
+    Some(Model::Microfacet {
+        distribution,
+        roughness,
+        shadowing: shadowing(v)?,
+        fresnel: fresnel(v, notes)?,
+    })
+}
+
+fn shadowing(v: &Values) -> Option<Shadowing> {
+    Some(match v.word("shadowing")? {
+        "separable" => Shadowing::Separable,
+        "correlated" => Shadowing::Correlated,
+        _ => Shadowing::VCavity,
+    })
+}
+
+/// `f0`, or `eta` alone, or `eta` with `k`.
+fn fresnel(v: &Values, notes: &mut Notes) -> Option<Fresnel> {
+    if v.has("f0") && (v.has("eta") || v.has("k")) {
+        let help = "`f0` alone (Schlick), `eta` alone (dielectric), or `eta` with `k` (metal)";
+        notes.error(v.spot_of("f0"), "`f0` and `eta` both say what facets reflect").help =
+            Some(help.to_owned());
+        return None;
+    }
+    if !v.has("eta") {
+        if v.has("k") {
+            notes.error(v.spot_of("k"), "`k` goes with `eta`, which is not here");
+            return None;
+        }
+        let f0 = if v.has("f0") { v.color("f0")? } else { Rgb::grey(0.04) };
+        // Schlick's formula is then 1 at every angle.
+        return Some(if f0 == Rgb::WHITE { Fresnel::None } else { Fresnel::Schlick { f0 } });
+    }
+    let eta = v.color("eta")?;
+    if eta.to_array().contains(&0.0) {
+        notes.error(v.spot_of("eta"), "`eta` must be above 0");
+        return None;
+    }
+    if v.has("k") {
+        return Some(Fresnel::Conductor { eta, k: v.color("k")? });
+    }
+    if eta != Rgb::grey(eta.r) {
+        let help = "write one number, or give `k` as well for a metal";
+        notes.error(v.spot_of("eta"), "a dielectric has one `eta` for all channels").help =
+            Some(help.to_owned());
+        return None;
+    }
+    Some(Fresnel::Dielectric { eta: eta.r })
+}
+
+/// The dialect, if the model's lobe is one of its.
+fn dialect(v: &Values, model: &Model, notes: &mut Notes) -> Option<Dialect> {
+    let dialect = Dialect::from_name(v.word("dialect")?)?;
+    if dialect.allows(model) {
+        return Some(dialect);
+    }
+    let (name, word) = (dialect.name(), v.word("model")?);
+    let fits = match (dialect.allows(&Model::Phong), dialect.allows(&Model::BlinnPhong)) {
+        (true, true) => "`model = \"phong\"` or `model = \"blinn-phong\"`",
+        (true, false) => "`model = \"phong\"`",
+        _ => "`model = \"blinn-phong\"`",
+    };
+    let message = format!("the dialect `{name}` contradicts the model, {word}");
+    notes.error(v.spot_of("dialect"), message).help =
+        Some(format!("the model fixes the lobe; {name}'s is that of {fits}"));
+    None
+}

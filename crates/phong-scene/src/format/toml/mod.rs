@@ -1,0 +1,38 @@
+//! Our own scene text.
+//!
+//! Reading gives everything there is to say in one go, in the order of the text:
+//! `syntax` tells all syntax errors and takes the faulty statements out, `table` and `value` hold
+//! every table against its table of [`keys`](crate::keys), the concepts' files (`settings light
+//! material shape file`) say what only several keys together can be wrong about, and `resolve`
+//! looks every name up.
+
+mod file;
+mod light;
+mod material;
+mod notes;
+mod reader;
+mod resolve;
+mod settings;
+mod shape;
+mod syntax;
+mod table;
+mod text;
+mod value;
+
+use crate::{Diagnostic, Limits, Place, Reading, Source, Span};
+
+/// Reads a scene and what it includes.
+pub(crate) fn read_toml(path: &str, source: &dyn Source, limits: &Limits) -> Reading {
+    match text::load(path, source, limits) {
+        Ok(text) => {
+            let (scene, diagnostics) = reader::Reader::new(source, limits).read(path, text);
+            Reading { scene, bare: false, diagnostics }
+        }
+        Err(message) => {
+            let place = Place { file: path.into(), ..Place::default() };
+            let span = Span { place, ..Span::default() };
+            let message = format!("cannot be read: {message}");
+            Reading { diagnostics: vec![Diagnostic::error(message, span)], ..Reading::default() }
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! What there is to say about the files read, in the order of the text.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use super::text::{Spot, Text};
+use crate::{Diagnostic, Place, Span};
+
+/// The files read and everything said about them.
+#[derive(Debug, Default)]
+pub(super) struct Notes {
+    texts: Vec<Arc<Text>>,
+    said: Vec<(Vec<usize>, Diagnostic)>,
+    /// Files and places where tables begin that lost a statement to a syntax error.
+    lost: BTreeSet<(u32, usize)>,
+}
+
+impl Notes {
+    /// Takes a file in; its number is what [`Spot::file`] says.
+    pub(super) fn add(&mut self, text: Arc<Text>) -> u32 {
+        self.texts.push(text);
+        self.texts.len() as u32 - 1
+    }
+
+    /// The file of this number.
+    pub(super) fn text(&self, file: u32) -> &Arc<Text> {
+        &self.texts[file as usize]
+    }
+
+    /// Line and column.
+    pub(super) fn place(&self, spot: Spot) -> Place {
+        self.text(spot.file).place(spot.start)
+    }
+
+    /// The place with its line of text.
+    pub(super) fn span(&self, spot: Spot) -> Span {
+        self.text(spot.file).span(spot.start..spot.end)
+    }
+
+    /// Says that something is wrong there.
+    pub(super) fn error(&mut self, spot: Spot, message: impl Into<String>) -> &mut Diagnostic {
+        let diagnostic = Diagnostic::error(message, self.span(spot));
+        self.say(spot, diagnostic)
+    }
+
+    /// Says that something is worth knowing there.
+    pub(super) fn warning(&mut self, spot: Spot, message: impl Into<String>) -> &mut Diagnostic {
+        let diagnostic = Diagnostic::warning(message, self.span(spot));
+        self.say(spot, diagnostic)
+    }
+
+    /// Says this where `spot` is in the order of the text.
+    pub(super) fn say(&mut self, spot: Spot, diagnostic: Diagnostic) -> &mut Diagnostic {
+        let mut order = self.text(spot.file).at.clone();
+        order.push(spot.start);
+        self.said.push((order, diagnostic));
+        let last = self.said.len() - 1;
+        &mut self.said[last].1
+    }
+
+    /// Remembers that the tables which begin there lost a statement to a syntax error.
+    pub(super) fn lose(&mut self, file: u32, lost: BTreeSet<usize>) {
+        self.lost.extend(lost.into_iter().map(|start| (file, start)));
+    }
+
+    /// Whether the table at `spot` lost a statement: nothing can be said to be missing there.
+    pub(super) fn lost_something(&self, spot: Spot) -> bool {
+        self.lost.contains(&(spot.file, spot.start))
+    }
+
+    /// Whether an error was said.
+    pub(super) fn has_errors(&self) -> bool {
+        self.said.iter().any(|(_, diagnostic)| diagnostic.is_error())
+    }
+
+    /// All of it, in the order of the text, includes at their place.
+    pub(super) fn into_diagnostics(mut self) -> Vec<Diagnostic> {
+        self.said.sort_by(|(a, _), (b, _)| a.cmp(b));
+        self.said.into_iter().map(|(_, diagnostic)| diagnostic).collect()
+    }
+}

@@ -1,0 +1,415 @@
+//! One file after another, in the order of the text, into the parts of a scene.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use glam::DAffine3;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::notes::Notes;
+use super::table::{Values, say_unknown};
+use super::text::{Spot, Text};
+use super::{file, light, material, settings, shape, syntax};
+use crate::keys::{self, Kind, Table};
+use crate::wording::quoted;
+use crate::{Camera, Diagnostic, Image, Light, Limits, Material, Place, Rgb, Scene, Shape, Source};
+
+/// Reads a scene's files; names between them are looked up when all are read.
+pub(super) struct Reader<'a> {
+    pub(super) source: &'a dyn Source,
+    pub(super) limits: &'a Limits,
+    pub(super) notes: Notes,
+    pub(super) image: Image,
+    pub(super) camera: Option<Camera>,
+    pub(super) ambient: Rgb,
+    pub(super) lights: Vec<Light>,
+    light_count: usize,
+    pub(super) materials: Named<Material>,
+    /// The materials of model files, a list a file.
+    pub(super) models: Vec<Vec<Material>>,
+    pub(super) groups: Named<Vec<Draft>>,
+    pub(super) drafts: Vec<Draft>,
+    /// How many shapes of each kind there were so far.
+    counts: BTreeMap<&'static str, usize>,
+    /// The files that are being read, outermost first, as lexically normal paths.
+    pub(super) open: Vec<String>,
+    /// How many files were read, and bytes of text.
+    pub(super) files: u32,
+    pub(super) bytes: u64,
+}
+
+/// Things by name, in the order of the text.
+#[derive(Debug)]
+pub(super) struct Named<T> {
+    pub(super) items: Vec<(String, Spot, Option<T>)>,
+    numbers: BTreeMap<String, u32>,
+}
+
+impl<T> Named<T> {
+    const fn new() -> Self {
+        Self { items: Vec::new(), numbers: BTreeMap::new() }
+    }
+
+    /// The number of the thing of this name.
+    pub(super) fn find(&self, name: &str) -> Option<u32> {
+        self.numbers.get(name).copied()
+    }
+
+    /// All names.
+    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
+        self.numbers.keys().map(String::as_str)
+    }
+
+    /// Takes a name in, for the thing to follow; says if it is there already.
+    fn declare(&mut self, what: &str, name: &str, spot: Spot, notes: &mut Notes) -> Option<u32> {
+        if let Some(first) = self.find(name) {
+            let label = notes.span(self.items[first as usize].1);
+            let message = format!("the {what} {} is defined twice", quoted(name));
+            let error = Diagnostic::error(message, notes.span(spot));
+            notes.say(spot, error.with_label("first defined here", label));
+            return None;
+        }
+        let number = self.items.len() as u32;
+        self.items.push((name.to_owned(), spot, None));
+        self.numbers.insert(name.to_owned(), number);
+        Some(number)
+    }
+}
+
+/// An object whose names are still to be looked up.
+#[derive(Debug)]
+pub(super) struct Draft {
+    pub(super) name: String,
+    pub(super) shape: DraftShape,
+    /// The material that its table names.
+    pub(super) material: Option<(String, Spot)>,
+    pub(super) transform: DAffine3,
+    pub(super) place: Place,
+}
+
+/// A shape, or what names stand for it.
+#[derive(Debug)]
+pub(super) enum DraftShape {
+    /// A shape.
+    Shape(Shape),
+    /// A mesh whose faces' materials are those of this model file.
+    Model(Box<crate::Mesh>, usize),
+    /// An instance of the group of this name.
+    Instance(String, Spot),
+}
+
+/// What is read in the order of the text.
+enum Item<'t> {
+    Material(&'t str, &'t DeTable<'t>),
+    Light(&'t DeTable<'t>),
+    Shape(&'static Table, &'t DeTable<'t>, Option<u32>),
+    Include(&'t DeTable<'t>),
+}
+
+impl<'a> Reader<'a> {
+    /// Nothing read yet.
+    pub(super) fn new(source: &'a dyn Source, limits: &'a Limits) -> Self {
+        Self {
+            source,
+            limits,
+            notes: Notes::default(),
+            image: Image::default(),
+            camera: None,
+            ambient: Rgb::WHITE,
+            lights: Vec::new(),
+            light_count: 0,
+            materials: Named::new(),
+            models: Vec::new(),
+            groups: Named::new(),
+            drafts: Vec::new(),
+            counts: BTreeMap::new(),
+            open: Vec::new(),
+            files: 0,
+            bytes: 0,
+        }
+    }
+
+    /// Reads the scene whose text this is; `None` if a diagnostic is an error.
+    pub(super) fn read(mut self, path: &str, text: String) -> (Option<Scene>, Vec<Diagnostic>) {
+        self.file(path, Text::new(path.into(), text, Vec::new()));
+        self.resolve()
+    }
+
+    /// Reads one file.
+    pub(super) fn file(&mut self, path: &str, text: Text) {
+        self.files += 1;
+        self.bytes += text.text.len() as u64;
+        self.open.push(file::normal(path));
+        let text = Arc::new(text);
+        let number = self.notes.add(Arc::clone(&text));
+        let mended;
+        let document = if let Ok(document) = DeTable::parse(&text.text) {
+            document
+        } else {
+            let syntax::Mended { text, lost } = syntax::mend(number, &mut self.notes);
+            self.notes.lose(number, lost);
+            mended = text;
+            DeTable::parse_recoverable(&mended).0
+        };
+        self.document(document.get_ref(), path, number);
+        self.open.pop();
+    }
+
+    fn document(&mut self, document: &DeTable<'_>, path: &str, file: u32) {
+        let head = Spot::new(file, 0..0);
+        let main = self.open.len() == 1;
+        let mut items = Vec::new();
+        for (name, value) in document {
+            let at = Spot::new(file, name.span());
+            let Some(key) = keys::SCENE.find(name.get_ref(), None) else {
+                say_unknown(&mut self.notes, at, name.get_ref(), &keys::SCENE, None);
+                continue;
+            };
+            match key.kind {
+                Kind::Table(_) if !main => {
+                    let message = format!("`[{}]` stands in an included file", key.name);
+                    let help = "it belongs into the scene itself; included are lights, materials, groups and shapes";
+                    self.notes.error(at, message).help = Some(help.to_owned());
+                }
+                Kind::Table(table) => {
+                    if let Some(text) = self.table(key.name, value, file) {
+                        self.setting(table, text, Spot::new(file, value.span()));
+                    }
+                }
+                Kind::Tables(table) => {
+                    for (text, spot) in self.tables(key.name, value, file) {
+                        let item = match key.name {
+                            "light" => Item::Light(text),
+                            "include" => Item::Include(text),
+                            _ => Item::Shape(table, text, None),
+                        };
+                        items.push((spot, item));
+                    }
+                }
+                Kind::Named(_) if key.name == "groups" => self.groups(value, file, &mut items),
+                Kind::Named(_) => {
+                    for (name, text, spot) in self.named(key.name, value, file) {
+                        items.push((spot, Item::Material(name, text)));
+                    }
+                }
+                Kind::NotYet => {
+                    self.notes.error(at, format!("`{}` is not built yet", key.name)).help =
+                        Some("leave it out".to_owned());
+                }
+                _ => self.version(value, file),
+            }
+        }
+        if main {
+            self.say_missing(document, head);
+        }
+        items.sort_by_key(|(spot, _)| spot.start);
+        for (spot, item) in items {
+            self.item(spot, &item, path);
+        }
+    }
+
+    fn version(&mut self, value: &Spanned<DeValue<'_>>, file: u32) {
+        let number = value.get_ref().as_integer();
+        if number.is_none_or(|number| number.as_str() != "1") {
+            let message = "this is not a version that can be read".to_string();
+            self.notes.error(Spot::new(file, value.span()), message).help =
+                Some("the only version so far is `version = 1`".to_owned());
+        }
+    }
+
+    fn say_missing(&mut self, document: &DeTable<'_>, head: Spot) {
+        if self.notes.lost_something(head) {
+            return;
+        }
+        if !document.contains_key("version") {
+            self.notes.warning(head, "no `version` is given; read as version 1").help =
+                Some("begin the file with `version = 1`".to_owned());
+        }
+        if !document.contains_key("camera") {
+            self.notes.error(head, "the scene has no `[camera]`").help =
+                Some("`[camera]` needs at least `eye` and `look_at`".to_owned());
+        }
+    }
+
+    /// `[image]`, `[camera]` or `[ambient]`.
+    fn setting(&mut self, table: &'static Table, text: &DeTable<'_>, spot: Spot) {
+        let values = Values::read(table, text, spot, &mut self.notes);
+        match table.name {
+            "camera" => self.camera = settings::camera(&values, &mut self.notes),
+            "ambient" => self.ambient = values.color("color").unwrap_or(Rgb::WHITE),
+            _ => self.image = settings::image(&values).unwrap_or_default(),
+        }
+    }
+
+    fn groups<'t>(
+        &mut self,
+        value: &'t Spanned<DeValue<'t>>,
+        file: u32,
+        items: &mut Vec<(Spot, Item<'t>)>,
+    ) {
+        for (name, text, spot) in self.named("groups", value, file) {
+            let Some(group) = self.groups.declare("group", name, spot, &mut self.notes) else {
+                continue;
+            };
+            for (kind, value) in text {
+                if let Some(key) = keys::GROUP.find(kind.get_ref(), None) {
+                    let Kind::Tables(table) = key.kind else { continue };
+                    for (text, spot) in self.tables(key.name, value, file) {
+                        items.push((spot, Item::Shape(table, text, Some(group))));
+                    }
+                } else {
+                    let at = Spot::new(file, kind.span());
+                    say_unknown(&mut self.notes, at, kind.get_ref(), &keys::GROUP, None);
+                }
+            }
+        }
+    }
+
+    fn item(&mut self, spot: Spot, item: &Item<'_>, path: &str) {
+        match *item {
+            Item::Material(name, text) => {
+                let values = Values::read(&keys::MATERIAL, text, spot, &mut self.notes);
+                let read = material::material(&values, name, &mut self.notes);
+                let declared = self.materials.declare("material", name, spot, &mut self.notes);
+                if let Some(number) = declared {
+                    self.materials.items[number as usize].2 = read;
+                }
+            }
+            Item::Light(text) => {
+                let values = Values::read(&keys::LIGHT, text, spot, &mut self.notes);
+                self.light_count += 1;
+                self.lights.extend(light::light(&values, self.light_count, &mut self.notes));
+            }
+            Item::Shape(table, text, group) => {
+                let drafts = self.shape(table, text, spot, path);
+                match group {
+                    Some(group) => {
+                        let group = &mut self.groups.items[group as usize].2;
+                        group.get_or_insert_default().extend(drafts);
+                    }
+                    None => self.drafts.extend(drafts),
+                }
+            }
+            Item::Include(text) => {
+                let values = Values::read(&keys::INCLUDE, text, spot, &mut self.notes);
+                self.include(&values, path);
+            }
+        }
+    }
+
+    /// The objects of one table: several where its file holds several parts.
+    fn shape(
+        &mut self,
+        table: &'static Table,
+        text: &DeTable<'_>,
+        spot: Spot,
+        path: &str,
+    ) -> Vec<Draft> {
+        let count = self.counts.entry(table.name).or_default();
+        *count += 1;
+        let numbered = format!("{} {count}", table.name);
+        let v = Values::read(table, text, spot, &mut self.notes);
+        let transform = shape::transform(&v, &mut self.notes);
+        let name = v.text("name").unwrap_or(numbered);
+        let material = v.text("material").map(|name| (name, v.spot_of("material")));
+        let shapes = match table.name {
+            "mesh" => self.mesh(&v, path),
+            "points" => self.points(&v, path),
+            "instance" => v
+                .text("group")
+                .map(|group| DraftShape::Instance(group, v.spot_of("group")))
+                .into_iter()
+                .map(|shape| (String::new(), shape))
+                .collect(),
+            kind => shape::shape(kind, &v, &mut self.notes)
+                .map(DraftShape::Shape)
+                .into_iter()
+                .map(|shape| (String::new(), shape))
+                .collect(),
+        };
+        // Whatever is wrong has been said: the scene will not be used, its names still are.
+        let transform = transform.unwrap_or(DAffine3::IDENTITY);
+        let place = self.notes.place(spot);
+        let one = shapes.len() == 1;
+        let draft = |(part, shape): (String, DraftShape)| Draft {
+            name: if one || part.is_empty() { name.clone() } else { format!("{name}: {part}") },
+            shape,
+            material: material.clone(),
+            transform,
+            place: place.clone(),
+        };
+        shapes.into_iter().map(draft).collect()
+    }
+
+    /// A table, where there must be one.
+    fn table<'t>(
+        &mut self,
+        name: &str,
+        value: &'t Spanned<DeValue<'t>>,
+        file: u32,
+    ) -> Option<&'t DeTable<'t>> {
+        let table = value.get_ref().as_table();
+        if table.is_none() {
+            let message = format!("`{name}` must be one table");
+            self.notes.error(Spot::new(file, value.span()), message).help =
+                Some(format!("write `[{name}]`"));
+        }
+        table
+    }
+
+    /// The tables of a list, where there must be one.
+    fn tables<'t>(
+        &mut self,
+        name: &str,
+        value: &'t Spanned<DeValue<'t>>,
+        file: u32,
+    ) -> Vec<(&'t DeTable<'t>, Spot)> {
+        let mut wrong = |value: &Spanned<DeValue<'_>>| {
+            let message = format!("`{name}` must be a list of tables");
+            self.notes.error(Spot::new(file, value.span()), message).help =
+                Some(format!("write `[[{name}]]`"));
+        };
+        let Some(items) = value.get_ref().as_array() else {
+            wrong(value);
+            return Vec::new();
+        };
+        let mut tables = Vec::with_capacity(items.len());
+        for item in items {
+            match item.get_ref().as_table() {
+                Some(table) => tables.push((table, Spot::new(file, item.span()))),
+                None => wrong(item),
+            }
+        }
+        tables
+    }
+
+    /// Tables by name, in the order of the text, where there must be such.
+    fn named<'t>(
+        &mut self,
+        name: &str,
+        value: &'t Spanned<DeValue<'t>>,
+        file: u32,
+    ) -> Vec<(&'t str, &'t DeTable<'t>, Spot)> {
+        let mut wrong = |value: &Spanned<DeValue<'_>>, what: String| {
+            self.notes
+                .error(Spot::new(file, value.span()), format!("{what} must be a table"))
+                .help = Some(format!("write `[{name}.NAME]`"));
+        };
+        let Some(entries) = value.get_ref().as_table() else {
+            wrong(value, format!("`{name}`"));
+            return Vec::new();
+        };
+        let mut tables = Vec::with_capacity(entries.len());
+        for (key, value) in entries {
+            match value.get_ref().as_table() {
+                Some(table) => {
+                    tables.push((key.get_ref().as_ref(), table, Spot::new(file, value.span())));
+                }
+                None => wrong(value, quoted(key.get_ref())),
+            }
+        }
+        tables.sort_by_key(|(_, _, spot)| spot.start);
+        tables
+    }
+}

@@ -1,0 +1,124 @@
+//! The shapes that are written out, and where any shape is placed.
+
+use glam::{DAffine3, DMat3, DQuat, DVec3};
+
+use super::notes::Notes;
+use super::table::Values;
+use super::value::is_regular;
+use crate::Shape;
+
+/// A shape of this kind; `None`: something is wrong, which has been said.
+pub(super) fn shape(kind: &str, v: &Values, notes: &mut Notes) -> Option<Shape> {
+    match kind {
+        "sphere" => {
+            Some(Shape::Sphere { center: v.vector("center")?, radius: v.number("radius")? })
+        }
+        "plane" => Some(Shape::Plane { point: v.vector("point")?, normal: v.vector("normal")? }),
+        "triangle" => triangle(v, notes),
+        "disc" => Some(Shape::Disc {
+            center: v.vector("center")?,
+            normal: v.vector("normal")?,
+            radius: v.number("radius")?,
+        }),
+        "box" => cuboid(v, notes),
+        "cylinder" => {
+            let (from, to) = axis(v, notes)?;
+            let (radius, capped) = (v.number("radius")?, v.flag("capped")?);
+            Some(Shape::Cylinder { from, to, radius, capped })
+        }
+        "cone" => cone(v, notes),
+        "torus" => torus(v, notes),
+        _ => None,
+    }
+}
+
+fn triangle(v: &Values, notes: &mut Notes) -> Option<Shape> {
+    let points @ [a, b, c] = v.vectors("points")?;
+    if (b - a).cross(c - a) == DVec3::ZERO {
+        let message = "the corners lie on one line: a triangle without area";
+        notes.error(v.spot_of("points"), message);
+        return None;
+    }
+    Some(Shape::Triangle { points, normals: v.vectors("normals"), uv: v.uvs("uv") })
+}
+
+fn cuboid(v: &Values, notes: &mut Notes) -> Option<Shape> {
+    let (min, max) = (v.vector("min")?, v.vector("max")?);
+    for (axis, (min, max)) in
+        ['x', 'y', 'z'].into_iter().zip(min.to_array().into_iter().zip(max.to_array()))
+    {
+        if min >= max {
+            let message = format!("`max` is not above `min` in {axis}: {max} and {min}");
+            notes.error(v.spot_of("max"), message);
+            return None;
+        }
+    }
+    Some(Shape::Box { min, max })
+}
+
+fn cone(v: &Values, notes: &mut Notes) -> Option<Shape> {
+    let (from, to) = axis(v, notes)?;
+    let (radius, radius_to) = (v.number("radius")?, v.number("radius_to")?);
+    if radius == 0.0 && radius_to == 0.0 {
+        notes.error(v.spot_of("radius"), "`radius` and `radius_to` are both 0: only a line");
+        return None;
+    }
+    Some(Shape::Cone { from, to, radius, radius_to, capped: v.flag("capped")? })
+}
+
+fn torus(v: &Values, notes: &mut Notes) -> Option<Shape> {
+    let (radius, tube) = (v.number("radius")?, v.number("tube")?);
+    if tube >= radius {
+        let message = format!("`tube` is not below `radius`, which is {radius}");
+        let help = "the ring must have a hole: `radius` is to the middle of the tube";
+        notes.error(v.spot_of("tube"), message).help = Some(help.to_owned());
+        return None;
+    }
+    Some(Shape::Torus { center: v.vector("center")?, axis: v.vector("axis")?, radius, tube })
+}
+
+/// `from` and `to`, which must differ.
+fn axis(v: &Values, notes: &mut Notes) -> Option<(DVec3, DVec3)> {
+    let (from, to) = (v.vector("from")?, v.vector("to")?);
+    if (to - from).try_normalize().is_none() {
+        notes.error(v.spot_of("to"), "`to` is where `from` is: no axis");
+        return None;
+    }
+    Some((from, to))
+}
+
+/// Scale, then rotate, then translate; or the matrix alone.
+pub(super) fn transform(v: &Values, notes: &mut Notes) -> Option<DAffine3> {
+    let three = ["scale", "rotate", "translate"];
+    if v.has("matrix") {
+        if let Some(other) = three.into_iter().find(|key| v.has(key)) {
+            let help = "write the matrix alone, or none";
+            notes.error(v.spot_of(other), format!("`{other}` stands beside `matrix`")).help =
+                Some(help.to_owned());
+            return None;
+        }
+        return v.matrix("matrix");
+    }
+    if !three.into_iter().any(|key| v.has(key)) {
+        return Some(DAffine3::IDENTITY);
+    }
+    let scale = if v.has("scale") { v.vector("scale")? } else { DVec3::ONE };
+    let rotations = if v.has("rotate") { v.rotations("rotate")? } else { Vec::new() };
+    let mut matrix = DMat3::from_diagonal(scale);
+    for rotation in rotations {
+        // Rounding apart, any length of axis will do; one too small to have a direction not.
+        let Some(axis) = rotation.truncate().try_normalize() else {
+            notes.error(v.spot_of("rotate"), "`rotate` is about an axis too short to tell");
+            return None;
+        };
+        let (sin, cos) = libm::sincos(0.5 * rotation.w.to_radians());
+        let turn = DQuat::from_vec4((axis * sin).extend(cos));
+        matrix = DMat3::from_quat(turn) * matrix;
+    }
+    if !is_regular(matrix) {
+        notes
+            .error(v.spot_of("scale"), "`scale` leaves nothing that can be told from a flat thing");
+        return None;
+    }
+    Some(DAffine3 { matrix3: matrix, translation: v.vector("translate")? })
+}

@@ -1,0 +1,209 @@
+//! Syntax errors: all of them, each at its own place, and the text that is left without them.
+//!
+//! A parser that meets `center = [0, 1` reads on for the `]` through half the file and then
+//! complains about everything it met there. So when a text does not parse, it is cut into
+//! statements (a header, or a key with its value), each is parsed alone, and those that fail are
+//! blanked out; what remains parses as before, with every byte still at its place, and everything
+//! else that is wrong with the scene can be said in the same go.
+
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+use toml::de::DeTable;
+
+use super::notes::Notes;
+use super::text::Spot;
+
+/// Most syntax errors that are told of one file.
+const MOST: usize = 20;
+
+/// A text without its faulty statements.
+#[derive(Debug)]
+pub(super) struct Mended {
+    /// The text; blanks stand where statements were taken out.
+    pub(super) text: String,
+    /// Where the tables begin that lost a statement: nothing can be said to be missing there.
+    pub(super) lost: BTreeSet<usize>,
+}
+
+/// Says the syntax errors of a text that does not parse, and takes the faulty statements out.
+pub(super) fn mend(file: u32, notes: &mut Notes) -> Mended {
+    let text = std::sync::Arc::clone(notes.text(file));
+    let text = text.text.as_str();
+    let mut bytes = text.as_bytes().to_vec();
+    let mut lost = BTreeSet::new();
+    let mut errors = Vec::new();
+    let sections = sections(text);
+    for section in &sections {
+        if DeTable::parse(&text[section.clone()]).is_ok() {
+            continue;
+        }
+        for Statement { range, unclosed } in statements(text, section.clone()) {
+            let Err(error) = DeTable::parse(&text[range.clone()]) else { continue };
+            // A table whose header cannot be read is lost wholly: its keys belong to no other.
+            let header = range.start == section.start && text[range.clone()].starts_with('[');
+            blank(&mut bytes, if header { section.clone() } else { range.clone() });
+            lost.insert(section.start);
+            errors.push(match unclosed {
+                Some(at) => {
+                    let bracket = &text[at..=at];
+                    let message = format!("this `{bracket}` is never closed");
+                    (at..at + 1, message, None)
+                }
+                None => told(&error, text, range.start),
+            });
+            if header {
+                break;
+            }
+        }
+    }
+    // What is left are keys and tables written twice. The second is taken out as well, so that
+    // the first is read as if it stood alone.
+    let rest = String::from_utf8_lossy(&bytes).into_owned();
+    for error in DeTable::parse_recoverable(&rest).1 {
+        let at = error.span().map_or(0, |span| span.start);
+        let section = sections[sections.partition_point(|s| s.start <= at).max(1) - 1].clone();
+        let range = match statements(&rest, section.clone()).find(|s| s.range.contains(&at)) {
+            Some(Statement { range, .. }) if range.start != section.start => range,
+            _ if section.start == 0 && !rest.starts_with('[') => at..at,
+            _ => section.clone(),
+        };
+        blank(&mut bytes, range);
+        lost.insert(section.start);
+        errors.push(told(&error, text, 0));
+    }
+    errors.sort_by_key(|(range, ..)| range.start);
+    errors.dedup_by_key(|(range, ..)| range.clone());
+    let count = errors.len();
+    for (i, (range, message, help)) in errors.into_iter().take(MOST).enumerate() {
+        let message = match count - MOST.min(count) {
+            more if more > 0 && i + 1 == MOST => format!("{message}; and {more} more like this"),
+            _ => message,
+        };
+        notes.error(Spot::new(file, range), message).help = help;
+    }
+    Mended { text: String::from_utf8_lossy(&bytes).into_owned(), lost }
+}
+
+type Told = (Range<usize>, String, Option<String>);
+
+/// The parser's error, its place counted from the beginning of the text.
+fn told(error: &toml::de::Error, text: &str, from: usize) -> Told {
+    let span = error.span().unwrap_or(0..0);
+    let range = from + span.start..from + span.end;
+    let (message, help) = match error.message().split_once(", expected ") {
+        // The parser says of `key =` that strings must be quoted.
+        Some(_) if range.is_empty() && text[..range.start].trim_end().ends_with('=') => {
+            ("a value is missing".to_owned(), None)
+        }
+        Some((message, "nothing")) => (message.to_owned(), None),
+        Some((message, expected)) => (message.to_owned(), Some(format!("expected {expected}"))),
+        None => (error.message().to_owned(), None),
+    };
+    (range, message, help)
+}
+
+/// Overwrites with blanks, keeping the line breaks.
+fn blank(bytes: &mut [u8], range: Range<usize>) {
+    for byte in &mut bytes[range] {
+        if *byte != b'\n' && *byte != b'\r' {
+            *byte = b' ';
+        }
+    }
+}
+
+/// The text cut before every line that looks like a table's header.
+fn sections(text: &str) -> Vec<Range<usize>> {
+    let mut starts = vec![0];
+    let mut at = 0;
+    for line in text.split_inclusive('\n') {
+        let trimmed = line.trim_start_matches([' ', '\t']);
+        let name = trimmed.trim_start_matches('[');
+        if trimmed.len() > name.len()
+            && name.trim_start().starts_with(|c: char| c.is_alphabetic() || "_\"'".contains(c))
+            && at > 0
+        {
+            starts.push(at + line.len() - trimmed.len());
+        }
+        at += line.len();
+    }
+    let ends = starts.iter().skip(1).copied().chain([text.len()]);
+    starts.iter().copied().zip(ends).map(|(start, end)| start..end).collect()
+}
+
+/// A header, or a key with its value.
+struct Statement {
+    range: Range<usize>,
+    /// Where an array or inline table begins that the statement does not end.
+    unclosed: Option<usize>,
+}
+
+/// A section cut into statements, over line breaks only inside brackets and long strings.
+fn statements(text: &str, section: Range<usize>) -> impl Iterator<Item = Statement> {
+    let mut at = section.start;
+    std::iter::from_fn(move || {
+        if at >= section.end {
+            return None;
+        }
+        let start = at;
+        let mut open = Vec::new();
+        let mut quote: Option<&str> = None;
+        for line in text[start..section.end].split_inclusive('\n') {
+            // A key in the middle of an array: the array was never closed.
+            let inside_array = open.last().is_some_and(|&i| text.as_bytes()[i] == b'[');
+            if at > start && quote.is_none() && inside_array && looks_like_a_key(line) {
+                break;
+            }
+            let header = at == section.start && line.starts_with('[');
+            if !header {
+                scan_line(line, at, &mut open, &mut quote);
+            }
+            at += line.len();
+            if open.is_empty() && quote.is_none() {
+                break;
+            }
+        }
+        Some(Statement { range: start..at, unclosed: open.first().copied() })
+    })
+}
+
+/// Follows brackets and long strings through one line.
+fn scan_line(line: &str, at: usize, open: &mut Vec<usize>, quote: &mut Option<&'static str>) {
+    let mut rest = line;
+    while let Some(c) = rest.chars().next() {
+        let offset = at + line.len() - rest.len();
+        let long = ["\"\"\"", "'''"].into_iter().find(|q| rest.starts_with(q));
+        let mut step = c.len_utf8();
+        match (*quote, c) {
+            (Some("\"\"\""), '\\') => step += rest[1..].chars().next().map_or(0, char::len_utf8),
+            (Some(q), _) if long == Some(q) => (*quote, step) = (None, 3),
+            (None, '#') => return,
+            (None, '"' | '\'') if long.is_some() => (*quote, step) = (long, 3),
+            (None, '"' | '\'') => step = short_string(rest, c),
+            (None, '[' | '{') => open.push(offset),
+            (None, ']' | '}') => drop(open.pop()),
+            _ => {}
+        }
+        rest = &rest[step..];
+    }
+}
+
+/// The bytes of the string that `rest` begins with; it ends with its line.
+fn short_string(rest: &str, quote: char) -> usize {
+    let mut escaped = false;
+    for (i, c) in rest.char_indices().skip(1) {
+        if c == quote && !escaped {
+            return i + 1;
+        }
+        escaped = quote == '"' && c == '\\' && !escaped;
+    }
+    rest.len()
+}
+
+/// Whether a line begins `key =`.
+fn looks_like_a_key(line: &str) -> bool {
+    let word = |c: char| c.is_alphanumeric() || "_-.\"' \t".contains(c);
+    let line = line.trim_start();
+    let rest = line.trim_start_matches(word);
+    line.starts_with(|c: char| c.is_alphanumeric() || "_\"'".contains(c)) && rest.starts_with('=')
+}

@@ -1,0 +1,233 @@
+//! A table of the text, read by its table of keys.
+
+use toml::de::DeTable;
+
+use super::notes::Notes;
+use super::text::Spot;
+use super::value::{Value, ValueReader, wanted};
+use crate::keys::{Default, Key, Kind, Table};
+use crate::wording::{closest, list};
+use crate::{Background, Rgb};
+use glam::{DAffine3, DVec2, DVec3, DVec4};
+
+/// What one table of the text says: every value checked, every default at hand.
+#[derive(Debug)]
+pub(super) struct Values {
+    table: &'static Table,
+    /// The table's header.
+    pub(super) spot: Spot,
+    /// What the selecting key says; `None`: it says nothing valid.
+    word: Option<&'static str>,
+    entries: Vec<Entry>,
+}
+
+#[derive(Debug)]
+struct Entry {
+    key: &'static Key,
+    /// Where the value stands.
+    spot: Spot,
+    /// `None`: something is wrong with it, and that has been said.
+    value: Option<Value>,
+}
+
+impl Values {
+    /// Reads a table, and says of every key what is wrong with it.
+    pub(super) fn read(
+        table: &'static Table,
+        text: &DeTable<'_>,
+        spot: Spot,
+        notes: &mut Notes,
+    ) -> Self {
+        let mut values = Self { table, spot, word: None, entries: Vec::with_capacity(text.len()) };
+        values.select(text, notes);
+        for (name, value) in text {
+            if Some(name.get_ref().as_ref()) == table.select {
+                continue; // read above
+            }
+            let at = Spot::new(spot.file, name.span());
+            match table.find(name.get_ref(), values.word) {
+                Some(key) => {
+                    let mut reader = ValueReader { notes, file: spot.file, key };
+                    let read = reader.read(value);
+                    let spot = Spot::new(spot.file, value.span());
+                    values.entries.push(Entry { key, spot, value: read });
+                }
+                None => values.unknown(name.get_ref(), at, notes),
+            }
+        }
+        values.say_missing(notes);
+        values
+    }
+
+    /// Reads the key that decides which of the others apply.
+    fn select(&mut self, text: &DeTable<'_>, notes: &mut Notes) {
+        let Some(key) = self.table.select.and_then(|name| self.table.find(name, None)) else {
+            return;
+        };
+        if let Some(value) = text.get(key.name) {
+            let read = ValueReader { notes, file: self.spot.file, key }.read(value);
+            if let Some(Value::Word(word)) = read {
+                self.word = Some(word);
+            }
+            let spot = Spot::new(self.spot.file, value.span());
+            self.entries.push(Entry { key, spot, value: read });
+        } else if let Default::Word(word) = key.default {
+            self.word = Some(word);
+        }
+    }
+
+    fn unknown(&self, name: &str, at: Spot, notes: &mut Notes) {
+        let Table { name: table, .. } = *self.table;
+        let elsewhere: Vec<_> = self.table.keys().filter(|key| key.name == name).collect();
+        if let (Some(word), [_, ..]) = (self.word, &elsewhere[..]) {
+            let only = elsewhere.iter().flat_map(|key| key.only).copied();
+            let help = format!("it is a key of {}", list(only, "and"));
+            notes
+                .error(at, format!("`{name}` means nothing to {} {word} {table}", article(word)))
+                .help = Some(help);
+            return;
+        }
+        say_unknown(notes, at, name, self.table, self.word);
+    }
+
+    fn say_missing(&self, notes: &mut Notes) {
+        if notes.lost_something(self.spot) {
+            return; // the key may be in what could not be read
+        }
+        for key in self.table.keys() {
+            let applies = key.only.is_empty() || self.word.is_some() && key.applies(self.word);
+            if applies && matches!(key.default, Default::Required) && !self.has(key.name) {
+                let table = self.table.name;
+                let message = format!("this {table} has no `{}`", key.name);
+                notes.error(self.spot, message).help =
+                    Some(format!("`{}` is {}", key.name, wanted(key.kind)));
+            }
+        }
+    }
+
+    /// Whether the key is written, rightly or wrongly.
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.entry(name).is_some()
+    }
+
+    /// Where the key's value stands; where it is not written, the table's header.
+    pub(super) fn spot_of(&self, name: &str) -> Spot {
+        self.entry(name).map_or(self.spot, |entry| entry.spot)
+    }
+
+    fn entry(&self, name: &str) -> Option<&Entry> {
+        self.entries.iter().find(|entry| entry.key.name == name)
+    }
+
+    /// The value or its default; `None`: wrong or missing, which has been said, or the default
+    /// is for the caller to work out.
+    fn get(&self, name: &str) -> Option<Value> {
+        match self.entry(name) {
+            Some(entry) => entry.value.clone(),
+            None => self.table.find(name, self.word).and_then(default),
+        }
+    }
+
+    pub(super) fn flag(&self, name: &str) -> Option<bool> {
+        let Value::Flag(flag) = self.get(name)? else { return None };
+        Some(flag)
+    }
+
+    pub(super) fn integer(&self, name: &str) -> Option<u64> {
+        let Value::Integer(n) = self.get(name)? else { return None };
+        Some(n)
+    }
+
+    pub(super) fn number(&self, name: &str) -> Option<f64> {
+        let Value::Number(n) = self.get(name)? else { return None };
+        Some(n)
+    }
+
+    pub(super) fn vector(&self, name: &str) -> Option<DVec3> {
+        let Value::Vector(v) = self.get(name)? else { return None };
+        Some(v)
+    }
+
+    pub(super) fn vectors(&self, name: &str) -> Option<[DVec3; 3]> {
+        let Value::Vectors(v) = self.get(name)? else { return None };
+        Some(v)
+    }
+
+    pub(super) fn uvs(&self, name: &str) -> Option<[DVec2; 3]> {
+        let Value::Uvs(uvs) = self.get(name)? else { return None };
+        Some(uvs)
+    }
+
+    pub(super) fn rotations(&self, name: &str) -> Option<Vec<DVec4>> {
+        let Value::Rotations(rotations) = self.get(name)? else { return None };
+        Some(rotations)
+    }
+
+    pub(super) fn matrix(&self, name: &str) -> Option<DAffine3> {
+        let Value::Matrix(matrix) = self.get(name)? else { return None };
+        Some(matrix)
+    }
+
+    pub(super) fn size(&self, name: &str) -> Option<[u32; 2]> {
+        let Value::Size(size) = self.get(name)? else { return None };
+        Some(size)
+    }
+
+    pub(super) fn color(&self, name: &str) -> Option<Rgb> {
+        let Value::Color(color) = self.get(name)? else { return None };
+        Some(color)
+    }
+
+    pub(super) fn background(&self, name: &str) -> Option<Background> {
+        match self.get(name)? {
+            Value::Background(background) => Some(background),
+            Value::Color(color) => Some(Background::Color(color)),
+            _ => None,
+        }
+    }
+
+    pub(super) fn word(&self, name: &str) -> Option<&'static str> {
+        let Value::Word(word) = self.get(name)? else { return None };
+        Some(word)
+    }
+
+    pub(super) fn text(&self, name: &str) -> Option<String> {
+        let Value::Text(text) = self.get(name)? else { return None };
+        Some(text)
+    }
+}
+
+/// What a key's default is as a value; `None` where the reader works it out.
+fn default(key: &Key) -> Option<Value> {
+    match (key.default, key.kind) {
+        (Default::Required | Default::Said(_), _) => None,
+        (Default::Flag(flag), _) => Some(Value::Flag(flag)),
+        (Default::Integer(n), _) => Some(Value::Integer(n)),
+        (Default::Number(n), Kind::Number(_)) => Some(Value::Number(n)),
+        (Default::Number(n), _) => Some(Value::Color(Rgb::grey(n as f32))),
+        (Default::Vector(v), _) => Some(Value::Vector(v.into())),
+        (Default::Size(size), _) => Some(Value::Size(size)),
+        (Default::Word(word), _) => Some(Value::Word(word)),
+    }
+}
+
+/// Says that a table has no such key, and what may have been meant.
+pub(super) fn say_unknown(
+    notes: &mut Notes,
+    at: Spot,
+    name: &str,
+    table: &'static Table,
+    word: Option<&str>,
+) {
+    let known = || table.keys().filter(|key| key.applies(word)).map(|key| key.name);
+    let help = match closest(name, known()) {
+        Some(meant) => format!("did you mean `{meant}`?"),
+        None => format!("known here: {}", list(known(), "and")),
+    };
+    let name = crate::wording::quoted(name);
+    notes.error(at, format!("unknown key {name} in this {}", table.name)).help = Some(help);
+}
+
+fn article(word: &str) -> &'static str {
+    if word.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" }
+}

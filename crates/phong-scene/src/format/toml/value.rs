@@ -1,0 +1,372 @@
+//! One value of the text, as its key's kind says it must be.
+
+use glam::{DAffine3, DMat3, DMat4, DVec2, DVec3, DVec4};
+use toml::Spanned;
+use toml::de::DeValue;
+
+use super::notes::Notes;
+use super::table::Values;
+use super::text::Spot;
+use crate::keys::{self, Key, Kind, LARGEST, Range};
+use crate::wording::{closest, list, quoted};
+use crate::{Background, Rgb};
+
+/// A value, read.
+#[derive(Clone, Debug)]
+pub(super) enum Value {
+    Flag(bool),
+    Integer(u64),
+    Number(f64),
+    Vector(DVec3),
+    Vectors([DVec3; 3]),
+    Uvs([DVec2; 3]),
+    Rotations(Vec<DVec4>),
+    Matrix(DAffine3),
+    Size([u32; 2]),
+    Color(Rgb),
+    Background(Background),
+    Word(&'static str),
+    Text(String),
+}
+
+/// What a value of this kind must be, as the end of "`key` must be …".
+pub(super) fn wanted(kind: Kind) -> String {
+    match kind {
+        Kind::Flag => "`true` or `false`".to_owned(),
+        Kind::Integer(min, max) if max >= i64::MAX as u64 => {
+            format!("a whole number, {min} or above")
+        }
+        Kind::Integer(min, max) if min == max => min.to_string(),
+        Kind::Integer(min, max) => format!("a whole number between {min} and {max}"),
+        Kind::Number(range) => format!("a number, {}", range.words()),
+        Kind::Point => "three numbers, `[x, y, z]`".to_owned(),
+        Kind::Direction => "three numbers, `[x, y, z]`, not all 0".to_owned(),
+        Kind::Color | Kind::Reflectance => {
+            "a colour: a number, `[r, g, b]`, \"#rrggbb\" or a CSS name".to_owned()
+        }
+        Kind::ColorOrObject => {
+            "a colour (a number, `[r, g, b]`, \"#rrggbb\", a CSS name) or \"object\"".to_owned()
+        }
+        Kind::Background => "a colour, \"transparent\", or `{ top = .., bottom = .. }`".to_owned(),
+        Kind::Word(words) => list(words.iter().copied(), "or"),
+        Kind::Text => "text".to_owned(),
+        Kind::File => "the path of a file, in quotes".to_owned(),
+        Kind::Material => "the name of a material, in quotes".to_owned(),
+        Kind::Group => "the name of a group, in quotes".to_owned(),
+        Kind::Size => "`[width, height]`, whole numbers between 1 and 1000000".to_owned(),
+        Kind::Attenuation => "`[c, l, q]`, 0 or above, not all 0".to_owned(),
+        Kind::Points => "three points, `[[x, y, z], [x, y, z], [x, y, z]]`".to_owned(),
+        Kind::Directions => "three directions, `[[x, y, z], [x, y, z], [x, y, z]]`".to_owned(),
+        Kind::Uvs => "three pairs, `[[u, v], [u, v], [u, v]]`".to_owned(),
+        Kind::Smooth => "`true`, `false` or an angle between 0 and 180 degrees".to_owned(),
+        Kind::Scale => "a number or `[x, y, z]`, none 0".to_owned(),
+        Kind::Rotate => "`[ax, ay, az, degrees]`, or a list of them".to_owned(),
+        Kind::Matrix => "four rows of four numbers".to_owned(),
+        Kind::Table(_) => "a table".to_owned(),
+        Kind::Tables(_) => "a list of tables".to_owned(),
+        Kind::Named(_) => "tables by name".to_owned(),
+        Kind::NotYet => "left out".to_owned(),
+    }
+}
+
+/// What was found, as the end of "…, not …".
+fn found(value: &DeValue<'_>) -> String {
+    match value {
+        DeValue::String(text) => format!("the text {}", quoted(text)),
+        DeValue::Integer(number) => format!("{number}"),
+        DeValue::Float(number) => format!("{number}"),
+        DeValue::Boolean(flag) => format!("`{flag}`"),
+        DeValue::Datetime(_) => "a date or time".to_owned(),
+        DeValue::Array(items) if items.iter().all(|item| item.get_ref().is_table()) => {
+            match items.len() {
+                0 => "an empty list".to_owned(),
+                _ => "a list of tables".to_owned(),
+            }
+        }
+        DeValue::Array(items) => match items.len() {
+            1 => "a list of one".to_owned(),
+            n => format!("a list of {n}"),
+        },
+        DeValue::Table(_) => "a table".to_owned(),
+    }
+}
+
+/// Reads values of one key, and says what is wrong with them.
+pub(super) struct ValueReader<'n> {
+    pub(super) notes: &'n mut Notes,
+    pub(super) file: u32,
+    pub(super) key: &'static Key,
+}
+
+impl ValueReader<'_> {
+    /// The value, if it is what the key's kind wants; else that has been said.
+    pub(super) fn read(&mut self, value: &Spanned<DeValue<'_>>) -> Option<Value> {
+        match self.key.kind {
+            Kind::Flag => match value.get_ref() {
+                DeValue::Boolean(flag) => Some(Value::Flag(*flag)),
+                _ => self.mismatch(value),
+            },
+            Kind::Integer(min, max) => match whole(value.get_ref()) {
+                Some(n) if (min..=max).contains(&n) => Some(Value::Integer(n)),
+                _ => self.mismatch(value),
+            },
+            Kind::Number(range) => self.in_range(value, &range).map(Value::Number),
+            Kind::Point => self.numbers(value).map(|v| Value::Vector(v.into())),
+            Kind::Direction => self.direction(value).map(Value::Vector),
+            Kind::Reflectance => self.color(value, 1.0).map(Value::Color),
+            Kind::ColorOrObject if value.get_ref().as_str() == Some("object") => {
+                Some(Value::Word("object"))
+            }
+            Kind::Color | Kind::ColorOrObject => self.color(value, LARGEST).map(Value::Color),
+            Kind::Background => self.background(value).map(Value::Background),
+            Kind::Word(words) => self.word(value, words).map(Value::Word),
+            Kind::Text | Kind::File | Kind::Material | Kind::Group => self.text(value),
+            Kind::Size => self.size(value).map(Value::Size),
+            Kind::Attenuation => self.attenuation(value).map(Value::Vector),
+            Kind::Points => {
+                self.triple(value, Self::numbers).map(|p| Value::Vectors(p.map(DVec3::from)))
+            }
+            Kind::Directions => self.triple(value, Self::direction).map(Value::Vectors),
+            Kind::Uvs => {
+                self.triple(value, Self::numbers).map(|uv| Value::Uvs(uv.map(DVec2::from)))
+            }
+            Kind::Smooth => match value.get_ref() {
+                DeValue::Boolean(flag) => Some(Value::Flag(*flag)),
+                _ => self.in_range(value, &Range::closed(0.0, 180.0)).map(Value::Number),
+            },
+            Kind::Scale => self.scale(value).map(Value::Vector),
+            Kind::Rotate => self.rotations(value).map(Value::Rotations),
+            Kind::Matrix => self.matrix(value).map(Value::Matrix),
+            Kind::Table(_) | Kind::Tables(_) | Kind::Named(_) | Kind::NotYet => None,
+        }
+    }
+
+    fn spot(&self, value: &Spanned<DeValue<'_>>) -> Spot {
+        Spot::new(self.file, value.span())
+    }
+
+    /// Says what the key wants and what it got.
+    fn mismatch<T>(&mut self, value: &Spanned<DeValue<'_>>) -> Option<T> {
+        let Key { name, kind, .. } = self.key;
+        let message = format!("`{name}` must be {}, not {}", wanted(*kind), found(value.get_ref()));
+        let spot = self.spot(value);
+        self.notes.error(spot, message);
+        None
+    }
+
+    /// Says something else about it.
+    fn wrong<T>(&mut self, value: &Spanned<DeValue<'_>>, message: &str) -> Option<T> {
+        let message = format!("`{}` {message}", self.key.name);
+        let spot = self.spot(value);
+        self.notes.error(spot, message);
+        None
+    }
+
+    /// A finite number of sane size.
+    fn number(&mut self, value: &Spanned<DeValue<'_>>) -> Option<f64> {
+        let number = match value.get_ref() {
+            DeValue::Integer(number) if number.radix() == 10 => number.as_str().parse().ok(),
+            DeValue::Integer(number) => {
+                u128::from_str_radix(number.as_str(), number.radix()).ok().map(|n| n as f64)
+            }
+            DeValue::Float(number) => number.as_str().parse().ok(),
+            _ => return self.mismatch(value),
+        };
+        match number {
+            Some(number) if f64::is_nan(number) => self.wrong(value, "is NaN, not a number"),
+            Some(number) if f64::abs(number) <= LARGEST => Some(number),
+            Some(_) if found(value.get_ref()).contains("inf") => {
+                self.wrong(value, "is infinite; it must be a finite number")
+            }
+            _ => self.wrong(value, &format!("is too large: numbers go up to {LARGEST:e}")),
+        }
+    }
+
+    fn in_range(&mut self, value: &Spanned<DeValue<'_>>, range: &Range) -> Option<f64> {
+        let number = self.number(value)?;
+        if range.holds(number) { Some(number) } else { self.mismatch(value) }
+    }
+
+    /// Exactly `N` values in a list.
+    fn items<'v, 'i, const N: usize>(
+        &mut self,
+        value: &'v Spanned<DeValue<'i>>,
+    ) -> Option<&'v [Spanned<DeValue<'i>>; N]> {
+        match value
+            .get_ref()
+            .as_array()
+            .and_then(|items| items.first_chunk::<N>().filter(|_| items.len() == N))
+        {
+            Some(items) => Some(items),
+            None => self.mismatch(value),
+        }
+    }
+
+    /// Exactly `N` numbers in a list.
+    fn numbers<const N: usize>(&mut self, value: &Spanned<DeValue<'_>>) -> Option<[f64; N]> {
+        let items = self.items::<N>(value)?;
+        let mut numbers = [0.0; N];
+        let mut good = true;
+        for (number, item) in numbers.iter_mut().zip(items) {
+            match self.number(item) {
+                Some(n) => *number = n,
+                None => good = false,
+            }
+        }
+        good.then_some(numbers)
+    }
+
+    fn triple<T>(
+        &mut self,
+        value: &Spanned<DeValue<'_>>,
+        read: fn(&mut Self, &Spanned<DeValue<'_>>) -> Option<T>,
+    ) -> Option<[T; 3]> {
+        let [a, b, c] = self.items(value)?;
+        let (a, b, c) = (read(self, a), read(self, b), read(self, c));
+        Some([a?, b?, c?])
+    }
+
+    fn direction(&mut self, value: &Spanned<DeValue<'_>>) -> Option<DVec3> {
+        let v = DVec3::from(self.numbers::<3>(value)?);
+        if v == DVec3::ZERO {
+            return self.wrong(value, "is [0, 0, 0], which has no direction");
+        }
+        Some(v)
+    }
+
+    fn color(&mut self, value: &Spanned<DeValue<'_>>, largest: f64) -> Option<Rgb> {
+        let channels = match value.get_ref() {
+            DeValue::String(text) => match text.parse() {
+                Ok(color) => return Some(color),
+                Err(crate::ColorError { message, help }) => {
+                    let spot = self.spot(value);
+                    self.notes.error(spot, message).help = help;
+                    return None;
+                }
+            },
+            DeValue::Array(_) => self.numbers::<3>(value)?,
+            _ => [self.number(value)?; 3],
+        };
+        if channels.iter().any(|&channel| channel < 0.0) {
+            return self.wrong(value, "is negative; there is no light below 0");
+        }
+        if channels.iter().any(|&channel| channel > largest) {
+            return self.wrong(value, &format!("is above {largest}, more than all light"));
+        }
+        Some(Rgb::from(channels.map(|channel| channel as f32)))
+    }
+
+    fn background(&mut self, value: &Spanned<DeValue<'_>>) -> Option<Background> {
+        match value.get_ref() {
+            DeValue::Table(inside) => {
+                let spot = self.spot(value);
+                let values = Values::read(&keys::BACKGROUND, inside, spot, self.notes);
+                let (top, bottom) = (values.color("top")?, values.color("bottom")?);
+                Some(Background::Gradient { top, bottom })
+            }
+            DeValue::String(text) if text == "transparent" => Some(Background::Transparent),
+            _ => self.color(value, LARGEST).map(Background::Color),
+        }
+    }
+
+    fn word(
+        &mut self,
+        value: &Spanned<DeValue<'_>>,
+        words: &[&'static str],
+    ) -> Option<&'static str> {
+        let Some(text) = value.get_ref().as_str() else { return self.mismatch(value) };
+        if let Some(word) = words.iter().find(|&&word| word == text) {
+            return Some(word);
+        }
+        let Key { name, kind, .. } = self.key;
+        let message = format!("`{name}` must be {}, not {}", wanted(*kind), quoted(text));
+        let spot = self.spot(value);
+        self.notes.error(spot, message).help =
+            closest(text, words.iter().copied()).map(|word| format!("did you mean `{word}`?"));
+        None
+    }
+
+    fn text(&mut self, value: &Spanned<DeValue<'_>>) -> Option<Value> {
+        match value.get_ref().as_str() {
+            Some("") => self.wrong(value, "is empty"),
+            Some(text) => Some(Value::Text(text.to_owned())),
+            None => self.mismatch(value),
+        }
+    }
+
+    fn size(&mut self, value: &Spanned<DeValue<'_>>) -> Option<[u32; 2]> {
+        let [w, h] = self.items(value)?;
+        let pixels = |v: &Spanned<DeValue<'_>>| {
+            whole(v.get_ref()).filter(|n| (1..=1_000_000).contains(n)).map(|n| n as u32)
+        };
+        match (pixels(w), pixels(h)) {
+            (Some(w), Some(h)) => Some([w, h]),
+            (None, _) => self.mismatch(w),
+            (_, None) => self.mismatch(h),
+        }
+    }
+
+    fn attenuation(&mut self, value: &Spanned<DeValue<'_>>) -> Option<DVec3> {
+        let v = DVec3::from(self.numbers::<3>(value)?);
+        match v.min_element() {
+            min if min < 0.0 => self.wrong(value, "is negative; `[c, l, q]` are 0 or above"),
+            _ if v == DVec3::ZERO => self.wrong(value, "is [0, 0, 0], a division by 0"),
+            _ => Some(v),
+        }
+    }
+
+    fn scale(&mut self, value: &Spanned<DeValue<'_>>) -> Option<DVec3> {
+        let v = match value.get_ref() {
+            DeValue::Array(_) => DVec3::from(self.numbers::<3>(value)?),
+            _ => DVec3::splat(self.number(value)?),
+        };
+        if v.to_array().contains(&0.0) {
+            return self.wrong(value, "is 0, which leaves nothing of the shape");
+        }
+        Some(v)
+    }
+
+    fn rotations(&mut self, value: &Spanned<DeValue<'_>>) -> Option<Vec<DVec4>> {
+        let DeValue::Array(items) = value.get_ref() else { return self.mismatch(value) };
+        if items.first().is_some_and(|item| !item.get_ref().is_array()) {
+            return self.rotation(value).map(|rotation| vec![rotation]);
+        }
+        let read: Vec<_> = items.iter().map(|item| self.rotation(item)).collect();
+        read.into_iter().collect()
+    }
+
+    fn rotation(&mut self, value: &Spanned<DeValue<'_>>) -> Option<DVec4> {
+        let v = DVec4::from(self.numbers::<4>(value)?);
+        if v.truncate() == DVec3::ZERO {
+            return self.wrong(value, "is about the axis [0, 0, 0], which has no direction");
+        }
+        Some(v)
+    }
+
+    fn matrix(&mut self, value: &Spanned<DeValue<'_>>) -> Option<DAffine3> {
+        let rows = self.items::<4>(value)?;
+        let [x, y, z, w] = rows.each_ref().map(|row| self.numbers::<4>(row));
+        let (x, y, z, w) = (x?, y?, z?, w?);
+        if w != [0.0, 0.0, 0.0, 1.0] {
+            return self.wrong(&rows[3], "must end with the row [0, 0, 0, 1]");
+        }
+        let rows = DMat4::from_cols_array_2d(&[x, y, z, w]).transpose();
+        let matrix = DAffine3::from_mat4(rows);
+        if !is_regular(matrix.matrix3) {
+            return self.wrong(value, "is singular: it leaves nothing of the shape");
+        }
+        Some(matrix)
+    }
+}
+
+/// Whether a matrix can be undone, in numbers an f64 holds.
+pub(super) fn is_regular(matrix: DMat3) -> bool {
+    let inverse = matrix.inverse();
+    matrix.determinant() != 0.0 && inverse.is_finite()
+}
+
+/// A whole number, 0 or above.
+fn whole(value: &DeValue<'_>) -> Option<u64> {
+    let number = value.as_integer()?;
+    u64::from_str_radix(number.as_str(), number.radix()).ok()
+}

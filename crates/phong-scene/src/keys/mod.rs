@@ -1,0 +1,74 @@
+//! The one table of keys of the scene text: names, kinds of value, ranges, defaults, meanings.
+//!
+//! The reader, the editor schema and the reference in the book are all made from it, so what is
+//! read, what is suggested and what is documented cannot drift apart.
+
+mod camera;
+mod kind;
+mod light;
+mod material;
+mod scene;
+mod shape;
+
+pub(crate) use kind::{Default, Kind, LARGEST, Range};
+pub(crate) use light::LIGHT;
+pub(crate) use material::MATERIAL;
+pub(crate) use scene::{BACKGROUND, INCLUDE, SCENE};
+pub(crate) use shape::GROUP;
+
+/// One table of the scene text, such as `[camera]` or `[[sphere]]`.
+#[derive(Debug)]
+pub(crate) struct Table {
+    /// Its name in the text; for shapes also what objects are called: `sphere 1`.
+    pub(crate) name: &'static str,
+    /// What it is, in one sentence.
+    pub(crate) doc: &'static str,
+    /// The key whose word decides which of the others apply (`kind`, `model`).
+    pub(crate) select: Option<&'static str>,
+    /// Its keys, in the order they are documented; several lists, since shapes share one.
+    pub(crate) keys: &'static [&'static [Key]],
+}
+
+/// One key of a table. A name may stand several times for disjoint sets of kinds.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Key {
+    /// The key as it is written.
+    pub(crate) name: &'static str,
+    /// What may stand there.
+    pub(crate) kind: Kind,
+    /// What holds if it is not written.
+    pub(crate) default: Default,
+    /// The words of the selecting key it applies to; empty: all of them.
+    pub(crate) only: &'static [&'static str],
+    /// What it means, with its unit.
+    pub(crate) doc: &'static str,
+}
+
+impl Key {
+    /// A key for all kinds of its table.
+    const fn new(name: &'static str, kind: Kind, default: Default, doc: &'static str) -> Self {
+        Self { name, kind, default, only: &[], doc }
+    }
+
+    /// The same, for these kinds alone.
+    const fn only(self, only: &'static [&'static str]) -> Self {
+        Self { only, ..self }
+    }
+
+    /// Whether it applies where the selecting key says `word` (`None`: that is not known).
+    pub(crate) fn applies(&self, word: Option<&str>) -> bool {
+        self.only.is_empty() || word.is_none_or(|word| self.only.contains(&word))
+    }
+}
+
+impl Table {
+    /// All keys, in the order they are documented.
+    pub(crate) fn keys(&self) -> impl Iterator<Item = &'static Key> {
+        self.keys.iter().flat_map(|list| list.iter())
+    }
+
+    /// The key of this name that applies where the selecting key says `word`.
+    pub(crate) fn find(&self, name: &str, word: Option<&str>) -> Option<&'static Key> {
+        self.keys().find(|key| key.name == name && key.applies(word))
+    }
+}

@@ -1,0 +1,140 @@
+//! The scene's own keys: the file as a whole, the picture, the ambient light.
+
+use super::camera::CAMERA;
+use super::light::LIGHT;
+use super::material::MATERIAL;
+use super::shape::{GROUP, SHAPES};
+use super::{Default, Key, Kind, Table};
+
+/// A scene file as a whole.
+pub(crate) static SCENE: Table = Table {
+    name: "scene",
+    doc: "A scene file.",
+    select: None,
+    keys: &[
+        &[
+            Key::new(
+                "version",
+                Kind::Integer(1, 1),
+                Default::Said("1, with a warning"),
+                "Version of this format; 1 is the only one so far.",
+            ),
+            Key::new(
+                "image",
+                Kind::Table(&IMAGE),
+                Default::Said("every key's default"),
+                "The picture.",
+            ),
+            Key::new(
+                "camera",
+                Kind::Table(&CAMERA),
+                Default::Required,
+                "Where the picture is taken from.",
+            ),
+            Key::new(
+                "ambient",
+                Kind::Table(&AMBIENT),
+                Default::Said("every key's default"),
+                "The ambient light.",
+            ),
+            Key::new(
+                "ambient_occlusion",
+                Kind::NotYet,
+                Default::Said("none"),
+                "Ambient occlusion.",
+            ),
+            Key::new("light", Kind::Tables(&LIGHT), Default::Said("none"), "The lights."),
+            Key::new(
+                "materials",
+                Kind::Named(&MATERIAL),
+                Default::Said("none"),
+                "The materials, by name.",
+            ),
+            Key::new(
+                "groups",
+                Kind::Named(&GROUP),
+                Default::Said("none"),
+                "Shapes to be placed together, by name.",
+            ),
+        ],
+        SHAPES,
+        &[Key::new(
+            "include",
+            Kind::Tables(&INCLUDE),
+            Default::Said("none"),
+            "Other files, at this place.",
+        )],
+    ],
+};
+
+/// `[image]`.
+pub(crate) static IMAGE: Table = Table {
+    name: "image",
+    doc: "The picture's own settings; the command line overrides them.",
+    select: None,
+    keys: &[&[
+        Key::new("size", Kind::Size, Default::Size([960, 540]), "Width and height in pixels."),
+        Key::new(
+            "samples",
+            Kind::Integer(1, 1_000_000),
+            Default::Integer(16),
+            "Samples a pixel; 1 is the pixel's centre.",
+        ),
+        Key::new(
+            "background",
+            Kind::Background,
+            Default::Number(0.0),
+            "What rays see that hit nothing; a table `{ top, bottom }` runs along the picture's height.",
+        ),
+        Key::new(
+            "filter",
+            Kind::Word(&["box", "tent", "gaussian", "mitchell"]),
+            Default::Word("box"),
+            "How samples are weighted into a pixel.",
+        ),
+        Key::new(
+            "seed",
+            Kind::Integer(0, u64::MAX),
+            Default::Integer(0),
+            "Seed of the sampling pattern.",
+        ),
+        Key::new(
+            "depth",
+            Kind::Integer(0, 100),
+            Default::Integer(8),
+            "Mirror and glass bounces; beyond it a ray brings black.",
+        ),
+    ]],
+};
+
+/// `background = { top, bottom }`.
+pub(crate) static BACKGROUND: Table = Table {
+    name: "background",
+    doc: "A background that runs from one colour to another along the picture's height.",
+    select: None,
+    keys: &[&[
+        Key::new("top", Kind::Color, Default::Required, "Colour at the upper edge."),
+        Key::new("bottom", Kind::Color, Default::Required, "Colour at the lower edge."),
+    ]],
+};
+
+/// `[ambient]`.
+pub(crate) static AMBIENT: Table = Table {
+    name: "ambient",
+    doc: "The ambient light.",
+    select: None,
+    keys: &[&[Key::new(
+        "color",
+        Kind::Color,
+        Default::Number(1.0),
+        "`C_a` is this times the material's ambient colour.",
+    )]],
+};
+
+/// `[[include]]`.
+pub(crate) static INCLUDE: Table = Table {
+    name: "include",
+    doc: "Another file's lights, materials, groups and shapes, at this place.",
+    select: None,
+    keys: &[&[Key::new("file", Kind::File, Default::Required, "The scene file.")]],
+};

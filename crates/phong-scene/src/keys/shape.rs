@@ -1,0 +1,302 @@
+//! The shapes' keys.
+
+use super::{Default, Key, Kind, Range, Table};
+
+/// Where any shape is placed: scale, then rotate, then translate; or a matrix alone.
+const PLACED: &[Key] = &[
+    Key::new(
+        "name",
+        Kind::Text,
+        Default::Said("the kind and a number from 1"),
+        "What `explain` calls it.",
+    ),
+    Key::new(
+        "scale",
+        Kind::Scale,
+        Default::Said("1"),
+        "First of the transform: a factor, or one along each axis.",
+    ),
+    Key::new(
+        "rotate",
+        Kind::Rotate,
+        Default::Said("none"),
+        "Then: `[ax, ay, az, degrees]`, right-handed about an axis; or a list of them, in order.",
+    ),
+    Key::new("translate", Kind::Point, Default::Vector([0.0; 3]), "Then: the shift."),
+    Key::new(
+        "matrix",
+        Kind::Matrix,
+        Default::Said("the three above"),
+        "Instead of all three: four rows of four, for column vectors.",
+    ),
+];
+
+/// What any shape is made of.
+const MATERIAL: &[Key] = &[Key::new(
+    "material",
+    Kind::Material,
+    Default::Said("the default material"),
+    "The name of its material.",
+)];
+
+/// What a shape read from a file is made of.
+const FILE_MATERIAL: &[Key] = &[Key::new(
+    "material",
+    Kind::Material,
+    Default::Said("the file's own, else the default material"),
+    "The name of its material; replaces the file's own.",
+)];
+
+/// `[[sphere]]`.
+pub(crate) static SPHERE: Table = Table {
+    name: "sphere",
+    doc: "All points at `radius` from `center`; scaled unevenly, an ellipsoid.",
+    select: None,
+    keys: &[
+        &[
+            Key::new("center", Kind::Point, Default::Required, "The middle."),
+            Key::new(
+                "radius",
+                Kind::Number(Range::POSITIVE),
+                Default::Required,
+                "Distance of the surface from the middle.",
+            ),
+        ],
+        MATERIAL,
+        PLACED,
+    ],
+};
+
+/// `[[plane]]`.
+pub(crate) static PLANE: Table = Table {
+    name: "plane",
+    doc: "An infinite plane.",
+    select: None,
+    keys: &[
+        &[
+            Key::new("point", Kind::Point, Default::Required, "Any point on it."),
+            Key::new("normal", Kind::Direction, Default::Required, "Its normal; any length."),
+        ],
+        MATERIAL,
+        PLACED,
+    ],
+};
+
+/// `[[triangle]]`.
+pub(crate) static TRIANGLE: Table = Table {
+    name: "triangle",
+    doc: "One triangle, counter-clockwise seen from outside.",
+    select: None,
+    keys: &[
+        &[
+            Key::new("points", Kind::Points, Default::Required, "The corners, not on one line."),
+            Key::new(
+                "normals",
+                Kind::Directions,
+                Default::Said("the geometric normal"),
+                "Shading normals at the corners; any length.",
+            ),
+            Key::new(
+                "uv",
+                Kind::Uvs,
+                Default::Said("(0, 0), (1, 0), (1, 1)"),
+                "Texture coordinates at the corners.",
+            ),
+        ],
+        MATERIAL,
+        PLACED,
+    ],
+};
+
+/// `[[disc]]`.
+pub(crate) static DISC: Table = Table {
+    name: "disc",
+    doc: "A flat disc.",
+    select: None,
+    keys: &[
+        &[
+            Key::new("center", Kind::Point, Default::Required, "The middle."),
+            Key::new("normal", Kind::Direction, Default::Required, "Its normal; any length."),
+            Key::new("radius", Kind::Number(Range::POSITIVE), Default::Required, "Radius."),
+        ],
+        MATERIAL,
+        PLACED,
+    ],
+};
+
+/// `[[box]]`.
+pub(crate) static BOX: Table = Table {
+    name: "box",
+    doc: "A box with faces along the axes.",
+    select: None,
+    keys: &[
+        &[
+            Key::new(
+                "min",
+                Kind::Point,
+                Default::Required,
+                "The corner with the smallest coordinates.",
+            ),
+            Key::new(
+                "max",
+                Kind::Point,
+                Default::Required,
+                "The corner with the largest; above `min` in each.",
+            ),
+        ],
+        MATERIAL,
+        PLACED,
+    ],
+};
+
+/// `[[cylinder]]`.
+pub(crate) static CYLINDER: Table = Table {
+    name: "cylinder",
+    doc: "A cylinder around the line from `from` to `to`.",
+    select: None,
+    keys: &[
+        &[
+            Key::new("from", Kind::Point, Default::Required, "One end of the axis."),
+            Key::new("to", Kind::Point, Default::Required, "The other end."),
+            Key::new("radius", Kind::Number(Range::POSITIVE), Default::Required, "Radius."),
+            Key::new("capped", Kind::Flag, Default::Flag(true), "Whether discs close the ends."),
+        ],
+        MATERIAL,
+        PLACED,
+    ],
+};
+
+/// `[[cone]]`.
+pub(crate) static CONE: Table = Table {
+    name: "cone",
+    doc: "A cone or frustum around the line from `from` to `to`.",
+    select: None,
+    keys: &[
+        &[
+            Key::new("from", Kind::Point, Default::Required, "One end of the axis."),
+            Key::new("to", Kind::Point, Default::Required, "The other end."),
+            Key::new(
+                "radius",
+                Kind::Number(Range::NOT_NEGATIVE),
+                Default::Required,
+                "Radius at `from`.",
+            ),
+            Key::new(
+                "radius_to",
+                Kind::Number(Range::NOT_NEGATIVE),
+                Default::Number(0.0),
+                "Radius at `to`; not both are 0.",
+            ),
+            Key::new("capped", Kind::Flag, Default::Flag(true), "Whether discs close the ends."),
+        ],
+        MATERIAL,
+        PLACED,
+    ],
+};
+
+/// `[[torus]]`.
+pub(crate) static TORUS: Table = Table {
+    name: "torus",
+    doc: "A ring with a round section.",
+    select: None,
+    keys: &[
+        &[
+            Key::new("center", Kind::Point, Default::Required, "The middle."),
+            Key::new(
+                "axis",
+                Kind::Direction,
+                Default::Required,
+                "The axis it runs around; any length.",
+            ),
+            Key::new(
+                "radius",
+                Kind::Number(Range::POSITIVE),
+                Default::Required,
+                "From the middle to the middle of the tube.",
+            ),
+            Key::new(
+                "tube",
+                Kind::Number(Range::POSITIVE),
+                Default::Required,
+                "Radius of the tube; below `radius`.",
+            ),
+        ],
+        MATERIAL,
+        PLACED,
+    ],
+};
+
+/// `[[mesh]]`.
+pub(crate) static MESH: Table = Table {
+    name: "mesh",
+    doc: "The triangles of a file.",
+    select: None,
+    keys: &[
+        &[
+            Key::new("file", Kind::File, Default::Required, "A model file."),
+            Key::new(
+                "smooth",
+                Kind::Smooth,
+                Default::Said("the file's normals, else 60"),
+                "Shading normals: `false`: none, flat triangles; `true`: the default; an angle: area-weighted normals where faces meet under it, degrees, in place of the file's.",
+            ),
+        ],
+        FILE_MATERIAL,
+        PLACED,
+    ],
+};
+
+/// `[[points]]`.
+pub(crate) static POINTS: Table = Table {
+    name: "points",
+    doc: "A sphere at every point of a file.",
+    select: None,
+    keys: &[
+        &[
+            Key::new("file", Kind::File, Default::Required, "A file of points."),
+            Key::new(
+                "radius",
+                Kind::Number(Range::POSITIVE),
+                Default::Said("the file's own; an error where it has none"),
+                "Radius of the spheres; the file's own per point win.",
+            ),
+        ],
+        FILE_MATERIAL,
+        PLACED,
+    ],
+};
+
+/// `[[instance]]`.
+pub(crate) static INSTANCE: Table = Table {
+    name: "instance",
+    doc: "A group, placed.",
+    select: None,
+    keys: &[&[Key::new("group", Kind::Group, Default::Required, "The name of the group.")], PLACED],
+};
+
+/// All shapes: at the scene's top level, and in groups.
+pub(crate) const SHAPES: &[Key] = &[
+    shapes(&SPHERE),
+    shapes(&PLANE),
+    shapes(&TRIANGLE),
+    shapes(&DISC),
+    shapes(&BOX),
+    shapes(&CYLINDER),
+    shapes(&CONE),
+    shapes(&TORUS),
+    shapes(&MESH),
+    shapes(&POINTS),
+    shapes(&INSTANCE),
+];
+
+/// `[groups.NAME]`.
+pub(crate) static GROUP: Table = Table {
+    name: "group",
+    doc: "Shapes to be placed together by `[[instance]]`.",
+    select: None,
+    keys: &[SHAPES],
+};
+
+const fn shapes(table: &'static Table) -> Key {
+    Key::new(table.name, Kind::Tables(table), Default::Said("none"), table.doc)
+}

@@ -1,0 +1,123 @@
+//! What `explain` says is what the film holds, bit for bit.
+#![expect(clippy::unwrap_used, reason = "in a test, what is not there is a failure")]
+
+use std::path::Path;
+
+use phong::compile::{CompileOptions, CompiledScene};
+use phong::explain::{End, Explanation, explain};
+use phong::film::LayerKind;
+use phong::reflectance::Terms;
+use phong::render::{Cancel, RenderOptions, render};
+use phong_scene::{FilterKind, Folder, Limits};
+
+fn compiled(file: &str) -> (CompiledScene, RenderOptions) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(file);
+    let reading = phong_scene::read(path.to_str().unwrap(), None, &Folder, &Limits::default());
+    let scene = reading.scene.unwrap_or_else(|| panic!("{file}: {:?}", reading.diagnostics));
+    let mut options = RenderOptions::of(&scene.image);
+    options.size = [20, 12];
+    options.window = phong::film::Window::full(options.size);
+    options.samples = 3;
+    options.terms = true;
+    (CompiledScene::new(scene, CompileOptions::default()).unwrap(), options)
+}
+
+/// Every gallery scene.
+fn gallery() -> Vec<String> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+    let mut names: Vec<String> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .filter(|name| Path::new(name).extension().is_some_and(|e| e == "toml"))
+        .collect();
+    names.sort();
+    assert!(names.len() >= 4, "a gallery of {names:?}");
+    names
+}
+
+#[test]
+fn the_explained_sum_is_the_pixel_of_the_film_in_every_gallery_scene() {
+    for file in gallery() {
+        let (scene, mut options) = compiled(&file);
+        for filter in [FilterKind::Box, FilterKind::Mitchell] {
+            options.filter = filter;
+            let film = render(&scene, &options, &|_, _| {}, &Cancel::new()).unwrap().film;
+            for y in 0..options.size[1] {
+                for x in 0..options.size[0] {
+                    let told = explain(&scene, &options, [x, y]).unwrap();
+                    let at = |kind| film.at(kind, x, y).unwrap().to_vec();
+                    assert_eq!(
+                        told.linear.to_array().to_vec(),
+                        at(LayerKind::Picture),
+                        "{file} {x} {y}"
+                    );
+                    assert_eq!(vec![told.alpha], at(LayerKind::Alpha), "{file} {x} {y}");
+                    for (i, term) in told.terms.to_array().into_iter().enumerate() {
+                        assert_eq!(
+                            term.to_array().to_vec(),
+                            at(LayerKind::Term(i)),
+                            "{file} {x} {y}"
+                        );
+                    }
+                    parts_add_up(&told, &file);
+                }
+            }
+        }
+    }
+}
+
+/// What was told of each light and ray sums to what the sample brought.
+fn parts_add_up(told: &Explanation, file: &str) {
+    for sample in &told.samples {
+        let Some(ray) = &sample.ray else { continue };
+        assert_eq!(ray.terms(), sample.terms, "{file}: {:?}", told.pixel);
+        let End::Surface(surface) = &ray.end else { continue };
+        let mut sum = Terms { ambient: surface.ambient, ..Terms::default() };
+        for lit in &surface.lights {
+            sum.ambient += lit.ambient;
+            sum.diffuse += lit.diffuse;
+            sum.specular += lit.specular;
+        }
+        for (branch, term) in [
+            (&surface.reflection, &mut sum.reflection),
+            (&surface.transmission, &mut sum.transmission),
+        ] {
+            if let Some(onward) = branch {
+                let brought =
+                    onward.ray.as_ref().map(|ray| ray.terms().total()).unwrap_or_default();
+                assert_eq!(brought, onward.light);
+                *term = onward.weight * brought;
+            }
+        }
+        assert_eq!(sum, sample.terms, "{file}: {:?}", told.pixel);
+    }
+}
+
+#[test]
+fn numbers_in_json_are_the_very_bits() {
+    let (scene, options) = compiled("two-balls.toml");
+    let told = explain(&scene, &options, [9, 6]).unwrap();
+    let json: serde_json::Value = serde_json::from_str(&told.json().to_string()).unwrap();
+    for (value, number) in told.linear.to_array().iter().zip(json["linear"].as_array().unwrap()) {
+        assert_eq!(number.as_f64().unwrap() as f32, *value);
+    }
+    assert_eq!(json["samples"].as_array().unwrap().len(), 3);
+    assert_eq!(json["pixel"], serde_json::json!([9, 6]));
+}
+
+#[test]
+fn a_pixel_outside_the_picture_is_refused() {
+    let (scene, options) = compiled("two-balls.toml");
+    let error = explain(&scene, &options, [20, 0]).unwrap_err();
+    assert_eq!(error.to_string(), "pixel (20, 0) is outside the picture of 20 × 12");
+}
+
+#[test]
+fn an_explanation_in_words_puts_the_numbers_into_the_equation() {
+    let (scene, options) = compiled("two-balls.toml");
+    let told = explain(&scene, &RenderOptions { samples: 1, ..options }, [9, 6]).unwrap();
+    let text = told.text(None, true);
+    for wanted in ["pixel (9, 6) of 20 × 12", "N·L = ", "diffuse  = k_d (N·L) C_d = ", "bytes"] {
+        assert!(text.contains(wanted), "{wanted:?} is not in\n{text}");
+    }
+}
