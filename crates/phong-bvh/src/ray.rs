@@ -65,6 +65,7 @@ pub struct Surface {
     pub ng: Vec3,
     /// Unit tangent along growing `uv.x`, perpendicular to `ng`.
     pub tangent: Vec3,
-    /// Surface coordinates in [0, 1]²: triangles barycentric; sphere longitude and latitude; …
+    /// Surface coordinates in [0, 1]²: triangles barycentric, spheres longitude and latitude, round
+    /// solids angle and height, flat ones flat. On a plane lengths along two axes, without bounds.
     pub uv: Vec2,
 }

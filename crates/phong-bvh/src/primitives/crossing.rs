@@ -2,8 +2,6 @@
 
 use glam::DVec3;
 
-use crate::Ray;
-
 /// The points `o + t · d` for every `t`, in a shape's own space; `o` is near the shape.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Line {
@@ -49,14 +47,6 @@ impl Crossings {
     /// The crossings by growing `t`.
     pub(crate) fn as_slice(&self) -> &[Crossing] {
         &self.list[..self.len]
-    }
-
-    /// The first crossing a ray counts, given that its line's `t` = 0 is the ray's `start`.
-    pub(crate) fn first_within(&self, ray: &Ray, start: f64) -> Option<f32> {
-        self.as_slice()
-            .iter()
-            .map(|crossing| (start + crossing.t) as f32)
-            .find(|&t| ray.t_min < t && t < ray.t_max)
     }
 
     /// The crossing nearest to `t`.

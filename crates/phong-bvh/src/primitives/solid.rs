@@ -38,7 +38,12 @@ impl Solid {
     /// Closed shapes are met from within too, and so are open cylinders and cones.
     pub fn intersect(&self, ray: &Ray) -> Option<f32> {
         let (line, start) = self.line(ray);
-        self.crossings(&line).first_within(ray, start)
+        let within = |t: f64| {
+            let t = (start + t) as f32;
+            (ray.t_min < t && t < ray.t_max).then_some(t)
+        };
+        let crossings = self.crossings(&line, |t| within(t).is_some());
+        crossings.as_slice().iter().find_map(|crossing| within(crossing.t))
     }
 
     /// The least box around the solid, in world space, rounded outwards: its lower and upper corner.
@@ -69,7 +74,8 @@ impl Solid {
     pub(crate) fn patch(&self, ray: &Ray, t: f32) -> Patch {
         let (line, start) = self.line(ray);
         let t = f64::from(t) - start;
-        let (t, face) = self.crossings(&line).nearest(t).map_or((t, 0), |c| (c.t, c.face));
+        let (t, face) =
+            self.crossings(&line, |_| false).nearest(t).map_or((t, 0), |c| (c.t, c.face));
         let p = line.at(t);
         let local = match self.shape {
             Canonical::Sphere => ellipsoid::patch(p),
@@ -111,7 +117,8 @@ impl Solid {
         (Line { o: o + start * d, d }, start)
     }
 
-    fn crossings(&self, line: &Line) -> Crossings {
+    /// The crossings of `line`, at least up to the first that is `enough`.
+    fn crossings(&self, line: &Line, enough: impl Fn(f64) -> bool) -> Crossings {
         match self.shape {
             Canonical::Sphere => ellipsoid::crossings(line),
             Canonical::Disc => disc::crossings(line),
@@ -120,7 +127,7 @@ impl Solid {
             Canonical::Cone { radius, radius_to, capped } => {
                 cone::crossings(line, [radius, radius_to], capped)
             }
-            Canonical::Torus { tube } => torus::crossings(line, tube),
+            Canonical::Torus { tube } => torus::crossings(line, tube, enough),
         }
     }
 }

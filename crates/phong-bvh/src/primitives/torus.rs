@@ -26,8 +26,9 @@ use super::{
     solid::{Patch, turn},
 };
 
-/// The crossings of a line and the torus of tube radius `tube`.
-pub(super) fn crossings(line: &Line, tube: f64) -> Crossings {
+/// The crossings of a line and the torus of tube radius `tube`, up to the first that is `enough`:
+/// each takes a search.
+pub(super) fn crossings(line: &Line, tube: f64, enough: impl Fn(f64) -> bool) -> Crossings {
     let length = line.d.length();
     let line = Line { o: line.o, d: line.d / length };
     let mut crossings = Crossings::NONE;
@@ -48,6 +49,9 @@ pub(super) fn crossings(line: &Line, tube: f64) -> Crossings {
     for stretch in cuts.windows(2) {
         if let Some(t) = root([stretch[0], stretch[1]], |t| depth(&line, tube, t)) {
             crossings.push(t / length, 0);
+            if enough(t / length) {
+                break;
+            }
         }
     }
     crossings
@@ -74,16 +78,17 @@ fn depth(line: &Line, tube: f64, t: f64) -> (f64, f64) {
 /// The root of a monotone function (given with its slope) if it changes sign from `low` to `high`.
 ///
 /// Newton's step wherever it stays between the bounds and at least halves the step before it, else
-/// bisection; so the bounds close in whatever the function.
+/// bisection; so the bounds close in whatever the function. The last step is the error before it,
+/// squared.
 fn root([mut low, mut high]: [f64; 2], f: impl Fn(f64) -> (f64, f64)) -> Option<f64> {
+    const CLOSE: f64 = 1e-12;
     let starts_below = f(low).0 < 0.0;
     if (f(high).0 < 0.0) == starts_below {
         return None;
     }
     let mut t = 0.5 * (low + high);
     let mut step = high - low;
-    // Bisection alone would need 52 steps plus those down to the size of the torus.
-    for _ in 0..128 {
+    for _ in 0..64 {
         let (value, slope) = f(t);
         if (value < 0.0) == starts_below {
             low = t;
@@ -96,7 +101,7 @@ fn root([mut low, mut high]: [f64; 2], f: impl Fn(f64) -> (f64, f64)) -> Option<
             if halves && low < newton && newton < high { newton } else { 0.5 * (low + high) };
         step = next - t;
         t = next;
-        if step.abs() <= f64::EPSILON {
+        if step.abs() <= CLOSE {
             break;
         }
     }
