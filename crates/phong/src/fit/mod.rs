@@ -16,6 +16,7 @@
 
 mod formula;
 mod lobe;
+pub mod plot;
 mod search;
 #[cfg(test)]
 mod tests;
