@@ -10,6 +10,7 @@ pub mod camera;
 pub mod compile;
 pub mod eval;
 pub mod explain;
+pub mod figures;
 pub mod film;
 pub mod filter;
 pub mod fit;

@@ -1,15 +1,85 @@
 //! `phong figure`: the lecture's figures.
 
-use crate::args::Anything;
+use std::ffi::OsStr;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use clap::builder::PossibleValuesParser;
+use phong::figures::{self, CATALOGUE, Finish};
+
 use crate::failure::Failure;
 
-/// The lecture's figures; without a name, lists them
+const EXAMPLES: &str = "\
+Examples:
+  phong figure                       lists the figures
+  phong figure reflection            figures/reflection.svg and figures/reflection.png
+  phong figure all -d slides         every figure, and slides/index.html to look at them";
+
+/// The name that stands for every figure.
+const ALL: &str = "all";
+
+/// The lecture's figures as SVG and PNG; without a name, lists them
 #[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
-    #[command(flatten)]
-    _anything: Anything,
+    /// Which figure, or all of them with an index.html
+    #[arg(value_parser = names(), hide_possible_values = true)]
+    name: Option<String>,
+
+    /// The folder to write to, made where it is missing
+    #[arg(short = 'd', long = "dir", value_name = "DIR", default_value = "figures")]
+    folder: PathBuf,
 }
 
-pub(crate) fn run(_args: &Args) -> Result<(), Failure> {
-    Err(Failure::not_yet("phong figure"))
+fn names() -> PossibleValuesParser {
+    PossibleValuesParser::new(CATALOGUE.iter().map(|entry| entry.name).chain([ALL]))
+}
+
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let Some(name) = &args.name else { return list() };
+    let folder = &args.folder;
+    std::fs::create_dir_all(folder).map_err(|error| Failure::writing(folder, &error))?;
+    let mut drawn = Vec::new();
+    for entry in CATALOGUE.iter().filter(|entry| name == ALL || name == entry.name) {
+        let figure = entry.draw(Finish::Slide);
+        let file = |extension: &str| folder.join(figure.name).with_extension(extension);
+        write(&file("svg"), figure.svg().as_bytes())?;
+        write(&file("png"), &figure.png())?;
+        drawn.push(figure);
+    }
+    if name == ALL {
+        write(&folder.join("index.html"), figures::page(&drawn).as_bytes())?;
+    }
+    Ok(())
+}
+
+fn list() -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    CATALOGUE
+        .iter()
+        .try_for_each(|entry| writeln!(out, "{:<12} {}", entry.name, entry.line))
+        .map_err(|error| Failure::stdout(&error))
+}
+
+/// Writes a file whole or not at all, and says so.
+fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let whole = || -> io::Result<()> {
+        let folder = path.parent().unwrap_or(Path::new("."));
+        let mut builder = tempfile::Builder::new();
+        let name = path.file_name().unwrap_or(OsStr::new("figure"));
+        builder.prefix(name);
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            // Temporary files are their owner's alone; this one becomes a file like any other.
+            builder.permissions(std::fs::Permissions::from_mode(0o666));
+        }
+        let mut file = builder.tempfile_in(folder)?;
+        file.write_all(bytes)?;
+        file.persist(path)?;
+        Ok(())
+    };
+    whole().map_err(|error| Failure::writing(path, &error))?;
+    let _ = writeln!(io::stderr(), "{}", path.display());
+    Ok(())
 }

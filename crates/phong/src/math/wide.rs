@@ -1,4 +1,5 @@
-//! The same functions in f64, for what is set up once: cameras, lights, filters, bounds.
+//! The same functions in f64, for what is set up once: cameras, lights, filters, bounds;
+//! and for drawings.
 
 /// Sine and cosine of `x` radians.
 pub fn sin_cos(x: f64) -> (f64, f64) {
@@ -25,9 +26,19 @@ pub fn atan(x: f64) -> f64 {
     libm::atan(x)
 }
 
+/// The angle of the point (`x`, `y`), in (−π, π].
+pub fn atan2(y: f64, x: f64) -> f64 {
+    libm::atan2(y, x)
+}
+
 /// `x^y`.
 pub fn pow(x: f64, y: f64) -> f64 {
     libm::pow(x, y)
+}
+
+/// The natural logarithm of `x`.
+pub fn ln(x: f64) -> f64 {
+    libm::log(x)
 }
 
 /// `e^x`.

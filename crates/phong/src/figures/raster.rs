@@ -1,0 +1,150 @@
+//! A drawing as pixels, and pixels as PNG.
+
+use tiny_skia::{
+    FillRule, FilterQuality, LineCap, LineJoin, Paint, PathBuilder, Pixmap, PixmapPaint,
+    StrokeDash, Transform,
+};
+
+use super::drawing::{Bitmap, Drawing, Ink, Mark, Path, Point, Step, Stroke, Text};
+use super::style;
+use super::text::Faces;
+
+/// Pixels a unit: a slide comes out 1920 wide.
+pub(super) const SCALE: f64 = 2.0;
+/// The lengths of a dash and of the gap after it.
+pub(super) const DASH: [f64; 2] = [6.0, 6.0];
+
+/// The drawing at [`SCALE`], as a PNG file.
+pub(super) fn png(drawing: &Drawing) -> Vec<u8> {
+    encode(&paint(drawing))
+}
+
+fn paint(drawing: &Drawing) -> Bitmap {
+    let [width, height] = (drawing.size * SCALE).to_array().map(|side| side as u32);
+    let mut canvas = Canvas {
+        pixels: Pixmap::new(width.max(1), height.max(1)).expect("a canvas of moderate size"),
+        faces: Faces::new(),
+    };
+    canvas.pixels.fill(color(style::PAPER));
+    for mark in &drawing.marks {
+        match mark {
+            Mark::Shape { path, fill, stroke } => canvas.shape(path, *fill, *stroke),
+            Mark::Text(text) => canvas.text(text),
+            Mark::Image { at, size, bitmap } => canvas.image(*at, *size, bitmap),
+        }
+    }
+    Bitmap { width, height, rgba: canvas.pixels.take_demultiplied() }
+}
+
+struct Canvas {
+    pixels: Pixmap,
+    faces: Faces,
+}
+
+const TO_PIXELS: f32 = SCALE as f32;
+
+impl Canvas {
+    fn shape(&mut self, path: &Path, fill: Option<Ink>, stroke: Option<Stroke>) {
+        self.transformed(path, fill, stroke, Transform::from_scale(TO_PIXELS, TO_PIXELS));
+    }
+
+    fn transformed(
+        &mut self,
+        path: &Path,
+        fill: Option<Ink>,
+        stroke: Option<Stroke>,
+        transform: Transform,
+    ) {
+        let Some(path) = outline(path) else { return };
+        if let Some(ink) = fill {
+            self.pixels.fill_path(&path, &solid(ink), FillRule::Winding, transform, None);
+        }
+        if let Some(Stroke { ink, width, dashed }) = stroke {
+            let dash = dashed.then(|| DASH.map(|side| side as f32).to_vec());
+            let stroke = tiny_skia::Stroke {
+                width: width as f32,
+                line_cap: LineCap::Round,
+                line_join: LineJoin::Round,
+                dash: dash.and_then(|dash| StrokeDash::new(dash, 0.0)),
+                ..tiny_skia::Stroke::default()
+            };
+            self.pixels.stroke_path(&path, &solid(ink), &stroke, transform, None);
+        }
+    }
+
+    fn text(&mut self, text: &Text) {
+        let [left, _] = self.faces.extent(text);
+        let start = Point::new(left - text.at.x, 0.0);
+        let outline = self.faces.outline(&text.runs, start, text.size, text.bold);
+        let turn = if text.upright { -90.0 } else { 0.0 };
+        let transform = Transform::from_rotate(turn)
+            .post_translate(text.at.x as f32, text.at.y as f32)
+            .post_scale(TO_PIXELS, TO_PIXELS);
+        self.transformed(&outline, Some(text.ink), None, transform);
+    }
+
+    fn image(&mut self, at: Point, size: Point, bitmap: &Bitmap) {
+        let Some(mut pixels) = Pixmap::new(bitmap.width, bitmap.height) else { return };
+        for (pixel, rgba) in pixels.pixels_mut().iter_mut().zip(bitmap.rgba.chunks_exact(4)) {
+            let straight = tiny_skia::ColorU8::from_rgba(rgba[0], rgba[1], rgba[2], rgba[3]);
+            *pixel = straight.premultiply();
+        }
+        let scale = |side: f64, pixels: u32| (side * SCALE / f64::from(pixels)) as f32;
+        let transform =
+            Transform::from_scale(scale(size.x, bitmap.width), scale(size.y, bitmap.height))
+                .post_translate((at.x * SCALE) as f32, (at.y * SCALE) as f32);
+        let paint = PixmapPaint { quality: FilterQuality::Bilinear, ..PixmapPaint::default() };
+        self.pixels.draw_pixmap(0, 0, pixels.as_ref(), &paint, transform, None);
+    }
+}
+
+fn outline(path: &Path) -> Option<tiny_skia::Path> {
+    let mut builder = PathBuilder::new();
+    let xy = |p: Point| (p.x as f32, p.y as f32);
+    for step in &path.0 {
+        match *step {
+            Step::Move(p) => {
+                let (x, y) = xy(p);
+                builder.move_to(x, y);
+            }
+            Step::Line(p) => {
+                let (x, y) = xy(p);
+                builder.line_to(x, y);
+            }
+            Step::Quad(c, p) => {
+                let ((x1, y1), (x, y)) = (xy(c), xy(p));
+                builder.quad_to(x1, y1, x, y);
+            }
+            Step::Cubic(c, d, p) => {
+                let ((x1, y1), (x2, y2), (x, y)) = (xy(c), xy(d), xy(p));
+                builder.cubic_to(x1, y1, x2, y2, x, y);
+            }
+            Step::Close => builder.close(),
+        }
+    }
+    builder.finish()
+}
+
+fn color(Ink { srgb: [r, g, b], opacity }: Ink) -> tiny_skia::Color {
+    tiny_skia::Color::from_rgba8(r, g, b, (opacity * 255.0 + 0.5) as u8)
+}
+
+fn solid(ink: Ink) -> Paint<'static> {
+    let mut paint = Paint::default();
+    paint.set_color(color(ink));
+    paint
+}
+
+/// A bitmap as a PNG file: 8 bits, sRGB.
+pub(super) fn encode(bitmap: &Bitmap) -> Vec<u8> {
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, bitmap.width, bitmap.height);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    encoder
+        .write_header()
+        .and_then(|mut writer| writer.write_image_data(&bitmap.rgba))
+        .expect("a bitmap of its own size, written to memory");
+    file
+}

@@ -1,0 +1,210 @@
+//! A drawing as SVG.
+//!
+//! Text stays text: it can be selected, searched and edited. The fonts ride along as data, so it
+//! looks the same in every browser; a program that ignores them falls back to a common face.
+
+use std::fmt::Write;
+
+use super::drawing::{Anchor, Bitmap, Drawing, Ink, Mark, Path, Point, Step, Stroke, Text};
+use super::raster;
+use super::style;
+use super::text::{self, Script};
+
+/// Names of the faces, with common ones behind them.
+const SANS: &str = "'Noto Sans','DejaVu Sans',sans-serif";
+const SERIF: &str = "'Noto Serif','DejaVu Serif',serif";
+
+/// A whole SVG file: title and description for those who cannot see it, fonts, marks.
+pub(super) fn document(drawing: &Drawing, title: &str, description: &str) -> String {
+    let style = format!("<style>{}</style>\n", font_faces());
+    element(drawing, title, description, &style)
+}
+
+/// The `svg` element alone, for a page that declares [`font_faces`] once.
+pub(super) fn inline(drawing: &Drawing, title: &str, description: &str) -> String {
+    element(drawing, title, description, "")
+}
+
+/// The embedded fonts as CSS.
+pub(super) fn font_faces() -> String {
+    let faces = [
+        ("Noto Sans", "normal", 400, text::SANS),
+        ("Noto Sans", "normal", 700, text::BOLD),
+        ("Noto Serif", "italic", 400, text::ITALIC),
+    ];
+    let mut css = String::new();
+    for (family, style, weight, file) in faces {
+        let data = base64(file);
+        let _ = writeln!(
+            css,
+            "@font-face{{font-family:'{family}';font-style:{style};font-weight:{weight};\
+             src:url(data:font/ttf;base64,{data})}}"
+        );
+    }
+    css
+}
+
+fn element(drawing: &Drawing, title: &str, description: &str, head: &str) -> String {
+    let Point { x: width, y: height } = drawing.size;
+    let mut out = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {w} {h}\" width=\"{w}\" height=\"{h}\" \
+         role=\"img\" font-family=\"{SANS}\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n\
+         <title>{}</title>\n<desc>{}</desc>\n{head}",
+        text::escape(title),
+        text::escape(description),
+        w = number(width),
+        h = number(height),
+    );
+    let corners = [Point::ZERO, Point::new(width, 0.0), drawing.size, Point::new(0.0, height)];
+    out += &shape(&Path::polygon(corners), Some(style::PAPER), None);
+    for mark in &drawing.marks {
+        out += &match mark {
+            Mark::Shape { path, fill, stroke } => shape(path, *fill, *stroke),
+            Mark::Text(text) => words(text),
+            Mark::Image { at, size, bitmap } => image(*at, *size, bitmap),
+        };
+    }
+    out + "</svg>\n"
+}
+
+fn shape(path: &Path, fill: Option<Ink>, stroke: Option<Stroke>) -> String {
+    let mut out = String::from("<path d=\"");
+    for step in &path.0 {
+        let (letter, points): (char, &[Point]) = match step {
+            Step::Move(p) => ('M', &[*p]),
+            Step::Line(p) => ('L', &[*p]),
+            Step::Quad(c, p) => ('Q', &[*c, *p]),
+            Step::Cubic(c, d, p) => ('C', &[*c, *d, *p]),
+            Step::Close => ('Z', &[]),
+        };
+        out.push(letter);
+        let numbers: Vec<String> = points.iter().flat_map(|p| [number(p.x), number(p.y)]).collect();
+        out += &numbers.join(" ");
+    }
+    out += "\"";
+    out += &paint("fill", fill);
+    if let Some(Stroke { ink, width, dashed }) = stroke {
+        out += &paint("stroke", Some(ink));
+        let _ = write!(out, " stroke-width=\"{}\"", number(width));
+        if dashed {
+            let _ = write!(out, " stroke-dasharray=\"{}\"", raster::DASH.map(number).join(" "));
+        }
+    }
+    out + "/>\n"
+}
+
+fn paint(attribute: &str, ink: Option<Ink>) -> String {
+    let Some(Ink { srgb: [r, g, b], opacity }) = ink else {
+        return format!(" {attribute}=\"none\"");
+    };
+    let mut out = format!(" {attribute}=\"#{r:02x}{g:02x}{b:02x}\"");
+    if opacity < 1.0 {
+        let _ = write!(out, " {attribute}-opacity=\"{}\"", number(opacity));
+    }
+    out
+}
+
+fn words(text: &Text) -> String {
+    let Text { at, anchor, size, ink, bold, upright, runs } = text;
+    let mut out = if *upright {
+        format!("<text transform=\"translate({} {}) rotate(-90)\"", number(at.x), number(at.y))
+    } else {
+        format!("<text x=\"{}\" y=\"{}\"", number(at.x), number(at.y))
+    };
+    match anchor {
+        Anchor::Start => {}
+        Anchor::Middle => out += " text-anchor=\"middle\"",
+        Anchor::End => out += " text-anchor=\"end\"",
+    }
+    let _ = write!(out, " font-size=\"{}\"{}", number(*size), paint("fill", Some(*ink)));
+    if *bold {
+        out += " font-weight=\"700\"";
+    }
+    out += " style=\"white-space:pre\">";
+    let mut sunk = 0.0;
+    for run in runs {
+        let drop = run.script.drop() * size;
+        let words = text::escape(&run.words);
+        if !run.italic && run.script == Script::Line && drop == sunk {
+            out += &words;
+            continue;
+        }
+        out += "<tspan";
+        if drop != sunk {
+            let _ = write!(out, " dy=\"{}\"", number(drop - sunk));
+        }
+        if run.script != Script::Line {
+            let _ = write!(out, " font-size=\"{}\"", number(size * run.script.scale()));
+        }
+        if run.italic {
+            let _ = write!(out, " font-family=\"{SERIF}\" font-style=\"italic\"");
+        }
+        let _ = write!(out, ">{words}</tspan>");
+        sunk = drop;
+    }
+    out + "</text>\n"
+}
+
+fn image(at: Point, size: Point, bitmap: &Bitmap) -> String {
+    format!(
+        "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" href=\"data:image/png;base64,{}\"/>\n",
+        number(at.x),
+        number(at.y),
+        number(size.x),
+        number(size.y),
+        base64(&raster::encode(bitmap))
+    )
+}
+
+/// Hundredths, without trailing zeros.
+fn number(value: f64) -> String {
+    let rounded = format!("{value:.2}");
+    let trimmed = rounded.trim_end_matches('0').trim_end_matches('.');
+    if trimmed == "-0" { "0".to_owned() } else { trimmed.to_owned() }
+}
+
+/// Base 64 with padding, RFC 4648.
+fn base64(bytes: &[u8]) -> String {
+    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut out = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for chunk in bytes.chunks(3) {
+        let byte = |i: usize| u32::from(chunk.get(i).copied().unwrap_or(0));
+        let word = byte(0) << 16 | byte(1) << 8 | byte(2);
+        for digit in 0..4 {
+            let shown = digit <= chunk.len();
+            let index = (word >> (18 - 6 * digit)) & 63;
+            out.push(if shown { char::from(DIGITS[index as usize]) } else { '=' });
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn base64_agrees_with_the_examples_of_rfc_4648() {
+        let pairs =
+            [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foob", "Zm9vYg==")];
+        for (plain, coded) in pairs {
+            assert_eq!(base64(plain.as_bytes()), coded);
+        }
+    }
+
+    #[test]
+    fn numbers_are_short() {
+        assert_eq!([1.0, -0.001, 0.5, 12.345_6].map(number), ["1", "0", "0.5", "12.35"]);
+    }
+
+    #[test]
+    fn words_are_escaped_and_scripts_come_back_to_the_line() {
+        let mut drawing = Drawing::slide();
+        drawing.text(Point::ZERO, Anchor::Start, 10.0, style::TEXT, "a_i < b");
+        let svg = inline(&drawing, "a < b", "");
+        assert!(svg.contains("<title>a &lt; b</title>"));
+        assert!(
+            svg.contains("a<tspan dy=\"1.8\" font-size=\"7\">i</tspan><tspan dy=\"-1.8\"> &lt; b")
+        );
+    }
+}
