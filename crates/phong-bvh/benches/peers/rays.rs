@@ -51,8 +51,11 @@ pub(crate) fn set(name: &'static str, bvh: &Bvh, seen: &[(Ray, Hit)], most: usiz
     let step = (hits * a_hit).div_ceil(most).max(1);
     let mut rays = Vec::with_capacity(most);
     for tile in seen.chunks(64).step_by(step) {
-        let hits: Vec<Start> =
-            tile.iter().filter(|(_, hit)| hit.is_some()).map(|s| Start::of(bvh, s)).collect();
+        let hits: Vec<Start> = tile
+            .iter()
+            .filter(|(_, hit)| hit.is_some())
+            .map(|s| Start::of(bvh, s, 1e-6 * size))
+            .collect();
         match name {
             "primary" => rays.extend(tile.iter().map(|(ray, _)| *ray)),
             // A light at a time, so that neighbours in the set go the same way.
@@ -78,18 +81,21 @@ struct Start {
     p: Vec3,
     error: Vec3,
     n: Vec3,
+    /// Embree's default mode meets again what a ray leaves (up to 4 % of those off the sticks, at
+    /// `t` of 10⁻⁷; ours does not): it would be spared their way, which is what is measured.
+    t_min: f32,
 }
 
 impl Start {
-    fn of(bvh: &Bvh, (ray, hit): &(Ray, Hit)) -> Self {
+    fn of(bvh: &Bvh, (ray, hit): &(Ray, Hit), t_min: f32) -> Self {
         let surface = bvh.surface(ray, hit);
         let n = if surface.ng.dot(ray.dir) > 0.0 { -surface.ng } else { surface.ng };
-        Self { p: surface.p, error: surface.p_error, n }
+        Self { p: surface.p, error: surface.p_error, n, t_min }
     }
 
     fn leave(&self, dir: Vec3, t_max: f32) -> Ray {
         let origin = offset_origin(self.p, self.error, self.n, dir);
-        Ray { t_max, ..Ray::new(origin, dir) }
+        Ray { origin, t_min: self.t_min, dir, t_max }
     }
 
     fn toward(&self, light: Vec3) -> Ray {
