@@ -185,6 +185,22 @@ proptest! {
         }).collect();
         agrees_with_brute_force(&geometry, &rays);
     }
+
+    #[test]
+    fn rays_that_meet_at_a_light_find_what_brute_force_finds(seed: u64) {
+        let mut numbers = Numbers(seed);
+        let geometry = geometry(&mut numbers, 400);
+        let (first, spread) = (ray(&mut numbers, &geometry), numbers.scale().min(0.05));
+        let length = [0.5, 3.0, 200.0][numbers.below(3)];
+        let light = first.at(length);
+        let rays: Vec<Ray> = (0..200).map(|_| {
+            let origin = first.origin + length * spread * numbers.point();
+            let (dir, length) = (light - origin).normalize_and_length();
+            let dir = if length > 0.0 { dir } else { first.dir };
+            Ray { t_max: length * 0.999, ..Ray::new(origin, dir) }
+        }).collect();
+        agrees_with_brute_force(&geometry, &rays);
+    }
 }
 
 #[test]

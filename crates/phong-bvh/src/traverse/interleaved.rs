@@ -114,17 +114,29 @@ impl<C: Content> Kernel for AnyOfMany<'_, C> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let Self { world, root, rays, blocked, stacks, .. } = self;
-        let Some(last) = rays.len().checked_sub(1) else { return };
-        let first = [0, 1.min(last), 2.min(last), 3.min(last)];
+        // The rays that are not blocked yet.
+        let mut coming = 0;
+        let mut next = |blocked: &[bool]| {
+            coming += blocked.get(coming..)?.iter().position(|&blocked| !blocked)? + 1;
+            Some(coming - 1)
+        };
+        let Some(first) = next(blocked) else { return };
         let mut slots: [Slot<S, C::Leaves<S>>; RAYS] = [
-            Slot::any(simd, rays, root, first[0]),
-            Slot::any(simd, rays, root, first[1]),
-            Slot::any(simd, rays, root, first[2]),
-            Slot::any(simd, rays, root, first[3]),
+            Slot::any(simd, rays, root, first),
+            Slot::any(simd, rays, root, first),
+            Slot::any(simd, rays, root, first),
+            Slot::any(simd, rays, root, first),
         ];
-        let mut coming = RAYS;
-        let mut idle = [false, last < 1, last < 2, last < 3];
-        let mut active = RAYS.min(rays.len());
+        let mut idle = [false; RAYS];
+        let mut active = 1;
+        for i in 1..RAYS {
+            if let Some(index) = next(blocked) {
+                slots[i] = Slot::any(simd, rays, root, index);
+                active += 1;
+            } else {
+                idle[i] = true;
+            }
+        }
         while active > 0 {
             for i in 0..RAYS {
                 if idle[i] {
@@ -135,10 +147,9 @@ impl<C: Content> Kernel for AnyOfMany<'_, C> {
                     prefetch(world.rows, slot.walk.at().row());
                     continue;
                 };
-                blocked[slot.index] |= hit;
-                if coming < rays.len() {
-                    *slot = Slot::any(simd, rays, root, coming);
-                    coming += 1;
+                blocked[slot.index] = hit;
+                if let Some(index) = next(blocked) {
+                    *slot = Slot::any(simd, rays, root, index);
                 } else {
                     idle[i] = true;
                     active -= 1;

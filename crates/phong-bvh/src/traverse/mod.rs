@@ -1,14 +1,16 @@
 //! Rays through the tree.
 
+mod coherent;
 mod interleaved;
 mod leaves;
 mod single;
 mod slabs;
 mod walk;
 
-use std::{cell::RefCell, marker::PhantomData};
+use std::{cell::RefCell, marker::PhantomData, ops::Range};
 
 use self::{
+    coherent::{AnyTogether, ClosestTogether, Entries, Entry, is_coherent, same_octant},
     interleaved::{AnyOfMany, ClosestOfMany, RAYS, Stacks},
     leaves::{Anything, Content, OnlySpheres, OnlyTriangles},
 };
@@ -83,16 +85,36 @@ impl<'a> World<'a> {
     fn closest_of_many_in<C: Content>(&self, rays: &[Ray], hits: &mut [Hit]) {
         let Some(root) = self.root else { return };
         let (world, content) = (self, PhantomData::<C>);
-        STACKS.with_borrow_mut(|stacks| {
-            self.token.run(ClosestOfMany { world, root, rays, hits, stacks, content });
+        Runs::of(rays, root).for_each(|(range, together)| {
+            let (rays, hits) = (&rays[range.clone()], &mut hits[range]);
+            let done = together
+                && ENTRIES.with_borrow_mut(|entries| {
+                    let hits = &mut *hits;
+                    self.token.run(ClosestTogether { world, root, rays, hits, entries, content })
+                });
+            if !done {
+                STACKS.with_borrow_mut(|stacks| {
+                    self.token.run(ClosestOfMany { world, root, rays, hits, stacks, content });
+                });
+            }
         });
     }
 
     fn any_of_many_in<C: Content>(&self, rays: &[Ray], blocked: &mut [bool]) {
         let Some(root) = self.root else { return };
         let (world, content) = (self, PhantomData::<C>);
-        STACKS.with_borrow_mut(|stacks| {
-            self.token.run(AnyOfMany { world, root, rays, blocked, stacks, content });
+        Runs::of(rays, root).for_each(|(range, together)| {
+            let (rays, blocked) = (&rays[range.clone()], &mut blocked[range]);
+            let done = together
+                && ENTRIES.with_borrow_mut(|entries| {
+                    let blocked = &mut *blocked;
+                    self.token.run(AnyTogether { world, root, rays, blocked, entries, content })
+                });
+            if !done {
+                STACKS.with_borrow_mut(|stacks| {
+                    self.token.run(AnyOfMany { world, root, rays, blocked, stacks, content });
+                });
+            }
         });
     }
 
@@ -113,6 +135,47 @@ const STACK: usize = 7 * (64 + 32);
 thread_local! {
     /// Stacks of a thread: clearing one for each ray would cost a tenth of its time.
     static STACKS: RefCell<Stacks> = const { RefCell::new([[0; STACK]; RAYS]) };
+    static ENTRIES: RefCell<Entries> = const { RefCell::new([Entry::NONE; STACK]) };
+}
+
+/// A bundle cut into runs: rays that go together, and others.
+struct Runs<'a> {
+    rays: &'a [Ray],
+    /// Whether any may go together: not where the root is a leaf, which has no box.
+    together: bool,
+    next: usize,
+    /// A run of the first kind that was found behind one of the second.
+    found: Option<Range<usize>>,
+}
+
+impl<'a> Runs<'a> {
+    fn of(rays: &'a [Ray], root: Ref) -> Self {
+        Self { rays, together: root.kind().is_none(), next: 0, found: None }
+    }
+}
+
+impl Iterator for Runs<'_> {
+    type Item = (Range<usize>, bool);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        if let Some(run) = self.found.take() {
+            return Some((run, true));
+        }
+        let start = self.next;
+        while self.next < self.rays.len() {
+            let from = self.next;
+            self.next += same_octant(&self.rays[from..]);
+            let run = from..self.next;
+            if self.together && is_coherent(&self.rays[run.clone()]) {
+                if from == start {
+                    return Some((run, true));
+                }
+                self.found = Some(run);
+                return Some((start..from, false));
+            }
+        }
+        (start < self.next).then_some((start..self.next, false))
+    }
 }
 
 /// Who counts what a ray costs; `()` does not.

@@ -30,7 +30,7 @@ pub(super) struct Slabs<S: Simd> {
 }
 
 /// 2⁻²⁰.
-const SLACK: f32 = 1.0 / 1_048_576.0;
+pub(super) const SLACK: f32 = 1.0 / 1_048_576.0;
 
 impl<S: Simd> Slabs<S> {
     /// Prepares a ray.
