@@ -175,3 +175,112 @@ fn empty() -> (Vec3, Vec3) {
 fn join(a: (Vec3, Vec3), b: (Vec3, Vec3)) -> (Vec3, Vec3) {
     (a.0.min(b.0), a.1.max(b.1))
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DQuat;
+
+    use super::*;
+    use crate::{GroupId, Material, MaterialId, Object, Place};
+
+    fn object(shape: Shape, transform: DAffine3) -> Object {
+        let (material, place) = (MaterialId(0), Place::default());
+        Object { name: String::new(), shape, material, transform, place }
+    }
+
+    fn scene(objects: Vec<Object>) -> Scene {
+        let mut scene = crate::frame::frame(
+            crate::format::model::Model::default(),
+            &crate::View::default(),
+            &Place::default(),
+        );
+        scene.materials = vec![Material::default()];
+        scene.objects = objects;
+        scene
+    }
+
+    fn close(a: Bounds, min: [f64; 3], max: [f64; 3]) {
+        let (min, max) = (DVec3::from(min), DVec3::from(max));
+        let error = (a.min - min).abs().max((a.max - max).abs()).max_element();
+        assert!(error < 1e-12, "{a:?} is not {min} to {max}");
+    }
+
+    #[test]
+    fn round_shapes_reach_exactly_as_far_as_their_rims() {
+        let (half, center) = (0.5_f64.sqrt(), DVec3::new(1.0, 2.0, 3.0));
+        let tilted = DVec3::new(3.0, 3.0, 0.0);
+        let bounds = |shape: Shape| shape.bounds(&[]).unwrap();
+        close(
+            bounds(Shape::Disc { center, normal: tilted, radius: 2.0 }),
+            [1.0 - 2.0 * half, 2.0 - 2.0 * half, 1.0],
+            [1.0 + 2.0 * half, 2.0 + 2.0 * half, 5.0],
+        );
+        let (from, to) = (DVec3::ZERO, DVec3::Y * 4.0);
+        close(
+            bounds(Shape::Cylinder { from, to, radius: 1.0, capped: false }),
+            [-1.0, 0.0, -1.0],
+            [1.0, 4.0, 1.0],
+        );
+        close(
+            bounds(Shape::Cone { from, to, radius: 0.5, radius_to: 2.0, capped: true }),
+            [-2.0, 0.0, -2.0],
+            [2.0, 4.0, 2.0],
+        );
+        close(
+            bounds(Shape::Torus { center, axis: DVec3::Z, radius: 2.0, tube: 0.5 }),
+            [-1.5, -0.5, 2.5],
+            [3.5, 4.5, 3.5],
+        );
+    }
+
+    #[test]
+    fn a_torus_on_the_slant_reaches_as_far_as_points_on_it_do() {
+        let (axis, radius, tube) = (DVec3::new(1.0, 2.0, 3.0), 2.0, 0.5);
+        let turn = DQuat::from_rotation_arc(DVec3::Z, axis.normalize_or(DVec3::Z));
+        let mut reached = Bounds::EMPTY;
+        for i in 0..400 {
+            let u = f64::from(i) * std::f64::consts::TAU / 400.0;
+            for j in 0..400 {
+                let v = f64::from(j) * std::f64::consts::TAU / 400.0;
+                let r = radius + tube * libm::cos(v);
+                let p = DVec3::new(r * libm::cos(u), r * libm::sin(u), tube * libm::sin(v));
+                reached = reached.with(turn * p);
+            }
+        }
+        let bounds = Shape::Torus { center: DVec3::ZERO, axis, radius, tube }.bounds(&[]).unwrap();
+        assert!((bounds.max - reached.max).min_element() >= 0.0, "{bounds:?} {reached:?}");
+        assert!((bounds.max - reached.max).max_element() < 1e-3, "{bounds:?} {reached:?}");
+    }
+
+    #[test]
+    fn a_scene_holds_all_objects_where_they_are_placed_but_planes() {
+        let ball = Shape::Sphere { center: DVec3::X, radius: 1.0 };
+        let plane = Shape::Plane { point: DVec3::splat(99.0), normal: DVec3::Y };
+        let up = DAffine3::from_translation(DVec3::Y * 10.0);
+        let mut all = scene(vec![
+            object(plane, DAffine3::IDENTITY),
+            object(Shape::Instance(GroupId(1)), up),
+            object(ball.clone(), DAffine3::from_scale(DVec3::splat(2.0))),
+        ]);
+        let inner = object(Shape::Instance(GroupId(0)), up);
+        let group = |objects| crate::Group { name: String::new(), objects };
+        all.groups = vec![group(vec![object(ball, DAffine3::IDENTITY)]), group(vec![inner])];
+        close(all.bounds(), [0.0, -2.0, -2.0], [4.0, 21.0, 2.0]);
+        assert!(scene(Vec::new()).bounds().is_empty());
+    }
+
+    #[test]
+    fn the_origin_of_bulk_data_is_added_in_f64() {
+        let origin = DVec3::new(1e9, 0.0, 0.0);
+        let points = Points { origin, spheres: vec![[0.25, 0.0, 0.0, 0.125]], colors: Vec::new() };
+        close(points.bounds(), [1e9 + 0.125, -0.125, -0.125], [1e9 + 0.375, 0.125, 0.125]);
+        let stray = Vec3::splat(1e6);
+        let mesh = Mesh {
+            origin,
+            positions: vec![Vec3::ZERO, stray, Vec3::X, Vec3::Y],
+            indices: vec![[0, 2, 3]],
+            ..Mesh::default()
+        };
+        close(mesh.bounds(), [1e9, 0.0, 0.0], [1e9 + 1.0, 1.0, 0.0]);
+    }
+}

@@ -42,7 +42,7 @@ impl Draft {
         let highlight = !k_s.is_black();
         let illum = self.illum.as_ref().map_or(if highlight { 2 } else { 1 }, |(n, _)| *n);
         let exponent = self.in_range("Ns", self.exponent.unwrap_or(32.0), 0.0, f32::MAX, findings);
-        let ior = self.in_range("Ni", self.index.unwrap_or(1.5), 1e-3, 1e3, findings);
+        let ior = self.index_of_refraction(findings);
         let opacity = self.opacity(findings);
         self.warn_of_model(illum, highlight, findings);
 
@@ -98,6 +98,19 @@ impl Draft {
         opacity
     }
 
+    fn index_of_refraction(&self, findings: &mut Findings) -> f32 {
+        match self.index {
+            // Written by programs that have none to give.
+            Some(index) if index <= 0.0 => {
+                self.warn("indices of refraction", findings, || {
+                    format!("`Ni` must be above 0: {index} is read as 1.5")
+                });
+                1.5
+            }
+            index => index.unwrap_or(1.5),
+        }
+    }
+
     fn warn_of_model(&self, illum: u8, highlight: bool, findings: &mut Findings) {
         let message = match illum {
             0 => "`illum 0` (unlit) is not there: the material is lit as with `illum 1`",
@@ -123,7 +136,7 @@ impl Draft {
         if clamped != value {
             self.warn("values out of range", findings, || {
                 let bound = if value < low { "below" } else { "above" };
-                format!("`{what}` must not be {bound} {clamped}: {value} is read as that")
+                format!("`{what}` must not be {bound} {clamped}: {value} is read as {clamped}")
             });
         }
         clamped

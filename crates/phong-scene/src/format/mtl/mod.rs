@@ -161,22 +161,19 @@ impl Reader<'_> {
         }
     }
 
-    /// One to three numbers, or a way to say a colour that is not read.
+    /// One to three numbers, of which those that are not there are like the first; or a way to say
+    /// a colour that is not read.
     fn color_into(&mut self, cursor: &mut Cursor<'_>, color: &mut Option<Rgb>) {
-        let here = cursor.clone();
-        if cursor.more()
-            && (cursor.rest().starts_with(b"spectral") || cursor.rest().starts_with(b"xyz"))
-        {
-            self.warn(&here, "spectral and XYZ colours", |word| {
+        cursor.more();
+        if cursor.rest().starts_with(b"spectral") || cursor.rest().starts_with(b"xyz") {
+            self.warn(cursor, "spectral and XYZ colours", |word| {
                 format!("`{word}` colours are not read: the default stands in for it")
             });
             return;
         }
         let mut channels = [0.0; 3];
-        for (i, channel) in channels.iter_mut().enumerate() {
-            if i > 0 && !cursor.more() {
-                break;
-            }
+        let mut count = 0;
+        while count == 0 || count < 3 && cursor.more() {
             let here = cursor.clone();
             let Some(mut value) = self.read_number(cursor) else { return };
             if value < 0.0 {
@@ -185,16 +182,12 @@ impl Reader<'_> {
                 });
                 value = 0.0;
             }
-            *channel = value;
-            if i == 0 {
-                *color = Some(Rgb::grey(value));
-            }
+            channels[count] = value;
+            count += 1;
         }
-        if let Some(grey) = *color
-            && channels[1..] != [0.0, 0.0]
-        {
-            *color = Some(Rgb::new(grey.r, channels[1], channels[2]));
-        }
+        let first = channels[0];
+        channels[count..].fill(first);
+        *color = Some(Rgb::from(channels));
     }
 
     fn number(&mut self, cursor: &mut Cursor<'_>, place: impl Fn(&mut Draft, f32)) {
@@ -234,8 +227,9 @@ impl Reader<'_> {
                     draft.illum = Some((number, here.here(self.file)));
                 }
             }
-            _ => self.warn(&here, "illumination models that are not known", |word| {
-                format!("there is no illumination model `{word}`: 0 to 10 are defined")
+            _ => self.warn(&here, "illumination models that are not known", |word| match &*word {
+                "" => "`illum` has no number".to_owned(),
+                _ => format!("there is no illumination model `{word}`: 0 to 10 are defined"),
             }),
         }
     }

@@ -130,7 +130,7 @@ impl Assembly {
         if self.mesh.indices.is_empty() && !self.findings.any_error() {
             let count = self.mesh.positions.len();
             self.findings.error("empty models", at_file, || {
-                format!("there is nothing to draw: the file has {count} vertices and no face")
+                format!("there is nothing to draw: no face among {count} vertices (points alone are drawn from PLY files)")
             });
         }
         if self.findings.any_error() {
@@ -142,7 +142,9 @@ impl Assembly {
         if !mesh.colors.is_empty() && self.colored < mesh.positions.len() as u64 {
             findings.warning("vertices without colour", at_file, || {
                 let without = mesh.positions.len() as u64 - self.colored;
-                format!("{without} vertices have no colour beside some that do: they are grey")
+                format!(
+                    "vertices without a colour beside some that have one: {without}; they are grey"
+                )
             });
         }
         let tangled = cut_polygons(
@@ -154,14 +156,14 @@ impl Assembly {
         if tangled > 0 {
             findings.warning("tangled polygons", at_file, || {
                 format!(
-                    "{tangled} polygons cross themselves or have no area: their shape is a guess"
+                    "polygons that cross themselves or have no area: {tangled}; their shape is a guess"
                 )
             });
         }
         let collapsed = mesh.drop_collapsed();
         if collapsed > 0 {
             findings.warning("collapsed triangles", at_file, || {
-                format!("{collapsed} triangles use a vertex twice and are left out")
+                format!("triangles that use a vertex twice: {collapsed}; they are left out")
             });
         }
         if mesh.normals.len() == mesh.positions.len() && mesh.normal_indices == mesh.indices {
@@ -173,7 +175,7 @@ impl Assembly {
         let zeros = mesh.mend_normals();
         if zeros > 0 {
             findings.warning("normals of length 0", at_file, || {
-                format!("{zeros} normals have length 0: the geometric one stands in for them")
+                format!("normals of length 0: {zeros}; the geometric one stands in for them")
             });
         }
         if mesh.indices.is_empty() {
@@ -335,19 +337,15 @@ fn find_bad_corner(
         let here = cursor.clone();
         let word = String::from_utf8_lossy(cursor.word()).into_owned();
         for (kind, index) in word.split('/').take(3).enumerate() {
-            let Ok(value) = index.parse::<i64>() else { continue };
-            let count = if value < 0 { before[kind] } else { counts[kind] } as u64;
-            if counts[kind] > 0 || kind == 0 {
-                let (what, plural) = (KINDS[kind], if count == 1 { "" } else { "s" });
-                if value.unsigned_abs() > count {
-                    let where_ = if value < 0 { "before it" } else { "in the file" };
-                    return (
-                        here,
-                        format!(
-                            "the face uses {what} {value}, but there are {count} {what}{plural} {where_}"
-                        ),
-                    );
-                }
+            // Digits without end are as good as the largest number.
+            let Some(back) = index.chars().next().map(|sign| sign == '-') else { continue };
+            let value = index.parse::<i64>().map_or(u64::MAX, i64::unsigned_abs);
+            let count = if back { before[kind] } else { counts[kind] } as u64;
+            if value > count && (counts[kind] > 0 || kind == 0) {
+                let (what, whence) = (KINDS[kind], if back { "before it" } else { "in the file" });
+                let there = if count == 1 { "is 1".to_owned() } else { format!("are {count}") };
+                let message = format!("the face uses {what} {index}, but there {there} {whence}");
+                return (here, message);
             }
         }
     }

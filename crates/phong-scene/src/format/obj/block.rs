@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec2, Vec3};
 
-use crate::format::text::{Cursor, Findings, Piece, blame};
+use crate::format::text::{Cursor, Findings, Piece, blame, take_digits};
 use crate::{NO_INDEX, Rgb, Span};
 
 /// An index that no file can use: out of range, said where it is resolved.
@@ -232,6 +232,9 @@ impl Block {
     /// `f v/vt/vn …`
     #[inline]
     fn face(&mut self, cursor: &mut Cursor<'_>, context: &Context) {
+        if self.plain_triangle(cursor) {
+            return;
+        }
         let counts = self.counts();
         let mut corners = std::mem::take(&mut self.corners);
         corners.clear();
@@ -255,10 +258,34 @@ impl Block {
             _ => self.findings.warning(
                 "faces of fewer than three corners, which are left out",
                 || cursor.here(&context.file),
-                || format!("a face of {} corners is left out", corners.len()),
+                || format!("a face of {} corners, of at least 3, is left out", corners.len()),
             ),
         }
         self.corners = corners;
+    }
+
+    /// Takes a face of three positions counted from the file's beginning, which most are; leaves
+    /// any other to be read at leisure.
+    #[inline]
+    fn plain_triangle(&mut self, cursor: &mut Cursor<'_>) -> bool {
+        let mut ahead = cursor.clone();
+        let mut triangle = [0; 3];
+        for index in &mut triangle {
+            let (mut value, mut digits) = (0, 0);
+            let more = ahead.more();
+            ahead.skip(take_digits(ahead.rest(), 0, &mut value, &mut digits));
+            if !more || !(1..10).contains(&digits) || value == 0 || !ahead.ends_word(ahead.at()) {
+                return false;
+            }
+            *index = value as u32 - 1;
+        }
+        let [positions, uvs, normals] = &mut self.indices;
+        let plain = !ahead.more() && uvs.triangles.is_empty() && normals.triangles.is_empty();
+        if plain {
+            positions.triangles.push(triangle);
+            *cursor = ahead;
+        }
+        plain
     }
 
     #[inline]
@@ -312,6 +339,7 @@ impl Block {
         let at = || here.here(&context.file);
         match cursor.word() {
             b"usemtl" => {
+                cursor.more();
                 let start = cursor.clone();
                 let name = String::from_utf8_lossy(cursor.rest_of_line()).into_owned();
                 let triangle = self.indices[0].triangles.len() as u32;
@@ -386,11 +414,10 @@ fn corner(cursor: &mut Cursor<'_>, counts: [usize; 3]) -> Option<[i64; 3]> {
 fn index(text: &[u8], at: usize, count: usize) -> Option<(i64, usize)> {
     let backwards = text.get(at) == Some(&b'-');
     let mut end = at + usize::from(backwards || text.get(at) == Some(&b'+'));
-    let mut value = 0_i64;
-    while let Some(digit) = text.get(end).map(|b| b.wrapping_sub(b'0')).filter(|d| *d < 10) {
-        value = (10 * value + i64::from(digit)).min(i64::from(NO_INDEX));
-        end += 1;
-    }
+    let (mut value, mut digits) = (0, 0);
+    end = take_digits(text, end, &mut value, &mut digits);
+    let value =
+        if digits < 19 { value.min(u64::from(NO_INDEX)) as i64 } else { i64::from(NO_INDEX) };
     match value {
         0 => None,
         // More than can be kept relative to a block: no file has as many.

@@ -54,7 +54,7 @@ pub(crate) fn read_obj(
         let origin = origin_of(sample(blob.as_ref())?);
         let context = Context { file: Arc::clone(&file), origin, marks: false };
         let mut assembly = Assembly::default();
-        let lines = Lines { blob: blob.as_ref(), start: 0, line: 1, joined: true };
+        let lines = Lines { blob: blob.as_ref(), start: 0, line: 1, joined: true, rows: false };
         lines.each(
             |piece| (start_of(&piece), Block::parse(piece, &context)),
             |(start, block)| assembly.add(start, block, &file, limits),

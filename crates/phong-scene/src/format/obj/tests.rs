@@ -1,5 +1,7 @@
 //! What the files in `tests/obj/` cannot show: pieces, threads, and limits.
 
+use proptest::prelude::*;
+
 use super::*;
 use crate::format::model::Part;
 use crate::{Memory, Mesh};
@@ -58,8 +60,8 @@ fn an_index_out_of_range_is_told_with_its_line_in_a_file_of_many_pieces() {
     let (none, told) = read(&[("a.obj", text.as_bytes())], &Limits::default());
     assert!(none.is_none());
     let expected = format!(
-        "a.obj:{}:5: error: the face uses position -9999999, but there are 120002 positions before it\n\
-         a.obj:{}:3: error: the face uses position 120003, but there are 120002 positions in the file",
+        "a.obj:{}:5: error: the face uses position -9999999, but there are 120002 before it\n\
+         a.obj:{}:3: error: the face uses position 120003, but there are 120002 in the file",
         lines + 1,
         lines + 2,
     );
@@ -99,4 +101,38 @@ fn a_missing_file_says_so() {
     let mut out = Vec::new();
     assert!(read_obj("b.obj", &Memory::new(), &Limits::default(), &mut out).is_none());
     assert_eq!(out[0].to_string(), "b.obj: error: cannot be read: no such file");
+}
+
+proptest! {
+    #[test]
+    fn a_mesh_reads_back_to_the_bit_however_its_faces_count(
+        positions in prop::collection::vec(prop::array::uniform3(-1e6..1e6_f32), 3..40),
+        picks in prop::collection::vec((0..1000_u32, 1..1000_u32, 1..1000_u32, any::<[bool; 3]>()), 1..60),
+        late: bool,
+    ) {
+        let n = positions.len() as u32;
+        let mut faces = String::new();
+        let mut indices = Vec::new();
+        for &(a, b, c, backwards) in &picks {
+            // Three different vertices.
+            let first = a % n;
+            let second = (first + 1 + b % (n - 1)) % n;
+            let third = (0..n).map(|i| (c + i) % n).find(|i| *i != first && *i != second).unwrap();
+            indices.push([first, second, third]);
+            let corner = |i: usize| {
+                let index = indices.last().unwrap()[i];
+                // Counted backwards only where all vertices come before.
+                if backwards[i] && !late { format!(" -{}", n - index) } else { format!(" {}", index + 1) }
+            };
+            faces += &["f", &corner(0), &corner(1), &corner(2), "\n"].concat();
+        }
+        let vertices: String = positions.iter().flat_map(|[x, y, z]| {
+            ["v ".to_owned(), x.to_string(), format!(" {y:e} "), format!("{z:?}"), "\n".to_owned()]
+        }).collect();
+        let read = mesh(&if late { faces + &vertices } else { vertices + &faces });
+        prop_assert_eq!(read.origin, DVec3::ZERO);
+        let expected: Vec<_> = positions.into_iter().map(glam::Vec3::from).collect();
+        prop_assert_eq!(read.positions, expected);
+        prop_assert_eq!(read.indices, indices);
+    }
 }

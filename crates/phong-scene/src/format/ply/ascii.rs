@@ -48,7 +48,7 @@ impl Body<'_> {
         }
         let all = first;
         let start = header.body;
-        let lines = Lines { blob: self.blob, start, line: header.line, joined: false };
+        let lines = Lines { blob: self.blob, start, line: header.line, joined: false, rows: true };
         self.plan.origin = origin_of(self.sample(&elements)?);
 
         let plan = self.plan.clone();
@@ -158,6 +158,15 @@ impl Layout<'_> {
         for (i, property) in element.properties.iter().enumerate() {
             let place = self.places[i];
             let read = match (property.list, place) {
+                // Blender 2.77 gives vertices the list of faces that are not there.
+                (Some(_), _) if !cursor.more() => {
+                    block.findings.warning(
+                        "lines without their list",
+                        || start.here(self.file),
+                        || format!("vertex {number} lacks its list `{}`", property.name),
+                    );
+                    Some(())
+                }
                 (Some(_), _) => skip_list(cursor),
                 // Integers are colours, or positions that f32 may not hold.
                 (None, Some(place)) if place > 2 && property.kind.is_float() => {

@@ -217,7 +217,15 @@ impl Parser<'_> {
             b"format" => self.format(cursor),
             b"element" => self.element(cursor, &here),
             b"property" => self.property(cursor),
-            _ => self.error(&here, |word| format!("`{word}` is no statement of a PLY header")),
+            // Old versions of Blender sign the header without saying that it is a comment.
+            _ => {
+                let quoted = here.quote();
+                self.findings.warning(
+                    "lines in the header that are not known",
+                    || here.here(self.file),
+                    || format!("`{quoted}` is no statement of a PLY header: the line is ignored"),
+                );
+            }
         }
     }
 

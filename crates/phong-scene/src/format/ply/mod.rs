@@ -155,25 +155,25 @@ impl Body<'_> {
         if tangled > 0 {
             self.warn("tangled polygons", || {
                 format!(
-                    "{tangled} polygons cross themselves or have no area: their shape is a guess"
+                    "polygons that cross themselves or have no area: {tangled}; their shape is a guess"
                 )
             });
         }
         if faces.dropped > 0 {
             self.warn("small faces", || {
-                format!("{} faces of fewer than three corners are left out", faces.dropped)
+                format!("faces of fewer than three corners: {}; they are left out", faces.dropped)
             });
         }
         let collapsed = mesh.drop_collapsed();
         if collapsed > 0 {
             self.warn("collapsed triangles", || {
-                format!("{collapsed} triangles use a vertex twice and are left out")
+                format!("triangles that use a vertex twice: {collapsed}; they are left out")
             });
         }
         let zeros = mesh.mend_normals();
         if zeros > 0 {
             self.warn("normals of length 0", || {
-                format!("{zeros} normals have length 0: the geometric one stands in for them")
+                format!("normals of length 0: {zeros}; the geometric one stands in for them")
             });
         }
         if mesh.indices.is_empty() {

@@ -31,6 +31,8 @@ pub(crate) struct Lines<'a> {
     pub(crate) line: u64,
     /// Whether a backslash at its end joins a line to the next.
     pub(crate) joined: bool,
+    /// Whether rows are counted too.
+    pub(crate) rows: bool,
 }
 
 /// A run of whole lines.
@@ -42,7 +44,7 @@ pub(crate) struct Piece<'a> {
     pub(crate) offset: u64,
     /// The number of the first.
     pub(crate) line: u64,
-    /// How many lines with anything on them stand before the first.
+    /// How many lines with anything on them stand before the first, if they are counted.
     pub(crate) rows: u64,
 }
 
@@ -78,7 +80,10 @@ impl Lines<'_> {
                 continue;
             }
             let mut wave = self.split(&buffer[..whole], offset);
-            wave.par_iter_mut().for_each(|piece| (piece.line, piece.rows) = count(piece.text));
+            wave.par_iter_mut().for_each(|piece| {
+                (piece.line, piece.rows) =
+                    if self.rows { count_rows(piece.text) } else { (count_lines(piece.text), 0) };
+            });
             for piece in &mut wave {
                 (line, piece.line) = (line + piece.line, line);
                 (rows, piece.rows) = (rows + piece.rows, rows);
@@ -159,8 +164,14 @@ impl Lines<'_> {
     }
 }
 
+fn count_lines(text: &[u8]) -> u64 {
+    // Sums of bytes that cannot overflow one: the compiler counts many at a time.
+    let sum = |part: &[u8]| part.iter().map(|b| u8::from(*b == b'\n')).sum::<u8>();
+    text.chunks(255).map(|part| u64::from(sum(part))).sum()
+}
+
 /// How many lines there are, and how many with anything on them.
-fn count(text: &[u8]) -> (u64, u64) {
+fn count_rows(text: &[u8]) -> (u64, u64) {
     let (mut lines, mut rows) = (0, 0);
     let mut something = false;
     for &byte in text {
@@ -231,9 +242,9 @@ impl<'a> Cursor<'a> {
     pub(crate) fn more(&mut self) -> bool {
         loop {
             match self.text.get(self.at) {
-                Some(b' ' | b'\t' | b'\r' | 0x0b | 0x0c) => self.at += 1,
-                Some(b'\\') if self.joins() => {}
                 None | Some(b'\n' | b'#') => return false,
+                Some(..=b' ') => self.at += 1,
+                Some(b'\\') if self.joins() => {}
                 Some(_) => return true,
             }
         }
@@ -380,7 +391,7 @@ mod tests {
     fn walk(text: &str, joined: bool) -> Vec<(u64, u64, String)> {
         let source = Memory::new().with("a", text.as_bytes());
         let blob = source.open("a").unwrap();
-        let lines = Lines { blob: blob.as_ref(), start: 0, line: 1, joined };
+        let lines = Lines { blob: blob.as_ref(), start: 0, line: 1, joined, rows: true };
         let mut seen = Vec::new();
         let parse = |piece: Piece<'_>| {
             let mut cursor = Cursor::new(piece, joined);

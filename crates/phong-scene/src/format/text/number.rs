@@ -153,10 +153,15 @@ pub(crate) fn blame(token: &[u8]) -> BadNumber {
     }
 }
 
-/// Appends the digits from `at` on to `mantissa` (which overflows unheeded beyond 19) and counts
-/// them; where they end.
+/// Appends the digits from `at` on to `mantissa` (which overflows unheeded beyond 19 digits) and
+/// counts them; where they end.
 #[inline]
-fn take_digits(text: &[u8], mut at: usize, mantissa: &mut u64, digits: &mut usize) -> usize {
+pub(crate) fn take_digits(
+    text: &[u8],
+    mut at: usize,
+    mantissa: &mut u64,
+    digits: &mut usize,
+) -> usize {
     loop {
         let eight = match text.get(at..).and_then(|rest| rest.first_chunk::<8>()) {
             Some(eight) => u64::from_le_bytes(*eight),

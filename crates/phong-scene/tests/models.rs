@@ -1,0 +1,174 @@
+//! Model files in, summaries and diagnostics out.
+//!
+//! Beside every `NAME.obj`, `.mtl` and `.ply` lies `NAME.txt`: what reading it gives, as text.
+//! `PHONG_BLESS=1` writes the texts anew.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use phong_scene::{
+    Diagnostic, Limits, Material, Memory, Mesh, NO_INDEX, Reading, Scene, Shape, read,
+};
+
+#[test]
+fn obj_files_give_what_lies_beside_them() -> io::Result<()> {
+    for_each("obj", |name, source| Ok(read(name, None, source, &Limits::default())))
+}
+
+#[test]
+fn ply_files_give_what_lies_beside_them() -> io::Result<()> {
+    for_each("ply", |name, source| Ok(read(name, None, source, &Limits::default())))
+}
+
+#[test]
+fn mtl_files_give_what_lies_beside_them() -> io::Result<()> {
+    for_each("mtl", |name, source| {
+        // One triangle of each material.
+        let bytes = fs::read(folder("mtl").join(name))?;
+        let mut model = format!("mtllib {name}\nv 0 0 0\nv 1 0 0\nv 0 1 0\n");
+        for line in String::from_utf8_lossy(&bytes).lines() {
+            if let Some(name) = line.trim().strip_prefix("newmtl ") {
+                model.extend(["usemtl ", name, "\nf 1 2 3\n"]);
+            }
+        }
+        let source = source.clone().with("model.obj", model.into_bytes());
+        Ok(read("model.obj", None, &source, &Limits::default()))
+    })
+}
+
+fn folder(kind: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join(kind)
+}
+
+/// Reads every file of a kind among its neighbours, and compares.
+fn for_each(kind: &str, read: impl Fn(&str, &Memory) -> io::Result<Reading>) -> io::Result<()> {
+    let mut source = Memory::new();
+    let mut names = Vec::new();
+    for entry in fs::read_dir(folder(kind))? {
+        let entry = entry?;
+        let (path, name) = (entry.path(), entry.file_name().to_string_lossy().into_owned());
+        source = source.with(name.as_str(), fs::read(&path)?);
+        if path.extension().is_some_and(|ending| ending == kind) {
+            names.push(name);
+        }
+    }
+    names.sort();
+    assert!(!names.is_empty());
+    let bless = std::env::var_os("PHONG_BLESS").is_some();
+    let mut wrong = Vec::new();
+    for name in names {
+        let reading = read(&name, &source)?;
+        assert_eq!(reading.scene.is_none(), reading.diagnostics.iter().any(Diagnostic::is_error));
+        let actual = tell(&reading);
+        let beside = folder(kind).join(&name).with_extension("txt");
+        let expected = fs::read_to_string(&beside).unwrap_or_default();
+        if bless {
+            fs::write(&beside, &actual)?;
+        } else if actual != expected {
+            wrong.push(format!("{name}: expected\n{expected}\nbut it is\n{actual}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+    Ok(())
+}
+
+fn tell(reading: &Reading) -> String {
+    let mut text = Vec::new();
+    for diagnostic in &reading.diagnostics {
+        text.push(format!("{diagnostic}"));
+        let Some(span) = diagnostic.span.as_ref().filter(|s| !s.excerpt.is_empty()) else {
+            continue;
+        };
+        let before = span.excerpt[..span.range.start].chars().count();
+        let meant = span.excerpt[span.range.clone()].chars().count().max(1);
+        text.push(format!("    {}\n    {}{}", span.excerpt, " ".repeat(before), "^".repeat(meant)));
+    }
+    if let Some(scene) = &reading.scene {
+        tell_scene(&mut text, scene);
+    }
+    text.iter().map(|line| line.trim_end().to_owned() + "\n").collect()
+}
+
+fn tell_scene(text: &mut Vec<String>, scene: &Scene) {
+    for object in &scene.objects {
+        let bounds = scene.bounds();
+        text.push(format!("{}: {} to {}", object.name, bounds.min, bounds.max));
+        match &object.shape {
+            Shape::Mesh(mesh) => tell_mesh(text, mesh, &scene.materials),
+            Shape::Points(points) => {
+                text.push(format!("  origin {}", points.origin));
+                for (i, sphere) in points.spheres.iter().take(8).enumerate() {
+                    let color = points
+                        .colors
+                        .get(i)
+                        .map_or(String::new(), |c| format!(" {:?}", c.to_array()));
+                    text.push(format!("  {sphere:?}{color}"));
+                }
+                text.push(format!("  {} in all", points.spheres.len()));
+            }
+            other => text.push(format!("  {other:?}")),
+        }
+    }
+    // Material 0 is that of things without one.
+    for material in &scene.materials[1..] {
+        tell_material(text, material);
+    }
+}
+
+fn tell_mesh(text: &mut Vec<String>, mesh: &Mesh, materials: &[Material]) {
+    text.push(format!("  origin {}", mesh.origin));
+    let few = |count: usize| count.min(16);
+    let index = |i: u32| if i == NO_INDEX { "-".to_owned() } else { i.to_string() };
+    let list = |triangles: &[[u32; 3]]| {
+        let triangle = |t: &[u32; 3]| t.map(index).join(" ");
+        let shown = triangles[..few(triangles.len())].iter().map(triangle);
+        let text = shown.collect::<Vec<_>>().join(", ");
+        if text.is_empty() { "numbered like the positions".to_owned() } else { text }
+    };
+    text.push(format!(
+        "  {} positions, {} triangles: {}",
+        mesh.positions.len(),
+        mesh.indices.len(),
+        list(&mesh.indices)
+    ));
+    for (what, count, numbers) in [
+        ("normals", mesh.normals.len(), &mesh.normal_indices),
+        ("uvs", mesh.uvs.len(), &mesh.uv_indices),
+    ] {
+        if count > 0 {
+            text.push(format!("  {count} {what}: {}", list(numbers)));
+        }
+    }
+    for color in &mesh.colors[..few(mesh.colors.len())] {
+        text.push(format!("  colour {:?}", color.to_array()));
+    }
+    let mut used = BTreeMap::new();
+    for material in &mesh.face_materials {
+        *used.entry(*material).or_insert(0) += 1;
+    }
+    for (material, count) in used {
+        text.push(format!("  {count} of material {:?}", materials[material as usize].name));
+    }
+}
+
+fn tell_material(text: &mut Vec<String>, m: &Material) {
+    let rgb = |c: phong_scene::Rgb| format!("{:?}", c.to_array());
+    text.push(format!("material {:?} ({}): {:?}", m.name, m.place, m.model));
+    text.push(format!("  color {} k_a {} k_d {} k_s {}", rgb(m.color), m.k_a, m.k_d, m.k_s));
+    if let Some(ambient) = m.ambient_color {
+        text.push(format!("  ambient {}", rgb(ambient)));
+    }
+    if m.k_s > 0.0 {
+        let specular = m.specular_color.map_or("object".to_owned(), rgb);
+        text.push(format!("  specular {specular} shininess {}", m.shininess));
+    }
+    if !m.reflection.is_black() || !m.transmission.is_black() {
+        let (reflection, transmission) = (rgb(m.reflection), rgb(m.transmission));
+        text.push(format!(
+            "  reflection {reflection} transmission {transmission} ior {} fresnel {}",
+            m.ior, m.fresnel
+        ));
+    }
+}
