@@ -62,6 +62,17 @@ impl Failure {
         Self::System(format!("cannot write {}: {error}", path.display()))
     }
 
+    /// What went wrong, in one line.
+    pub(crate) fn summary(&self) -> String {
+        match self {
+            Self::Usage { message, .. } | Self::System(message) => message.clone(),
+            Self::Input(diagnostics) => {
+                diagnostics.first().map(ToString::to_string).unwrap_or_default()
+            }
+            Self::No | Self::Told | Self::ReaderGone => String::new(),
+        }
+    }
+
     /// Says what there is to say; the exit code.
     pub(crate) fn tell(self) -> u8 {
         match self {

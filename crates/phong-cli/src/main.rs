@@ -3,11 +3,16 @@
 //! `args` (as typed) → `plan` (resolved: command line over file over defaults) → `command/*`.
 //! `report` is the only part that talks. Standard output carries data, standard error talk.
 
-#![expect(dead_code, reason = "the commands that use it land next")]
-
 mod args;
+mod checkpoint;
 mod command;
+mod compile;
 mod failure;
+mod input;
+mod memory;
+mod output;
+mod plan;
+mod progress;
 mod report;
 
 use std::process::ExitCode;
@@ -16,6 +21,7 @@ use clap::Parser;
 
 fn main() -> ExitCode {
     let cli = args::Cli::parse();
+    output::clean_up_on_interrupt();
     match command::run(cli.command) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => ExitCode::from(failure.tell()),

@@ -7,6 +7,7 @@
 
 pub mod aov;
 pub mod camera;
+pub mod compare;
 pub mod compile;
 pub mod eval;
 pub mod explain;

@@ -71,8 +71,8 @@ pub(crate) struct InputArgs {
     pub(crate) input: String,
 
     /// What INPUT is, whatever its name says: toml, obj, ply, stl, ...
-    #[arg(long, value_name = "NAME")]
-    pub(crate) format: Option<String>,
+    #[arg(long, value_name = "NAME", value_parser = values::format)]
+    pub(crate) format: Option<phong_scene::Format>,
 
     /// Memory to use at most; over it is an error. Plain bytes, or with k, M or G (powers of 1024)
     #[arg(long, value_name = "BYTES", value_parser = values::bytes)]

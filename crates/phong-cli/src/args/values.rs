@@ -1,7 +1,7 @@
 //! Values of options, from text.
 
 use phong::aov::Aov;
-use phong_scene::{Background, Rgb};
+use phong_scene::{Background, ColorError, Format, Rgb};
 
 /// Three numbers.
 pub(crate) type Vec3Arg = [f64; 3];
@@ -121,7 +121,7 @@ pub(crate) fn bytes(text: &str) -> Result<u64, String> {
     Ok((number * (1_u64 << shift) as f64) as u64)
 }
 
-/// `#rrggbb`, or `r,g,b` or one grey (linear).
+/// `#rrggbb`, a CSS name, or linear values: `r,g,b` or one grey.
 pub(crate) fn color(text: &str) -> Result<Rgb, String> {
     let parts: Option<Vec<f64>> = text.split(',').map(finite).collect();
     match parts.as_deref() {
@@ -129,9 +129,8 @@ pub(crate) fn color(text: &str) -> Result<Rgb, String> {
         Some(&[r, g, b]) if r >= 0.0 && g >= 0.0 && b >= 0.0 => {
             Ok(Rgb::new(r as f32, g as f32, b as f32))
         }
-        _ => {
-            hex(text).ok_or_else(|| "write \"#rrggbb\", a CSS name, r,g,b or one number".to_owned())
-        }
+        Some(_) => Err("write one number or three, r,g,b, none below 0".to_owned()),
+        None => text.parse().map_err(|error: ColorError| error.to_string()),
     }
 }
 
@@ -151,10 +150,11 @@ pub(crate) fn aov(text: &str) -> Result<Aov, String> {
         .ok_or_else(|| format!("write one of {}", Aov::ALL.map(Aov::name).join(", ")))
 }
 
-fn hex(text: &str) -> Option<Rgb> {
-    let digits = text.strip_prefix('#').filter(|d| d.len() == 6 && d.is_ascii())?;
-    let byte = |i: usize| u8::from_str_radix(&digits[2 * i..2 * i + 2], 16).ok();
-    Some(Rgb::from_srgb8([byte(0)?, byte(1)?, byte(2)?]))
+/// A format's usual ending, with or without its dot.
+pub(crate) fn format(text: &str) -> Result<Format, String> {
+    Format::of_ending(text.trim_start_matches('.')).ok_or_else(|| {
+        "write one of toml, obj, ply, stl, gltf, glb, pdb, cif, xyz, dat, nff".to_owned()
+    })
 }
 
 fn finite(text: &str) -> Option<f64> {

@@ -1,7 +1,11 @@
 //! `phong check`: read and validate, no more.
 
+use phong_scene::{Diagnostic, Place, Severity, Span};
+use serde_json::json;
+
 use crate::args::InputArgs;
 use crate::failure::Failure;
+use crate::{input, report};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -21,6 +25,46 @@ pub(crate) struct Args {
     pub(crate) json: bool,
 }
 
-pub(crate) fn run(_args: &Args) -> Result<(), Failure> {
-    Err(Failure::not_yet("phong check"))
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let (reading, _) = input::read(&args.input)?;
+    let ok = reading.scene.is_some();
+    if args.json {
+        let diagnostics: Vec<_> = reading.diagnostics.iter().map(json).collect();
+        report::json(&json!({ "ok": ok, "diagnostics": diagnostics }))?;
+        return if ok { Ok(()) } else { Err(Failure::Told) };
+    }
+    if !ok {
+        return Err(Failure::Input(reading.diagnostics));
+    }
+    report::diagnostics(&reading.diagnostics);
+    if reading.diagnostics.is_empty() && report::is_watched() {
+        report::say(&format!("{}: nothing to complain about", args.input.input));
+    }
+    Ok(())
+}
+
+/// A diagnostic for programs.
+pub(crate) fn json(diagnostic: &Diagnostic) -> serde_json::Value {
+    let place = |span: &Span| {
+        let Place { file, line, column } = &span.place;
+        (file.to_string(), (*line > 0).then_some(*line), (*column > 0).then_some(*column))
+    };
+    let (file, line, column) =
+        diagnostic.span.as_ref().map(place).map_or((None, None, None), |(f, l, c)| (Some(f), l, c));
+    let labels = diagnostic.labels.iter().map(|label| {
+        let (file, line, column) = place(&label.span);
+        json!({ "message": label.message, "file": file, "line": line, "column": column })
+    });
+    json!({
+        "severity": match diagnostic.severity {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+        },
+        "message": diagnostic.message,
+        "file": file,
+        "line": line,
+        "column": column,
+        "help": diagnostic.help,
+        "labels": labels.collect::<Vec<_>>(),
+    })
 }

@@ -1,7 +1,16 @@
 //! `phong info`: what an input holds.
 
+use std::fmt::Write as _;
+use std::time::Instant;
+
+use phong_bvh::{Geometry, Stats};
+use serde_json::json;
+
 use crate::args::InputArgs;
+use crate::compile::compile;
 use crate::failure::Failure;
+use crate::memory::{self, readable};
+use crate::{input, report};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -20,6 +29,72 @@ pub(crate) struct Args {
     pub(crate) json: bool,
 }
 
-pub(crate) fn run(_args: &Args) -> Result<(), Failure> {
-    Err(Failure::not_yet("phong info"))
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let input = input::open(&args.input, false)?;
+    let format = input::format(&args.input).map(|format| format.to_string());
+    let bounds = input.scene.bounds();
+    let bounds = (!bounds.is_empty()).then(|| [bounds.min.to_array(), bounds.max.to_array()]);
+    let lights = input.scene.lights.len();
+    let names: Vec<String> = input.scene.materials.iter().map(|m| m.name.clone()).collect();
+    let started = Instant::now();
+    let scene = compile(input.scene, &args.input, 0)?;
+    let build_seconds = started.elapsed().as_secs_f64();
+    let Stats { primitives, nodes, bytes } = scene.bvh().stats();
+    let (mut triangles, mut spheres) = (0, 0);
+    let mut geometry_bytes = 0;
+    for geometry in scene.bvh().geometry() {
+        geometry_bytes += match geometry {
+            Geometry::Triangles { positions, indices } => {
+                triangles += indices.len();
+                size_of_val(&positions[..]) + size_of_val(&indices[..])
+            }
+            Geometry::Spheres(all) => {
+                spheres += all.len();
+                size_of_val(&all[..])
+            }
+            Geometry::Plane(plane) => size_of_val(plane),
+            Geometry::Solid(solid) => size_of_val(solid),
+        } as u64;
+    }
+    let total = bytes + geometry_bytes;
+    std::mem::forget(scene);
+    if args.json {
+        return report::json(&json!({
+            "format": format,
+            "triangles": triangles,
+            "spheres": spheres,
+            "primitives": primitives,
+            "lights": lights,
+            "materials": names.len(),
+            "material_names": names,
+            "bounds": bounds,
+            "nodes": nodes,
+            "bytes": total,
+            "build_seconds": build_seconds,
+            "peak_bytes": memory::peak(),
+        }));
+    }
+    let mut text = format!("format      {}\n", format.unwrap_or_default());
+    let mut line = |name: &str, value: String| {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{name:<12}{value}");
+    };
+    let other = primitives - (triangles + spheres) as u64;
+    line("triangles", triangles.to_string());
+    line("spheres", spheres.to_string());
+    line("other", other.to_string());
+    line("lights", lights.to_string());
+    line("materials", format!("{}: {}", names.len(), shortened(&names)));
+    line("bounds", bounds.map_or("none".to_owned(), |[min, max]| format!("{min:?} to {max:?}")));
+    line("memory", readable(total));
+    line("build", format!("{build_seconds:.3} s"));
+    report::data(text.as_bytes())
+}
+
+fn shortened(names: &[String]) -> String {
+    let mut text = names.iter().take(8).map(String::as_str).collect::<Vec<_>>().join(", ");
+    if names.len() > 8 {
+        text.push_str(", …");
+    }
+    text
 }

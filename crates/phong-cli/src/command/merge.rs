@@ -1,9 +1,15 @@
 //! `phong merge`: shares of a picture put together.
 
+use std::fs::File;
+use std::io::BufReader;
 use std::path::PathBuf;
+
+use phong::part::{Join, Part};
 
 use crate::args::EncodingArgs;
 use crate::failure::Failure;
+use crate::memory;
+use crate::plan::Outputs;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -27,6 +33,31 @@ pub(crate) struct Args {
     pub(crate) encoding: EncodingArgs,
 }
 
-pub(crate) fn run(_args: &Args) -> Result<(), Failure> {
-    Err(Failure::not_yet("phong merge"))
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let limit = memory::total().unwrap_or(u64::MAX);
+    let mut join = Join::default();
+    for path in &args.parts {
+        let at_fault = |why: String| Failure::usage(format!("{}: {why}", path.display()));
+        let file = File::open(path).map_err(|error| at_fault(error.to_string()))?;
+        let part = Part::read(&mut BufReader::with_capacity(1 << 18, file), limit)
+            .map_err(|error| at_fault(error.to_string()))?;
+        let joined = join.add(&path.display().to_string(), part);
+        joined.map_err(|error| Failure::usage(error.to_string()))?;
+    }
+    let (film, mut settings) = join.finish().map_err(|error| Failure::usage(error.to_string()))?;
+    let EncodingArgs { linear, bits, exposure, output_format } = &args.encoding;
+    let encoding = &mut settings.encoding;
+    encoding.linear |= linear;
+    encoding.bits = bits.map_or(encoding.bits, Into::into);
+    encoding.exposure = exposure.unwrap_or(encoding.exposure);
+    let mut outputs = Outputs::picture(&args.output, *output_format, &settings.layers)?;
+    let own = |part: &&PathBuf| outputs.iter().any(|output| output.is(part));
+    if let Some(part) = args.parts.iter().find(own) {
+        let message = format!("this would write over the part {}", part.display());
+        return Err(Failure::usage(message));
+    }
+    outputs.write(&film, &settings)?;
+    outputs.commit()?;
+    std::mem::forget(film);
+    Ok(())
 }

@@ -1,9 +1,23 @@
 //! `phong render`: a picture of a scene.
 
 use std::path::PathBuf;
+use std::time::Instant;
 
+use phong::film::{Film, Window};
+use phong::part::{Settings, fingerprint};
+use phong::render::{self, Rendered};
+use serde_json::json;
+
+use super::check;
 use crate::args::{self, Crop, EncodingArgs, InputArgs, PictureSize, ShareOf, ViewArgs};
+use crate::checkpoint::Checkpoint;
+use crate::compile::compile;
 use crate::failure::Failure;
+use crate::input;
+use crate::memory;
+use crate::plan::{Outputs, Plan};
+use crate::progress::{Meter, rate, short};
+use crate::report;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -107,6 +121,130 @@ pub(crate) struct WorkArgs {
     pub(crate) quiet: bool,
 }
 
-pub(crate) fn run(_args: &Args) -> Result<(), Failure> {
-    Err(Failure::not_yet("phong render"))
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let mut clock = Clock::start();
+    let plan = Plan::new(args)?;
+    let quiet = args.work.quiet;
+    if let Some(threads) = args.work.threads {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads as usize);
+        pool.build_global().map_err(|e| Failure::System(format!("no {threads} threads: {e}")))?;
+    }
+    // What cannot be written is known before anything is read, let alone rendered.
+    let mut outputs = plan.outputs(args)?;
+    keep_input_safe(&outputs, &[PathBuf::from(&args.input.input)])?;
+
+    let mut meter = Meter::new(quiet, "reading");
+    let mut input = input::open(&args.input, quiet)?;
+    let options = plan.settle(args, &mut input)?;
+    keep_input_safe(&outputs, input.files())?;
+    clock.lap("read");
+
+    meter.stage("building");
+    let scene_sum =
+        if plan.share.is_some() || args.work.resume { fingerprint(&input.scene) } else { 0 };
+    let settings = Settings::of(scene_sum, &options, plan.encoding);
+    let scene = compile(input.scene, &args.input, settings.film_bytes())?;
+    clock.lap("build");
+
+    let checkpoint = args.work.resume.then(|| Checkpoint::beside(&plan.output, settings.clone()));
+    let film = match &checkpoint {
+        Some(checkpoint) => checkpoint.film()?,
+        None => None,
+    };
+    meter.tiles();
+    let watch = |film: &Film, progress| {
+        meter.update(progress);
+        if let Some(checkpoint) = &checkpoint {
+            checkpoint.keep(film);
+        }
+    };
+    let film = film.unwrap_or_else(|| settings.empty_film());
+    let Rendered { film, rays } =
+        render::resume(&scene, &options, film, &watch, &render::Cancel::new())
+            .map_err(|cancelled| Failure::System(cancelled.to_string()))?;
+    meter.finish();
+    clock.lap("trace");
+
+    outputs.write(&film, &settings)?;
+    outputs.commit()?;
+    let trouble = checkpoint.and_then(Checkpoint::remove);
+    clock.lap("write");
+
+    // Memory goes back to the system with the process, all at once.
+    std::mem::forget((scene, film));
+    if let Some(trouble) = trouble.filter(|_| !quiet) {
+        report::say(&format!("warning: {trouble}"));
+    }
+    if args.work.json {
+        let Window { x0, y0, x1, y1 } = options.window;
+        report::json(&json!({
+            "output": plan.output.to_string_lossy(),
+            "size": [x1 - x0, y1 - y0],
+            "samples": options.samples,
+            "threads": rayon::current_num_threads(),
+            "seconds": clock.json(),
+            "rays": {
+                "primary": rays.primary,
+                "shadow": rays.shadow,
+                "secondary": rays.secondary,
+            },
+            "peak_bytes": memory::peak(),
+            "warnings": input.warnings.iter().map(check::json).collect::<Vec<_>>(),
+        }))?;
+    } else if report::is_watched() && !quiet {
+        let [width, height] = [options.window.width(), options.window.height()];
+        let seconds = clock.seconds("trace");
+        report::say(&format!(
+            "{}: {width} × {height}, {} samples a pixel, {}rays in {seconds:.2} s ({})",
+            plan.output.display(),
+            options.samples,
+            short(rays.total() as f64),
+            rate(rays.total(), seconds),
+        ));
+    }
+    Ok(())
+}
+
+/// Nothing that is read may be written over.
+fn keep_input_safe(outputs: &Outputs, inputs: &[PathBuf]) -> Result<(), Failure> {
+    match inputs.iter().find(|input| outputs.iter().any(|output| output.is(input))) {
+        Some(input) => {
+            let message = format!("this would write over the input {}", input.display());
+            Err(Failure::usage(message).with_help("give another file with -o"))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Times of the stages, one after another.
+#[derive(Debug)]
+struct Clock {
+    started: Instant,
+    stages: Vec<(&'static str, f64)>,
+}
+
+impl Clock {
+    fn start() -> Self {
+        Self { started: Instant::now(), stages: Vec::new() }
+    }
+
+    /// A stage has ended.
+    fn lap(&mut self, stage: &'static str) {
+        let before: f64 = self.stages.iter().map(|(_, seconds)| seconds).sum();
+        self.stages.push((stage, self.started.elapsed().as_secs_f64() - before));
+    }
+
+    fn seconds(&self, stage: &str) -> f64 {
+        self.stages.iter().find(|(name, _)| *name == stage).map_or(0.0, |(_, seconds)| *seconds)
+    }
+
+    fn json(&self) -> serde_json::Value {
+        let mut all: serde_json::Map<_, _> = self
+            .stages
+            .iter()
+            .map(|(name, seconds)| ((*name).to_owned(), json!(seconds)))
+            .collect();
+        all.insert("total".to_owned(), json!(self.started.elapsed().as_secs_f64()));
+        all.into()
+    }
 }

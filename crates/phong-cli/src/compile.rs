@@ -1,0 +1,39 @@
+//! A scene made ready for rays, within the memory there is.
+
+use phong::compile::{CompileError, CompileOptions, CompiledScene};
+use phong_scene::{Diagnostic, Place, Scene, Span};
+
+use crate::args::InputArgs;
+use crate::failure::Failure;
+use crate::memory::{self, readable};
+
+/// Compiles a scene of which `beside` bytes of memory are needed for something else.
+pub(crate) fn compile(
+    scene: Scene,
+    args: &InputArgs,
+    beside: u64,
+) -> Result<CompiledScene, Failure> {
+    let limit = args.max_memory.or_else(memory::total);
+    let over = |needed: u64, limit: u64| {
+        let (needed, limit) = (readable(needed), readable(limit));
+        let message = format!("this needs about {needed} of memory, over the limit of {limit}");
+        Failure::usage(message).with_help(if args.max_memory.is_some() {
+            "allow more with --max-memory, or render a smaller picture"
+        } else {
+            "there is no more in this machine; render a smaller picture, or a --crop of it"
+        })
+    };
+    if let Some(limit) = limit.filter(|&limit| beside > limit) {
+        return Err(over(beside, limit));
+    }
+    let max_bytes = limit.map(|limit| limit - beside);
+    let options = CompileOptions { max_bytes, ..CompileOptions::default() };
+    CompiledScene::new(scene, options).map_err(|error| match error {
+        CompileError::Memory { needed, limit } => over(needed + beside, limit + beside),
+        error => {
+            let place = Place { file: args.input.as_str().into(), ..Place::default() };
+            let span = Span { place, ..Span::default() };
+            Failure::Input(vec![Diagnostic::error(error.to_string(), span)])
+        }
+    })
+}

@@ -1,0 +1,177 @@
+//! Reading what the command line names: files, pipes, standard input.
+
+use std::fs::{self, File};
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+use glam::DVec3;
+use phong_scene::{
+    Blob, CameraKind, Diagnostic, Folder, Format, Limits, Memory, Reading, Scene, Severity, Side,
+    Source,
+};
+
+use crate::args::{InputArgs, View, ViewArgs};
+use crate::failure::Failure;
+use crate::report;
+
+/// The most that is read from a pipe, which does not say how long it is.
+const MAX_PIPED: u64 = 4 << 30;
+
+/// The file system, with `-` for standard input; remembers what was opened.
+#[derive(Debug, Default)]
+pub(crate) struct Files {
+    opened: Mutex<Vec<PathBuf>>,
+    stdin: bool,
+}
+
+impl Source for Files {
+    fn open(&self, path: &str) -> io::Result<Box<dyn Blob>> {
+        if self.stdin && path == "-" {
+            return piped(path, io::stdin().lock());
+        }
+        let meta = fs::metadata(path)?;
+        self.opened.lock().unwrap_or_else(PoisonError::into_inner).push(path.into());
+        if meta.is_file() || meta.is_dir() {
+            Folder.open(path)
+        } else {
+            piped(path, File::open(path)?)
+        }
+    }
+}
+
+/// All that a pipe holds: readers want to know a file's length, and to read it anywhere.
+fn piped(path: &str, pipe: impl Read) -> io::Result<Box<dyn Blob>> {
+    let mut bytes = Vec::new();
+    pipe.take(MAX_PIPED + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > MAX_PIPED {
+        let message = "more than 4 GiB from a pipe: write it to a file first";
+        return Err(io::Error::new(io::ErrorKind::FileTooLarge, message));
+    }
+    Memory::new().with(path, bytes).open(path)
+}
+
+/// A scene that was read.
+#[derive(Debug)]
+pub(crate) struct Input {
+    pub(crate) scene: Scene,
+    pub(crate) bare: bool,
+    pub(crate) warnings: Vec<Diagnostic>,
+    files: Vec<PathBuf>,
+}
+
+impl Input {
+    /// Whether this file is part of the input.
+    pub(crate) fn files(&self) -> &[PathBuf] {
+        &self.files
+    }
+}
+
+/// What INPUT is, by `--format` or by its name, for telling.
+pub(crate) fn format(args: &InputArgs) -> Option<Format> {
+    args.format.or_else(|| Format::of_path(&args.input))
+}
+
+/// Reads INPUT, and all there is to say about it; the files it is made of.
+pub(crate) fn read(args: &InputArgs) -> Result<(Reading, Vec<PathBuf>), Failure> {
+    let stdin = args.input == "-";
+    if stdin && args.format.is_none() {
+        return Err(Failure::usage("standard input has no name that says what it is")
+            .with_help("say it: `phong ... - --format toml`"));
+    }
+    let files = Files { stdin, ..Files::default() };
+    let limits =
+        args.max_memory.map_or_else(Limits::default, |bytes| Limits { bytes, ..Limits::default() });
+    let mut reading = phong_scene::read(&args.input, args.format, &files, &limits);
+    if args.strict {
+        for diagnostic in &mut reading.diagnostics {
+            diagnostic.severity = Severity::Error;
+        }
+        if !reading.diagnostics.is_empty() {
+            reading.scene = None;
+        }
+    }
+    let opened = files.opened.into_inner().unwrap_or_else(PoisonError::into_inner);
+    Ok((reading, opened))
+}
+
+/// Reads INPUT for use: errors end here, warnings are told unless `quiet`.
+pub(crate) fn open(args: &InputArgs, quiet: bool) -> Result<Input, Failure> {
+    let (Reading { scene, bare, diagnostics }, files) = read(args)?;
+    let Some(scene) = scene else {
+        return Err(Failure::Input(diagnostics));
+    };
+    if !quiet {
+        report::diagnostics(&diagnostics);
+    }
+    Ok(Input { scene, bare, warnings: diagnostics, files })
+}
+
+/// Looks at a scene as the command line says; a bare model is framed anew for its picture's size.
+pub(crate) fn look(scene: &mut Scene, bare: bool, args: &ViewArgs) -> Result<(), Failure> {
+    let eye = args.eye.map(DVec3::from_array);
+    let look_at = args.look_at.map(DVec3::from_array);
+    let up = args.up.map(DVec3::from_array);
+    if bare {
+        let default = phong_scene::View::default();
+        scene.frame(&phong_scene::View {
+            side: args.view.map_or(default.side, Side::from),
+            up: up.unwrap_or(default.up),
+            eye,
+            look_at,
+            fov: args.fov,
+            color: args.color,
+        });
+    } else {
+        for (given, option) in [(args.view.is_some(), "--view"), (args.color.is_some(), "--color")]
+        {
+            if given {
+                return Err(Failure::usage(format!("{option} is for bare models"))
+                    .with_help("a scene says itself where it is seen from, and in which colours"));
+            }
+        }
+        let camera = &mut scene.camera;
+        camera.eye = eye.unwrap_or(camera.eye);
+        camera.look_at = look_at.unwrap_or(camera.look_at);
+        camera.up = up.unwrap_or(camera.up);
+        if let Some(degrees) = args.fov {
+            match &mut camera.kind {
+                CameraKind::Perspective { fov } | CameraKind::Fisheye { fov } => *fov = degrees,
+                CameraKind::Orthographic { .. } | CameraKind::Panorama => {
+                    return Err(Failure::usage("this scene's camera has no --fov"));
+                }
+            }
+        }
+    }
+    let camera = &scene.camera;
+    let forward = camera.look_at - camera.eye;
+    if forward == DVec3::ZERO {
+        return Err(Failure::usage("--eye and --look-at are the same point"));
+    }
+    let sine = forward.cross(camera.up).length() / (forward.length() * camera.up.length());
+    if sine.is_nan() || sine < 1e-9 {
+        return Err(Failure::usage("the camera looks along --up")
+            .with_help("choose an --up across the view, like x, y or z"));
+    }
+    Ok(())
+}
+
+impl From<View> for Side {
+    fn from(view: View) -> Self {
+        match view {
+            View::Front => Self::Front,
+            View::Back => Self::Back,
+            View::Left => Self::Left,
+            View::Right => Self::Right,
+            View::Top => Self::Top,
+            View::Bottom => Self::Bottom,
+            View::Iso => Self::Iso,
+        }
+    }
+}
+
+/// The name of an input without folder and ending: what its picture is called.
+pub(crate) fn stem(input: &str) -> String {
+    let stem = Path::new(input).file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    stem.filter(|stem| input != "-" && !stem.is_empty()).unwrap_or_else(|| "picture".to_owned())
+}

@@ -1,0 +1,45 @@
+//! How much memory there is, and how much was used.
+
+use std::fs;
+
+/// The most bytes this process has held at once; `None` where the system does not say.
+pub(crate) fn peak() -> Option<u64> {
+    kilobytes("/proc/self/status", "VmHWM:")
+}
+
+/// Bytes of memory that there are at all: the machine's, or what this process is confined to.
+pub(crate) fn total() -> Option<u64> {
+    let confined = fs::read_to_string("/sys/fs/cgroup/memory.max").ok();
+    let confined = confined.and_then(|text| text.trim().parse().ok());
+    [kilobytes("/proc/meminfo", "MemTotal:"), confined].into_iter().flatten().min()
+}
+
+fn kilobytes(file: &str, key: &str) -> Option<u64> {
+    let text = fs::read_to_string(file).ok()?;
+    let rest = text.lines().find_map(|line| line.strip_prefix(key))?;
+    rest.trim().trim_end_matches(" kB").parse::<u64>().ok().map(|kilobytes| kilobytes << 10)
+}
+
+/// A number of bytes for people.
+pub(crate) fn readable(bytes: u64) -> String {
+    let units = ["bytes", "KiB", "MiB", "GiB", "TiB"];
+    let mut value = bytes as f64;
+    let mut unit = 0;
+    while value >= 1024.0 && unit + 1 < units.len() {
+        value /= 1024.0;
+        unit += 1;
+    }
+    if unit == 0 { format!("{bytes} bytes") } else { format!("{value:.1} {}", units[unit]) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bytes_read_well() {
+        assert_eq!(readable(17), "17 bytes");
+        assert_eq!(readable(1536), "1.5 KiB");
+        assert_eq!(readable(3 << 40), "3.0 TiB");
+    }
+}

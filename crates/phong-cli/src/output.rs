@@ -1,0 +1,223 @@
+//! Files that are complete or absent: a temporary file in the target's folder, then a rename.
+//!
+//! Whether a target can be written is known before any work is done. An interrupt takes every
+//! temporary file with it.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Cursor, Seek, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use tempfile::NamedTempFile;
+
+use crate::failure::Failure;
+use crate::report;
+
+/// Temporary files that exist now. Held while they get their names, so that an interrupt comes
+/// before all of them or after.
+static TEMPORARIES: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+fn temporaries() -> MutexGuard<'static, Vec<PathBuf>> {
+    TEMPORARIES.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Removes what is half-written and ends the program with 130, whenever it is interrupted.
+pub(crate) fn clean_up_on_interrupt() {
+    // Without a handler an interrupt still ends the program, only less tidily.
+    let _ = ctrlc::set_handler(|| {
+        let held = temporaries();
+        for path in held.iter() {
+            let _ = fs::remove_file(path);
+        }
+        if report::is_watched() {
+            report::say("\ninterrupted");
+        }
+        // The lock is kept: no file gets its name any more.
+        std::process::exit(130);
+    });
+}
+
+/// A file, or standard output, that is being written.
+#[derive(Debug)]
+pub(crate) struct Output {
+    target: Target,
+}
+
+#[derive(Debug)]
+enum Target {
+    Stdout(Cursor<Vec<u8>>),
+    /// A pipe or a device: nothing to rename.
+    Special(PathBuf, Cursor<Vec<u8>>),
+    File {
+        path: PathBuf,
+        temporary: Temporary,
+    },
+}
+
+#[derive(Debug)]
+struct Temporary(NamedTempFile);
+
+impl Drop for Temporary {
+    fn drop(&mut self) {
+        let mut all = temporaries();
+        let _ = fs::remove_file(self.0.path());
+        all.retain(|path| path != self.0.path());
+    }
+}
+
+impl Output {
+    /// Makes ready to write `path`; `-` is standard output.
+    pub(crate) fn create(path: &Path) -> Result<Self, Failure> {
+        if path == Path::new("-") {
+            return Ok(Self { target: Target::Stdout(Cursor::default()) });
+        }
+        let cannot = |why: &str, help: &str| {
+            Failure::usage(format!("cannot write {}: {why}", path.display())).with_help(help)
+        };
+        let look = "look at its folder, or give another file with -o";
+        // A link is written through.
+        let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        match fs::metadata(&path) {
+            Ok(meta) if meta.is_dir() => return Err(cannot("it is a folder", "name a file in it")),
+            Ok(meta) if !meta.is_file() => {
+                return Ok(Self { target: Target::Special(path, Cursor::default()) });
+            }
+            Ok(meta) if meta.permissions().readonly() => {
+                return Err(cannot("it is write-protected", look));
+            }
+            _ => {}
+        }
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        let folder = folder.unwrap_or(Path::new("."));
+        if path.file_name().is_none() {
+            return Err(cannot("it names no file", look));
+        }
+        let mut all = temporaries();
+        let temporary =
+            builder().tempfile_in(folder).map_err(|error| cannot(&reason(&error), look))?;
+        all.push(temporary.path().to_owned());
+        drop(all);
+        Ok(Self { target: Target::File { path, temporary: Temporary(temporary) } })
+    }
+
+    /// Whether this would replace `path`.
+    pub(crate) fn is(&self, path: &Path) -> bool {
+        match &self.target {
+            Target::File { path: own, .. } => fs::canonicalize(path)
+                .is_ok_and(|path| fs::canonicalize(own).is_ok_and(|own| own == path)),
+            _ => false,
+        }
+    }
+
+    /// Writes all of the content, under no name yet.
+    pub(crate) fn write<E: Into<WriteFailure>>(
+        &mut self,
+        content: impl FnOnce(&mut dyn WriteSeek) -> Result<(), E>,
+    ) -> Result<(), Failure> {
+        let written = match &mut self.target {
+            Target::Stdout(memory) | Target::Special(_, memory) => {
+                content(memory).map_err(Into::into)
+            }
+            Target::File { temporary, .. } => {
+                let mut out = BufWriter::with_capacity(1 << 18, temporary.0.as_file_mut());
+                content(&mut out)
+                    .map_err(Into::into)
+                    .and_then(|()| out.flush().map_err(WriteFailure::Io))
+            }
+        };
+        written.map_err(|failure| match failure {
+            WriteFailure::Io(error) => Failure::writing(&self.path(), &error),
+            WriteFailure::Other(message) => Failure::System(message),
+        })
+    }
+
+    fn path(&self) -> PathBuf {
+        match &self.target {
+            Target::Stdout(_) => "standard output".into(),
+            Target::Special(path, _) | Target::File { path, .. } => path.clone(),
+        }
+    }
+
+    /// Gives all outputs their names, the first last: where it is, the others are, too.
+    pub(crate) fn commit(outputs: Vec<Self>) -> Result<(), Failure> {
+        let mut all = temporaries();
+        let mut named: Vec<PathBuf> = Vec::new();
+        for output in outputs.into_iter().rev() {
+            match output.target {
+                Target::Stdout(memory) => {
+                    drop(all);
+                    report::data(memory.get_ref())?;
+                    all = temporaries();
+                }
+                Target::Special(path, memory) => {
+                    File::options()
+                        .write(true)
+                        .open(&path)
+                        .and_then(|mut file| file.write_all(memory.get_ref()))
+                        .map_err(|error| Failure::writing(&path, &error))?;
+                }
+                Target::File { path, temporary } => {
+                    let from = temporary.0.path().to_owned();
+                    let renamed = fs::rename(&from, &path);
+                    all.retain(|path| *path != from);
+                    if let Err(error) = renamed {
+                        for path in &named {
+                            let _ = fs::remove_file(path);
+                        }
+                        drop(all);
+                        return Err(Failure::writing(&path, &error));
+                    }
+                    // Its path is gone: there is nothing for the destructor to remove.
+                    std::mem::forget(temporary);
+                    named.push(path);
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What file formats are written to.
+pub(crate) trait WriteSeek: Write + Seek {}
+impl<T: Write + Seek> WriteSeek for T {}
+
+/// Why content could not be written.
+#[derive(Debug)]
+pub(crate) enum WriteFailure {
+    Io(io::Error),
+    Other(String),
+}
+
+impl From<io::Error> for WriteFailure {
+    fn from(error: io::Error) -> Self {
+        Self::Io(error)
+    }
+}
+
+impl From<phong::image::WriteError> for WriteFailure {
+    fn from(error: phong::image::WriteError) -> Self {
+        match error {
+            phong::image::WriteError::Io(error) => Self::Io(error),
+            phong::image::WriteError::Unsuitable(message) => Self::Other(message),
+        }
+    }
+}
+
+fn builder() -> tempfile::Builder<'static, 'static> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".phong-").suffix(".tmp");
+    // Like any new file: what the user's mask leaves.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder
+}
+
+fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "there is no such folder".to_owned(),
+        io::ErrorKind::NotADirectory => "its folder is no folder".to_owned(),
+        io::ErrorKind::PermissionDenied => "its folder may not be written to".to_owned(),
+        // Without the temporary file's name, which says nothing to anybody.
+        _ => error.to_string().split(" at path ").next().unwrap_or_default().to_owned(),
+    }
+}

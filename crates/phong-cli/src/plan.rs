@@ -1,0 +1,219 @@
+//! What `render` is to do, resolved: the command line over the file over the defaults.
+
+use std::path::{Path, PathBuf};
+
+use phong::aov::Aov;
+use phong::film::{Film, LayerKind, Window};
+use phong::image::{self, Bits, Content, Encoding, Format};
+use phong::part::{self, Settings};
+use phong::render::RenderOptions;
+use phong_scene::Scene;
+
+use crate::args::{self, EncodingArgs, OutputFormat};
+use crate::command::render::{Args, ImageArgs};
+use crate::failure::Failure;
+use crate::input::{self, Input};
+use crate::output::Output;
+
+/// All files that a film becomes, made ready but not yet written.
+#[derive(Debug)]
+pub(crate) enum Outputs {
+    /// A part file.
+    Part(Output),
+    /// Each file with what it holds, the picture's first.
+    Picture(Format, Vec<(Content, Output)>),
+}
+
+impl Outputs {
+    /// Makes ready the files of a picture with these layers.
+    pub(crate) fn picture(
+        path: &Path,
+        format: Option<OutputFormat>,
+        kinds: &[LayerKind],
+    ) -> Result<Self, Failure> {
+        let stdout = path == Path::new("-");
+        let format = match format.map(Format::from).or_else(|| Format::of_path(path)) {
+            Some(format) => format,
+            None if stdout => Format::Png,
+            None => {
+                let what = format!("the name {} does not say what to write", path.display());
+                return Err(Failure::usage(what)
+                    .with_help("end it in .png, .pfm or .exr, or give --output-format"));
+            }
+        };
+        let contents = Content::of(kinds, format);
+        if stdout && contents.len() > 1 {
+            return Err(Failure::usage("several files do not fit into standard output")
+                .with_help("--output-format exr holds all layers in one"));
+        }
+        let create = |content: Content| {
+            let path = content.word().map_or_else(|| path.to_owned(), |word| beside(path, word));
+            Ok((content, Output::create(&path)?))
+        };
+        let files = contents.into_iter().map(create).collect::<Result<_, Failure>>()?;
+        Ok(Self::Picture(format, files))
+    }
+
+    /// Every file.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &Output> {
+        let (part, files) = match self {
+            Self::Part(output) => (Some(output), None),
+            Self::Picture(_, files) => (None, Some(files)),
+        };
+        part.into_iter().chain(files.into_iter().flatten().map(|(_, output)| output))
+    }
+
+    /// Writes everything, under no name yet.
+    pub(crate) fn write(&mut self, film: &Film, settings: &Settings) -> Result<(), Failure> {
+        match self {
+            Self::Part(output) => output.write(|mut out| part::write(film, settings, &mut out)),
+            Self::Picture(format, files) => write_files(*format, files, film, settings.encoding),
+        }
+    }
+
+    /// Gives every file its name: all or none.
+    pub(crate) fn commit(self) -> Result<(), Failure> {
+        Output::commit(match self {
+            Self::Part(output) => vec![output],
+            Self::Picture(_, files) => files.into_iter().map(|(_, output)| output).collect(),
+        })
+    }
+}
+
+/// Writes the files of a picture, under no name yet.
+fn write_files(
+    format: Format,
+    files: &mut [(Content, Output)],
+    film: &Film,
+    encoding: Encoding,
+) -> Result<(), Failure> {
+    files.iter_mut().try_for_each(|(content, output)| {
+        output.write(|mut out| image::write(film, *content, format, &encoding, &mut out))
+    })
+}
+
+/// `a/b.png` and `depth` make `a/b.depth.png`.
+fn beside(path: &Path, word: &str) -> PathBuf {
+    let extension = path.extension().unwrap_or_default().to_string_lossy();
+    path.with_extension(if extension.is_empty() {
+        word.to_owned()
+    } else {
+        format!("{word}.{extension}")
+    })
+}
+
+/// What `render` is to do, as far as it is known before the input is read.
+#[derive(Debug)]
+pub(crate) struct Plan {
+    pub(crate) output: PathBuf,
+    pub(crate) terms: bool,
+    pub(crate) aovs: Vec<Aov>,
+    pub(crate) encoding: Encoding,
+    pub(crate) share: Option<(u32, u32)>,
+}
+
+impl Plan {
+    /// What the command line alone decides, or what is wrong with it.
+    pub(crate) fn new(args: &Args) -> Result<Self, Failure> {
+        let share = args.work.tile.map(|share| (share.index, share.count));
+        let stem = input::stem(&args.input.input);
+        let output = args.output.clone().unwrap_or_else(|| {
+            share.map_or_else(
+                || format!("{stem}.png").into(),
+                |(index, count)| format!("{stem}.{index}-of-{count}.part").into(),
+            )
+        });
+        let stdout = output == Path::new("-");
+        if stdout && args.work.json {
+            return Err(Failure::usage("--json and -o - both want standard output"));
+        }
+        if stdout && args.work.resume {
+            return Err(Failure::usage("--resume needs a file to keep its checkpoint beside"));
+        }
+        let mut aovs = Vec::new();
+        for &aov in &args.aov {
+            if !aovs.contains(&aov) {
+                aovs.push(aov);
+            }
+        }
+        Ok(Self { output, terms: args.terms, aovs, encoding: encoding(&args.encoding), share })
+    }
+
+    /// Makes ready what will be written.
+    pub(crate) fn outputs(&self, args: &Args) -> Result<Outputs, Failure> {
+        if self.share.is_some() {
+            return Output::create(&self.output).map(Outputs::Part);
+        }
+        let any = RenderOptions::of(&phong_scene::Image::default());
+        let layers = RenderOptions { terms: self.terms, aovs: self.aovs.clone(), ..any }.layers();
+        Outputs::picture(&self.output, args.encoding.output_format, &layers)
+    }
+
+    /// Lays the command line's values over the scene's; the rendering that follows.
+    pub(crate) fn settle(&self, args: &Args, input: &mut Input) -> Result<RenderOptions, Failure> {
+        let ImageArgs { size, samples, seed, depth, no_shadows, background, crop } = &args.image;
+        let scene: &mut Scene = &mut input.scene;
+        scene.image.size = size.map_or(scene.image.size, |size| size.0);
+        input::look(scene, input.bare, &args.view)?;
+        let image = &mut scene.image;
+        image.samples = samples.unwrap_or(image.samples);
+        image.seed = seed.unwrap_or(image.seed);
+        image.depth = depth.unwrap_or(image.depth);
+        image.background = background.unwrap_or(image.background);
+        let mut options = RenderOptions::of(image);
+        if let Some(args::Crop { x0, y0, x1, y1 }) = *crop {
+            options.window = Window { x0, y0, x1, y1 };
+            if !options.window.fits(image.size) {
+                let [width, height] = image.size;
+                return Err(Failure::usage(format!(
+                    "--crop {x0},{y0},{x1},{y1} reaches out of the picture, which is {width}x{height}"
+                )));
+            }
+        }
+        options.shadows = !no_shadows;
+        options.share = self.share;
+        options.terms = self.terms;
+        options.aovs.clone_from(&self.aovs);
+        Ok(options)
+    }
+}
+
+/// How the command line wants a picture written.
+pub(crate) fn encoding(args: &EncodingArgs) -> Encoding {
+    Encoding {
+        bits: args.bits.map_or(Bits::Eight, Bits::from),
+        linear: args.linear,
+        exposure: args.exposure.unwrap_or(0.0),
+    }
+}
+
+impl From<args::Bits> for Bits {
+    fn from(bits: args::Bits) -> Self {
+        match bits {
+            args::Bits::Eight => Self::Eight,
+            args::Bits::Sixteen => Self::Sixteen,
+        }
+    }
+}
+
+impl From<OutputFormat> for Format {
+    fn from(format: OutputFormat) -> Self {
+        match format {
+            OutputFormat::Png => Self::Png,
+            OutputFormat::Pfm => Self::Pfm,
+            OutputFormat::Exr => Self::Exr,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn layers_lie_beside_their_picture() {
+        assert_eq!(beside(Path::new("a/b.png"), "depth"), Path::new("a/b.depth.png"));
+        assert_eq!(beside(Path::new("b.c.pfm"), "uv"), Path::new("b.c.uv.pfm"));
+        assert_eq!(beside(Path::new("b"), "uv"), Path::new("b.uv"));
+    }
+}
