@@ -1,0 +1,234 @@
+//! The same bits, whatever the number of threads, the size of a tile, the cut of the picture and the SIMD level.
+
+use std::fmt::Write;
+use std::sync::LazyLock;
+
+use phong::aov::Aov;
+use phong::compile::{CompileOptions, CompiledScene};
+use phong::explain::explain;
+use phong::film::{Film, LayerKind, Window};
+use phong::reflectance::Terms;
+use phong::render::{Cancel, RenderOptions, render};
+use phong_bvh::{BuildOptions, Level, Preset};
+use phong_scene::{Limits, Memory, Reading, Scene};
+
+/// A scene with its picture as everybody else must draw it: one thread, the default tiles.
+struct Case {
+    name: &'static str,
+    written: Scene,
+    scene: CompiledScene,
+    options: RenderOptions,
+    film: Film,
+}
+
+static CASES: LazyLock<Vec<Case>> = LazyLock::new(|| {
+    [("everything", EVERYTHING.to_owned()), ("mesh", with(MESH)), ("points", with(POINTS))]
+        .into_iter()
+        .map(|(name, text)| {
+            let source = Memory::new()
+                .with("scene.toml", text.into_bytes())
+                .with("mesh.obj", bumpy_ball(96).into_bytes())
+                .with("points.ply", cloud(3000).into_bytes());
+            let Reading { scene, diagnostics, .. } =
+                phong_scene::read("scene.toml", None, &source, &Limits::default());
+            assert!(diagnostics.is_empty(), "{name}: {diagnostics:#?}");
+            let scene = scene.expect("a scene, for there is no error");
+            let options = RenderOptions {
+                terms: true,
+                // `cost` alone is exempt.
+                aovs: vec![Aov::Depth, Aov::Normal, Aov::Position, Aov::Object, Aov::Shadow],
+                ..RenderOptions::of(&scene.image)
+            };
+            let written = scene.clone();
+            let scene = CompiledScene::new(scene, CompileOptions::default()).expect("compiles");
+            let film = drawn(&scene, &options, 1);
+            Case { name, written, scene, options, film }
+        })
+        .collect()
+});
+
+const EVERYTHING: &str = include_str!("agreement/everything.toml");
+
+const MESH: &str = "[[mesh]]\nfile = \"mesh.obj\"";
+
+const POINTS: &str = "[[points]]\nfile = \"points.ply\"\nradius = 0.05";
+
+/// A picture of one shape that comes from a file.
+fn with(shape: &str) -> String {
+    format!(
+        "version = 1\n[image]\nsize = [70, 50]\nsamples = 2\n[camera]\neye = [0, 1, 4]\nlook_at = [0, 0, 0]\n\
+         [[light]]\nkind = \"point\"\nposition = [3, 4, 5]\n[[light]]\nkind = \"distant\"\n\
+         direction = [1, -1, -1]\ncolor = 0.4\n[materials.clay]\ncolor = \"#b07040\"\nk_s = 0.4\n{shape}\nmaterial = \"clay\"\n"
+    )
+}
+
+/// A ball with bumps, in `2 n²` triangles.
+fn bumpy_ball(n: usize) -> String {
+    let mut obj = String::new();
+    for j in 0..=n {
+        for i in 0..n {
+            let (u, v) = (i as f64 / n as f64 * 2.0, j as f64 / n as f64);
+            let (phi, theta) = (u * std::f64::consts::PI, v * std::f64::consts::PI);
+            let r = 1.0 + 0.06 * libm::sin(9.0 * phi) * libm::sin(11.0 * theta);
+            let (x, z) = (libm::cos(phi) * libm::sin(theta), libm::sin(phi) * libm::sin(theta));
+            let _ = writeln!(obj, "v {} {} {}", r * x, r * libm::cos(theta), r * z);
+        }
+    }
+    for j in 0..n {
+        for i in 0..n {
+            let k = (i + 1) % n;
+            let (a, b, c, d) =
+                (j * n + i + 1, j * n + k + 1, (j + 1) * n + i + 1, (j + 1) * n + k + 1);
+            let _ = writeln!(obj, "f {a} {b} {c}\nf {b} {d} {c}");
+        }
+    }
+    obj
+}
+
+/// Points in a ball, from a counter stepped by the plastic number: even, and the same everywhere.
+fn cloud(n: u32) -> String {
+    let mut ply = format!(
+        "ply\nformat ascii 1.0\nelement vertex {n}\nproperty float x\nproperty float y\nproperty float z\n\
+         end_header\n"
+    );
+    for i in 1..=n {
+        let at = |step: f64| (f64::from(i) * step).fract() * 2.4 - 1.2;
+        let _ = writeln!(ply, "{} {} {}", at(0.819_172_513), at(0.671_043_607), at(0.549_700_478));
+    }
+    ply
+}
+
+fn drawn(scene: &CompiledScene, options: &RenderOptions, threads: usize) -> Film {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+    pool.install(|| render(scene, options, &|_, _| {}, &Cancel::new())).expect("not cancelled").film
+}
+
+/// Every layer, bit for bit.
+#[track_caller]
+fn assert_same(name: &str, a: &Film, b: &Film) {
+    assert_eq!(a.layers.len(), b.layers.len());
+    for (p, q) in a.layers.iter().zip(&b.layers) {
+        assert_eq!(p.kind, q.kind);
+        let bits = |values: &[f32]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
+        let apart = bits(&p.values).iter().zip(&bits(&q.values)).filter(|(x, y)| x != y).count();
+        assert_eq!(p.values.len(), q.values.len());
+        assert_eq!(apart, 0, "{name}: values of `{}` differ", p.kind.name());
+    }
+}
+
+#[test]
+fn the_cases_show_something() {
+    for case in CASES.iter() {
+        let normals = &case.film.layer(LayerKind::Aov(Aov::Normal)).expect("asked for").values;
+        let hit = normals.chunks_exact(3).filter(|n| **n != [0.0; 3]).count();
+        let pixels = case.film.width() as usize * case.film.height() as usize;
+        assert!(hit * 5 > pixels, "{}: {hit} of {pixels} pixels show a surface", case.name);
+        assert!(case.film.is_complete());
+    }
+}
+
+#[test]
+fn the_number_of_threads_changes_no_bit() {
+    for case in CASES.iter() {
+        for threads in [2, 7] {
+            assert_same(case.name, &drawn(&case.scene, &case.options, threads), &case.film);
+        }
+    }
+}
+
+#[test]
+fn the_size_of_a_tile_changes_no_bit() {
+    for case in CASES.iter() {
+        for tile in [1, 8, 64] {
+            let options = RenderOptions { tile, ..case.options.clone() };
+            assert_same(case.name, &drawn(&case.scene, &options, 2), &case.film);
+        }
+    }
+}
+
+#[test]
+fn a_crop_is_a_part_of_the_whole() {
+    for case in CASES.iter() {
+        let window = Window { x0: 13, y0: 7, x1: 59, y1: 42 };
+        let options = RenderOptions { window, ..case.options.clone() };
+        let part = drawn(&case.scene, &options, 2);
+        for layer in &part.layers {
+            for y in window.y0..window.y1 {
+                for x in window.x0..window.x1 {
+                    let bits = |film: &Film| {
+                        let values = film.at(layer.kind, x, y).expect("within");
+                        values.iter().map(|v| v.to_bits()).collect::<Vec<_>>()
+                    };
+                    let (a, b) = (bits(&part), bits(&case.film));
+                    assert_eq!(a, b, "{}: {} at ({x}, {y})", case.name, layer.kind.name());
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn shares_put_together_are_the_whole() {
+    for case in CASES.iter() {
+        let mut parts = (0..3).map(|i| {
+            let options = RenderOptions { share: Some((i, 3)), ..case.options.clone() };
+            drawn(&case.scene, &options, 2)
+        });
+        let mut whole = parts.next().expect("a first share");
+        assert!(!whole.is_complete());
+        for part in parts {
+            whole.merge(&part).expect("shares of one picture");
+        }
+        assert!(whole.is_complete());
+        assert_same(case.name, &whole, &case.film);
+    }
+}
+
+#[test]
+fn the_picture_is_the_sum_of_its_terms() {
+    for case in CASES.iter() {
+        let layer = |kind| &case.film.layer(kind).expect("asked for").values;
+        let picture = layer(LayerKind::Picture);
+        let terms: Vec<_> = (0..Terms::NAMES.len()).map(|i| layer(LayerKind::Term(i))).collect();
+        for (i, value) in picture.iter().enumerate() {
+            let sum: f32 = terms.iter().map(|term| term[i]).fold(0.0, |sum, term| sum + term);
+            assert_eq!(sum.to_bits(), value.to_bits(), "{}: value {i}", case.name);
+        }
+    }
+}
+
+#[test]
+fn the_simd_level_and_the_preset_of_the_build_change_no_bit() {
+    let levels: Vec<Level> = Level::ALL.into_iter().filter(|level| level.is_available()).collect();
+    assert!(!levels.is_empty());
+    for case in CASES.iter() {
+        let held = |level, preset| {
+            let build = BuildOptions { level, preset };
+            let options = CompileOptions { build, ..CompileOptions::default() };
+            let scene = CompiledScene::new(case.written.clone(), options).expect("compiles");
+            let film = drawn(&scene, &case.options, 2);
+            assert_same(&format!("{} at {level:?}, {preset:?}", case.name), &film, &case.film);
+        };
+        for level in &levels {
+            held(Some(*level), Preset::Balanced);
+        }
+        for preset in [Preset::Fast, Preset::Best, Preset::Compact] {
+            held(None, preset);
+        }
+    }
+}
+
+#[test]
+fn what_is_explained_is_what_is_drawn() {
+    for case in CASES.iter() {
+        for y in (0..case.film.height()).step_by(5) {
+            for x in (0..case.film.width()).step_by(3) {
+                let told = explain(&case.scene, &case.options, [x, y]).expect("a pixel of it");
+                let drawn = case.film.at(LayerKind::Picture, x, y).expect("a pixel of it");
+                let bits = |values: &[f32]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
+                let told = told.terms.total().to_array();
+                assert_eq!(bits(&told), bits(drawn), "{} at ({x}, {y})", case.name);
+            }
+        }
+    }
+}
