@@ -156,7 +156,7 @@ impl Bvh {
     }
 
     fn world(&self) -> World<'_> {
-        World::new(&self.tree, &self.geometry, self.token)
+        World::new(&self.tree, &self.geometry, &self.first, self.token)
     }
 
     /// Whether anything is hit with `t_min < t < t_max`.

@@ -6,6 +6,7 @@
 //! | triangles | 10 | x, y, z of the three corners; number |
 //! | spheres | 5 | x, y, z, radius; number |
 //! | solid | 1 | number, index of its geometry, – |
+//! | indexed triangles | 2 | number within its geometry; index of its geometry; none: 2³² − 1 |
 //!
 //! A [`Ref`] counts rows from the node that holds it, and children follow their parent. So a subtree
 //! is a run of rows that means the same wherever it is put: subtrees are built apart, by as
@@ -45,12 +46,14 @@ const ROW: u32 = (1 << 29) - 1;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Ref(pub(crate) u32);
 
-/// The kinds of leaves: a block of up to eight primitives, or one solid.
+/// The kinds of leaves: up to eight primitives, or one solid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     Triangles,
     Spheres,
     Solid,
+    /// Triangles that are looked up in their geometry: less memory, more time.
+    Indexed,
 }
 
 impl Kind {
@@ -89,7 +92,8 @@ impl Ref {
             (0, _) => None,
             (_, 0) => Some(Kind::Triangles),
             (_, 1) => Some(Kind::Spheres),
-            _ => Some(Kind::Solid),
+            (_, 2) => Some(Kind::Solid),
+            _ => Some(Kind::Indexed),
         }
     }
 
@@ -112,7 +116,7 @@ mod tests {
 
     #[test]
     fn a_reference_keeps_its_kind_and_counts_from_anywhere() {
-        for kind in [Kind::Triangles, Kind::Spheres, Kind::Solid] {
+        for kind in [Kind::Triangles, Kind::Spheres, Kind::Solid, Kind::Indexed] {
             let leaf = Ref::leaf(kind, 7).from(100);
             assert_eq!((leaf.kind(), leaf.row()), (Some(kind), 107));
         }

@@ -40,7 +40,7 @@ fn belongs(geometry: &Geometry, local: usize) -> bool {
 }
 
 fn visit(bvh: &Bvh, at: Ref, bounds: &Aabb, seen: &mut [bool]) -> Result<(), String> {
-    let tree = &bvh.tree().rows;
+    let tree = bvh.tree().rows.as_slice();
     let mut found = |prim: u32, inside: Aabb| {
         if prim == u32::MAX {
             return Ok(());
@@ -70,6 +70,17 @@ fn visit(bvh: &Bvh, at: Ref, bounds: &Aabb, seen: &mut [bool]) -> Result<(), Str
                 let [a, b, c] = triangle::corners(block, lane).map(Vec3::from);
                 let inside = Aabb { lo: a.min(b).min(c), hi: a.max(b).max(c) };
                 found(block[triangle::BLOCK - 1].bits(lane), inside)?;
+            }
+        }
+        Some(Kind::Indexed) => {
+            let [locals, geometries]: &[Row; 2] = rows(tree, at.row());
+            for lane in (0..8).filter(|&lane| locals.bits(lane) != u32::MAX) {
+                let (index, local) = (geometries.bits(lane) as usize, locals.bits(lane) as usize);
+                if let Geometry::Triangles { positions, indices } = &bvh.geometry()[index] {
+                    let [a, b, c] = indices[local].map(|i| positions[i as usize]);
+                    let inside = Aabb { lo: a.min(b).min(c), hi: a.max(b).max(c) };
+                    found(bvh.primitives(index).start + local as u32, inside)?;
+                }
             }
         }
         Some(Kind::Spheres) => {

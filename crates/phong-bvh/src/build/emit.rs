@@ -30,6 +30,9 @@ pub(super) struct Emitter<'a> {
     pub(super) rows: Vec<Row>,
     pub(super) nodes: u64,
     branches: Vec<Branch>,
+    /// The bins of the run being cut; clearing new ones for each cut would cost more than filling them.
+    sorted: Box<Bins>,
+    indexed: bool,
 }
 
 /// A node of the binary tree.
@@ -50,8 +53,14 @@ enum Shape {
 }
 
 impl<'a> Emitter<'a> {
-    pub(super) fn new(geometry: &'a [Geometry], first: &'a [u32], bins: usize) -> Self {
-        Self { geometry, first, bins, rows: Vec::new(), nodes: 0, branches: Vec::new() }
+    pub(super) fn new(
+        geometry: &'a [Geometry],
+        first: &'a [u32],
+        bins: usize,
+        indexed: bool,
+    ) -> Self {
+        let (rows, branches, sorted) = (Vec::new(), Vec::new(), Box::new(Bins::new()));
+        Self { geometry, first, bins, rows, nodes: 0, branches, sorted, indexed }
     }
 
     /// Writes the subtree over `boxes`; where its root is.
@@ -85,8 +94,8 @@ impl<'a> Emitter<'a> {
                     return self.branch(run, Shape::Leaf(kind, range), [0.0; 7], [0; 8]);
                 }
                 let [left, right] = if mine.len() > WIDTH {
-                    let bins = Bins::of(simd, mine, run, self.bins);
-                    cut(simd, Some(&bins), mine, depth)
+                    self.sorted.sort(simd, mine, run, self.bins);
+                    cut(simd, Some(&self.sorted), mine, depth)
                 } else {
                     self.cut_by_kind(simd, mine)
                 };
@@ -204,6 +213,15 @@ impl<'a> Emitter<'a> {
             let index = f32::from_bits(boxes[0].geometry() as u32);
             self.rows.push(Row([number(&boxes[0]), index, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]));
             return Ref::leaf(kind, at);
+        }
+        if kind == Kind::Triangles && self.indexed {
+            let mut row = [Row([f32::from_bits(u32::MAX); 8]); 2];
+            for (lane, b) in boxes.iter().enumerate() {
+                row[0].0[lane] = f32::from_bits(b.local() as u32);
+                row[1].0[lane] = f32::from_bits(b.geometry() as u32);
+            }
+            self.rows.extend(row);
+            return Ref::leaf(Kind::Indexed, at);
         }
         let size = if kind == Kind::Triangles { triangle::BLOCK } else { sphere::BLOCK };
         self.rows.resize(at + size, Row::ZERO);

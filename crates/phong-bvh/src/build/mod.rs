@@ -20,7 +20,8 @@ use crate::{
     Geometry,
     bvh::Preset,
     level::{Kernel, Token},
-    node8::{Kind, MAX_ROWS, Ref, Row},
+    node8::{Kind, MAX_ROWS, NODE, Ref, Row},
+    simd::Rows,
 };
 
 /// Boxes of a run that one thread makes a subtree of.
@@ -34,7 +35,7 @@ const WIDTH: usize = 8;
 #[derive(Debug, Default)]
 pub(crate) struct Tree {
     /// Nodes and leaves.
-    pub(crate) rows: Vec<Row>,
+    pub(crate) rows: Rows,
     /// Where to begin; none: there is nothing.
     pub(crate) root: Option<Ref>,
     /// Inner nodes.
@@ -58,25 +59,29 @@ pub(crate) fn build(
     if boxes.is_empty() {
         return Ok(Tree::default());
     }
-    let builder = Builder { geometry, first, bins: bins(preset), token };
+    let builder =
+        Builder { geometry, first, bins: bins(preset), indexed: preset == Preset::Compact, token };
     let run = builder.bounds(&boxes);
     let root = builder.grow(&mut boxes, run, 0);
     drop(boxes);
-    let mut tree = Tree { only: only(geometry), ..Tree::default() };
+    let mut tree = Tree { only: only(geometry, builder.indexed), ..Tree::default() };
     let size = root.size();
     if size > MAX_ROWS {
         return Err(TooLarge);
     }
-    tree.rows.reserve_exact(size);
-    tree.root = Some(root.lay(&mut tree));
+    tree.rows = Rows::zeroed(size);
+    let mut laid = Laid { rows: tree.rows.as_mut_slice(), end: 0, nodes: 0 };
+    tree.root = Some(root.lay(&mut laid));
+    tree.nodes = laid.nodes;
     Ok(tree)
 }
 
 /// The kind of all primitives that have bounds, if it is one.
-fn only(geometry: &[Geometry]) -> Option<Kind> {
+fn only(geometry: &[Geometry], indexed: bool) -> Option<Kind> {
     let mut kinds = geometry.iter().filter(|g| !g.is_empty()).filter_map(Kind::of);
     let first = kinds.next()?;
-    kinds.all(|kind| kind == first).then_some(first)
+    let plain = !(indexed && first == Kind::Triangles);
+    (kinds.all(|kind| kind == first) && plain).then_some(first)
 }
 
 /// Bins along each axis.
@@ -101,34 +106,42 @@ impl Part {
     fn size(&self) -> usize {
         match self {
             Self::Node(children) => {
-                crate::node8::NODE + children.iter().map(|(part, _)| part.size()).sum::<usize>()
+                NODE + children.iter().map(|(part, _)| part.size()).sum::<usize>()
             }
             Self::Rows { rows, .. } => rows.len(),
         }
     }
 
-    /// Appends it to the tree, and says where its root is.
-    fn lay(self, tree: &mut Tree) -> Ref {
-        let at = tree.rows.len();
+    /// Lays it behind what is laid already, and says where its root is.
+    fn lay(self, laid: &mut Laid<'_>) -> Ref {
+        let at = laid.end;
         match self {
             Self::Node(children) => {
-                tree.nodes += 1;
-                tree.rows.resize(at + crate::node8::NODE, Row::ZERO);
-                let mut laid = Vec::with_capacity(WIDTH);
+                laid.nodes += 1;
+                laid.end += NODE;
+                let mut written = Vec::with_capacity(WIDTH);
                 for (part, bounds) in children {
-                    let child = part.lay(tree);
-                    laid.push((Ref(child.0 - at as u32), bounds));
+                    let child = part.lay(laid);
+                    written.push((Ref(child.0 - at as u32), bounds));
                 }
-                tree.rows[at..at + crate::node8::NODE].copy_from_slice(&node(&laid));
+                laid.rows[at..at + NODE].copy_from_slice(&node(&written));
                 Ref::node(at)
             }
             Self::Rows { rows, root, nodes } => {
-                tree.nodes += nodes;
-                tree.rows.extend_from_slice(&rows);
+                laid.nodes += nodes;
+                laid.end += rows.len();
+                laid.rows[at..laid.end].copy_from_slice(&rows);
                 root.from(at)
             }
         }
     }
+}
+
+/// The rows of a tree, of which some are laid.
+struct Laid<'a> {
+    rows: &'a mut [Row],
+    end: usize,
+    nodes: u64,
 }
 
 /// What every step of building needs.
@@ -137,6 +150,8 @@ struct Builder<'a> {
     geometry: &'a [Geometry],
     first: &'a [u32],
     bins: usize,
+    /// Whether leaves name their triangles instead of holding them.
+    indexed: bool,
     token: Token,
 }
 
@@ -208,7 +223,7 @@ impl Kernel for Bound<'_> {
     }
 }
 
-/// [`Bins::of`] at a level.
+/// [`Bins::sort`] at a level.
 struct Bin<'a> {
     boxes: &'a [Boxed],
     run: &'a Run,
@@ -220,7 +235,9 @@ impl Kernel for Bin<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> Bins {
-        Bins::of(simd, self.boxes, self.run, self.bins)
+        let mut bins = Bins::new();
+        bins.sort(simd, self.boxes, self.run, self.bins);
+        bins
     }
 }
 
@@ -254,8 +271,9 @@ impl Kernel for Subtree<'_, '_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> Part {
         let Builder { geometry, first, bins, .. } = *self.builder;
-        let mut emitter = Emitter::new(geometry, first, bins);
+        let mut emitter = Emitter::new(geometry, first, bins, self.builder.indexed);
         let root = emitter.emit(simd, self.boxes, &self.run, self.depth);
+        emitter.rows.shrink_to_fit();
         Part::Rows { rows: emitter.rows, root, nodes: emitter.nodes }
     }
 }
@@ -268,7 +286,7 @@ impl Tree {
 
     /// The bounds of a child, as stored.
     #[cfg(test)]
-    pub(crate) fn child_bounds(node: &[Row; crate::node8::NODE], child: usize) -> crate::Aabb {
+    pub(crate) fn child_bounds(node: &[Row; NODE], child: usize) -> crate::Aabb {
         let at = |row: usize| node[row].0[child];
         crate::Aabb {
             lo: glam::Vec3::new(at(0), at(2), at(4)),

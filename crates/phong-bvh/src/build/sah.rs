@@ -106,21 +106,30 @@ pub(super) struct Cut {
 }
 
 impl Bins {
+    /// No bins yet.
+    pub(super) const fn new() -> Self {
+        let grid = Grid { bins: 0, first: [0.0; 4], scale: [0.0; 4] };
+        Self { bounds: [[EMPTY; MOST]; 3], counts: [[0; MOST]; 3], grid }
+    }
+
     /// Sorts `boxes` into bins.
     #[inline(always)]
-    pub(super) fn of<S: Simd>(simd: S, boxes: &[Boxed], run: &Run, most: usize) -> Self {
+    pub(super) fn sort<S: Simd>(&mut self, simd: S, boxes: &[Boxed], run: &Run, most: usize) {
         let grid = Grid::new(run, most.min(MOST));
-        let mut bins = Self { bounds: [[EMPTY; MOST]; 3], counts: [[0; MOST]; 3], grid };
+        self.grid = grid;
+        for axis in 0..3 {
+            self.bounds[axis][..grid.bins].fill(EMPTY);
+            self.counts[axis][..grid.bins].fill(0);
+        }
         for b in boxes {
             let lanes = b.lanes(simd);
-            let axes = bins.bounds.iter_mut().zip(&mut bins.counts);
+            let axes = self.bounds.iter_mut().zip(&mut self.counts);
             for (index, (bounds, counts)) in grid.bin(simd, lanes).into_iter().zip(axes) {
                 let bin = index as usize & (MOST - 1);
                 f32x8::load_array_ref(simd, &bounds[bin]).max(lanes).store_array(&mut bounds[bin]);
                 counts[bin] += 1;
             }
         }
-        bins
     }
 
     /// Both together; they must have been sorted by the same run.

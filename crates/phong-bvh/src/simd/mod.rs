@@ -2,6 +2,9 @@
 
 #![expect(unsafe_code, reason = "each block says why it is sound, and NOTES.md what it brings")]
 
+mod pages;
+
+pub(crate) use self::pages::Rows;
 use crate::node8::Row;
 
 /// Asks for the rows of the node or leaf at `row`, before they are needed.

@@ -8,7 +8,7 @@ use fearless_simd::{Simd, prelude::*};
 use super::{Best, World};
 use crate::{
     Geometry, Ray,
-    node8::{Kind, Ref, rows},
+    node8::{Kind, Ref, Row, rows},
     primitives::{
         sphere::{self, Closest, Closest8},
         triangle::{self, Shear, Shear8},
@@ -67,7 +67,18 @@ impl<S: Simd> Leaves<S> for Triangles<S> {
 
     #[inline(always)]
     fn offer(&self, simd: S, world: &World<'_>, _: &Ray, leaf: Ref, best: &mut Best) {
-        let block = rows(world.rows, leaf.row());
+        self.offer_block(simd, rows(world.rows, leaf.row()), best);
+    }
+
+    #[inline(always)]
+    fn any(&self, simd: S, world: &World<'_>, _: &Ray, leaf: Ref) -> bool {
+        self.any_block(simd, rows(world.rows, leaf.row()))
+    }
+}
+
+impl<S: Simd> Triangles<S> {
+    #[inline(always)]
+    fn offer_block(&self, simd: S, block: &[Row; triangle::BLOCK], best: &mut Best) {
         let mut mask = self.shear8.filter(simd, block);
         while mask != 0 {
             let lane = mask.trailing_zeros() as usize;
@@ -82,8 +93,7 @@ impl<S: Simd> Leaves<S> for Triangles<S> {
     }
 
     #[inline(always)]
-    fn any(&self, simd: S, world: &World<'_>, _: &Ray, leaf: Ref) -> bool {
-        let block = rows(world.rows, leaf.row());
+    fn any_block(&self, simd: S, block: &[Row; triangle::BLOCK]) -> bool {
         let mut mask = self.shear8.filter(simd, block);
         while mask != 0 {
             let lane = mask.trailing_zeros() as usize;
@@ -151,6 +161,9 @@ impl<S: Simd> Leaves<S> for Mixed<S> {
                     best.offer(t, prim, 0.0, 0.0);
                 }
             }
+            Some(Kind::Indexed) => {
+                self.triangles.offer_block(simd, &gather(world, leaf), best);
+            }
             None => {}
         }
     }
@@ -161,6 +174,7 @@ impl<S: Simd> Leaves<S> for Mixed<S> {
             Some(Kind::Triangles) => self.triangles.any(simd, world, ray, leaf),
             Some(Kind::Spheres) => self.spheres.any(simd, world, ray, leaf),
             Some(Kind::Solid) => solid(world, ray, leaf).0.is_some(),
+            Some(Kind::Indexed) => self.triangles.any_block(simd, &gather(world, leaf)),
             None => false,
         }
     }
@@ -175,4 +189,26 @@ fn solid(world: &World<'_>, ray: &Ray, leaf: Ref) -> (Option<f32>, u32) {
         _ => None,
     };
     (t, row.bits(0))
+}
+
+/// The block of triangles that a leaf names. Unused lanes repeat the first, with no number.
+fn gather(world: &World<'_>, leaf: Ref) -> [Row; triangle::BLOCK] {
+    let [locals, geometries]: &[Row; 2] = rows(world.rows, leaf.row());
+    let mut block = [Row::ZERO; triangle::BLOCK];
+    for lane in 0..8 {
+        let used = locals.bits(lane) != u32::MAX;
+        let from = if used { lane } else { 0 };
+        let (local, index) = (locals.bits(from) as usize, geometries.bits(from) as usize);
+        if let Geometry::Triangles { positions, indices } = &world.geometry[index] {
+            for (corner, &vertex) in indices[local].iter().enumerate() {
+                let [x, y, z] = positions[vertex as usize].to_array();
+                block[3 * corner].0[lane] = x;
+                block[3 * corner + 1].0[lane] = y;
+                block[3 * corner + 2].0[lane] = z;
+            }
+        }
+        let prim = if used { world.first[index] + local as u32 } else { u32::MAX };
+        block[triangle::BLOCK - 1].0[lane] = f32::from_bits(prim);
+    }
+    block
 }

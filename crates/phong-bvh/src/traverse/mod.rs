@@ -28,13 +28,22 @@ pub(crate) struct World<'a> {
     root: Option<Ref>,
     only: Option<Kind>,
     geometry: &'a [Geometry],
+    /// First primitive number of each geometry.
+    first: &'a [u32],
     token: Token,
 }
 
 impl<'a> World<'a> {
     /// The world of a tree.
-    pub(crate) fn new(tree: &'a Tree, geometry: &'a [Geometry], token: Token) -> Self {
-        Self { rows: &tree.rows, root: tree.root, only: tree.only, geometry, token }
+    #[inline(always)]
+    pub(crate) fn new(
+        tree: &'a Tree,
+        geometry: &'a [Geometry],
+        first: &'a [u32],
+        token: Token,
+    ) -> Self {
+        let (rows, root, only) = (tree.rows.as_slice(), tree.root, tree.only);
+        Self { rows, root, only, geometry, first, token }
     }
 
     /// The closest hit of a ray, given the best outside the tree.
