@@ -67,6 +67,17 @@ pub(super) struct Indices {
     pub(super) relative: Vec<u32>,
 }
 
+impl Indices {
+    /// Appends a triangle behind `count` others, none of which may have had an index of this kind.
+    #[inline]
+    fn push(&mut self, count: usize, triangle: [u32; 3]) {
+        if self.triangles.len() < count {
+            self.triangles.resize(count, [NO_INDEX; 3]);
+        }
+        self.triangles.push(triangle);
+    }
+}
+
 /// Where a face stands, and what stands before it in its block.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Mark {
@@ -264,28 +275,48 @@ impl Block {
         self.corners = corners;
     }
 
-    /// Takes a face of three positions counted from the file's beginning, which most are; leaves
-    /// any other to be read at leisure.
+    /// Takes a triangle whose indices all count from the file's beginning, as most do; leaves any
+    /// other face to be read at leisure.
     #[inline]
     fn plain_triangle(&mut self, cursor: &mut Cursor<'_>) -> bool {
         let mut ahead = cursor.clone();
-        let mut triangle = [0; 3];
-        for index in &mut triangle {
-            let (mut value, mut digits) = (0, 0);
-            let more = ahead.more();
-            ahead.skip(take_digits(ahead.rest(), 0, &mut value, &mut digits));
-            if !more || !(1..10).contains(&digits) || value == 0 || !ahead.ends_word(ahead.at()) {
+        let mut triangle = [[NO_INDEX; 3]; 3];
+        for corner in 0..3 {
+            if !ahead.more() {
                 return false;
             }
-            *index = value as u32 - 1;
+            let text = ahead.rest();
+            let mut at = 0;
+            for (kind, indices) in triangle.iter_mut().enumerate() {
+                let (mut value, mut digits) = (0, 0);
+                at = take_digits(text, at, &mut value, &mut digits);
+                // The first index must be there.
+                if digits > 9 || (value == 0 && (digits > 0 || kind == 0)) {
+                    return false;
+                }
+                // Where there is none, 0 − 1 is what says so.
+                indices[corner] = (value as u32).wrapping_sub(1);
+                if kind == 2 || text.get(at) != Some(&b'/') {
+                    break;
+                }
+                at += 1;
+            }
+            ahead.skip(at);
+            if !ahead.ends_word(ahead.at()) {
+                return false;
+            }
         }
-        let [positions, uvs, normals] = &mut self.indices;
-        let plain = !ahead.more() && uvs.triangles.is_empty() && normals.triangles.is_empty();
-        if plain {
-            positions.triangles.push(triangle);
-            *cursor = ahead;
+        if ahead.more() {
+            return false;
         }
-        plain
+        *cursor = ahead;
+        let count = self.indices[0].triangles.len();
+        for (indices, triangle) in self.indices.iter_mut().zip(triangle) {
+            if triangle != [NO_INDEX; 3] || !indices.triangles.is_empty() {
+                indices.push(count, triangle);
+            }
+        }
+        true
     }
 
     #[inline]
@@ -296,9 +327,6 @@ impl Block {
             if wanted == [NONE; 3] && indices.triangles.is_empty() {
                 // Most files leave a kind out altogether; it costs nothing until one does not.
                 continue;
-            }
-            if indices.triangles.len() < count {
-                indices.triangles.resize(count, [NO_INDEX; 3]);
             }
             let triangle = [0, 1, 2].map(|i| {
                 let index = wanted[i];
@@ -311,7 +339,7 @@ impl Block {
                     _ => index.min(i64::from(BAD_INDEX)) as u32,
                 }
             });
-            indices.triangles.push(triangle);
+            indices.push(count, triangle);
         }
     }
 
