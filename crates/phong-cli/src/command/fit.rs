@@ -1,11 +1,14 @@
 //! `phong fit`: one model matched to another.
 
 use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
 
+use phong::fit::plot::svg;
 use phong::fit::{Fit, FitError, Lobe, Model, fit, hold};
 use serde_json::{Value as Json, json};
 
 use crate::failure::Failure;
+use crate::output::Output;
 use crate::report;
 
 const ABOUT: &str = "\
@@ -29,7 +32,8 @@ Examples:
   phong fit phong:32 blinn-phong          about four times, but only in the plane of incidence
   phong fit mtl:200 gltf                  a roughness for an old material
   phong fit phong:32 blinn-phong:128      how good the rule of thumb is
-  phong fit ggx:0.3 phong --json";
+  phong fit ggx:0.3 phong --json
+  phong fit mtl:60 gltf --plot fit.svg    # both lobes, and a ball in both models";
 
 /// The exponent or roughness with which model B best matches model A, with the residual
 #[derive(Debug, clap::Args)]
@@ -46,11 +50,23 @@ pub(crate) struct Args {
     /// One JSON object on standard output
     #[arg(long)]
     json: bool,
+
+    /// Draw both lobes, and a ball on a floor in both models, as SVG; - is standard output, and
+    /// then nothing else goes there
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let output = args.plot.as_deref().map(Output::create).transpose()?;
     let found = find(&args.from, &args.to).map_err(|error| trouble(&error))?;
-    if args.json {
+    if let Some(mut output) = output {
+        output.write(|out| out.write_all(svg(&found).as_bytes()))?;
+        Output::commit(vec![output])?;
+    }
+    if args.plot.as_deref() == Some(Path::new("-")) {
+        Ok(())
+    } else if args.json {
         report::json(&as_json(&found))
     } else {
         report::data(as_text(&found, !args.to.contains(':')).as_bytes())
