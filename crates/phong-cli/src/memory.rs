@@ -2,6 +2,8 @@
 
 use std::fs;
 
+use phong_bvh::{Bvh, Geometry};
+
 /// The most bytes this process has held at once; `None` where the system does not say.
 pub(crate) fn peak() -> Option<u64> {
     kilobytes("/proc/self/status", "VmHWM:")
@@ -18,6 +20,19 @@ fn kilobytes(file: &str, key: &str) -> Option<u64> {
     let text = fs::read_to_string(file).ok()?;
     let rest = text.lines().find_map(|line| line.strip_prefix(key))?;
     rest.trim().trim_end_matches(" kB").parse::<u64>().ok().map(|kilobytes| kilobytes << 10)
+}
+
+/// Bytes that a hierarchy takes, its geometry included.
+pub(crate) fn of_hierarchy(bvh: &Bvh) -> u64 {
+    let bytes = |geometry: &Geometry| match geometry {
+        Geometry::Triangles { positions, indices } => {
+            size_of_val(&positions[..]) + size_of_val(&indices[..])
+        }
+        Geometry::Spheres(all) => size_of_val(&all[..]),
+        Geometry::Plane(plane) => size_of_val(plane),
+        Geometry::Solid(solid) => size_of_val(solid),
+    };
+    bvh.stats().bytes + bvh.geometry().iter().map(bytes).sum::<usize>() as u64
 }
 
 /// A number of bytes for people.

@@ -27,9 +27,13 @@ pub(crate) fn diagnostics(all: &[Diagnostic]) {
 
 /// One error that is at no place in a file.
 pub(crate) fn error(message: &str, help: Option<&str>) {
-    let mut groups = vec![Group::with_title(Level::ERROR.primary_title(message))];
-    groups.extend(help.map(|help| Group::with_title(Level::HELP.secondary_title(help))));
-    write_stderr(&format!("{}\n", renderer().render(&groups)));
+    let renderer = renderer();
+    let error = Group::with_title(Level::ERROR.primary_title(message));
+    let help = help.map(|help| Group::with_title(Level::HELP.secondary_title(help)));
+    // Drawn one by one: together they would be joined by a bar, as if there were a source.
+    for group in [Some(error), help].into_iter().flatten() {
+        write_stderr(&format!("{}\n", renderer.render(&[group])));
+    }
 }
 
 /// A line of talk.

@@ -39,24 +39,11 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let started = Instant::now();
     let scene = compile(input.scene, &args.input, 0)?;
     let build_seconds = started.elapsed().as_secs_f64();
-    let Stats { primitives, nodes, bytes } = scene.bvh().stats();
-    let (mut triangles, mut spheres) = (0, 0);
-    let mut geometry_bytes = 0;
-    for geometry in scene.bvh().geometry() {
-        geometry_bytes += match geometry {
-            Geometry::Triangles { positions, indices } => {
-                triangles += indices.len();
-                size_of_val(&positions[..]) + size_of_val(&indices[..])
-            }
-            Geometry::Spheres(all) => {
-                spheres += all.len();
-                size_of_val(&all[..])
-            }
-            Geometry::Plane(plane) => size_of_val(plane),
-            Geometry::Solid(solid) => size_of_val(solid),
-        } as u64;
-    }
-    let total = bytes + geometry_bytes;
+    let Stats { primitives, nodes, .. } = scene.bvh().stats();
+    let bytes = memory::of_hierarchy(scene.bvh());
+    let count = |of: fn(&Geometry) -> usize| scene.bvh().geometry().iter().map(of).sum::<usize>();
+    let triangles = count(|g| if matches!(g, Geometry::Triangles { .. }) { g.len() } else { 0 });
+    let spheres = count(|g| if matches!(g, Geometry::Spheres(_)) { g.len() } else { 0 });
     std::mem::forget(scene);
     if args.json {
         return report::json(&json!({
@@ -69,7 +56,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             "material_names": names,
             "bounds": bounds,
             "nodes": nodes,
-            "bytes": total,
+            "bytes": bytes,
             "build_seconds": build_seconds,
             "peak_bytes": memory::peak(),
         }));
@@ -86,7 +73,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     line("lights", lights.to_string());
     line("materials", format!("{}: {}", names.len(), shortened(&names)));
     line("bounds", bounds.map_or("none".to_owned(), |[min, max]| format!("{min:?} to {max:?}")));
-    line("memory", readable(total));
+    line("memory", readable(bytes));
     line("build", format!("{build_seconds:.3} s"));
     report::data(text.as_bytes())
 }

@@ -1,0 +1,218 @@
+//! The same picture, however it is asked for.
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+mod support;
+
+use std::fs;
+use std::io::Write;
+use std::process::Stdio;
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use support::{BALLS, Given, Then, given};
+
+fn balls() -> Given {
+    given(&[("a.toml", BALLS)])
+}
+
+fn png_size(bytes: &[u8]) -> (u32, u32) {
+    let reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
+    (reader.info().width, reader.info().height)
+}
+
+#[test]
+fn a_picture_is_named_after_its_scene() {
+    let folder = balls();
+    let then = folder.done("render a.toml");
+    assert_eq!((then.out.len(), then.err.as_str()), (0, ""));
+    assert_eq!(folder.names(), ["a.png", "a.toml"]);
+    assert_eq!(png_size(&folder.bytes("a.png")), (40, 30));
+}
+
+#[test]
+fn standard_output_gets_the_very_file() {
+    let folder = balls();
+    for (extension, format) in
+        [("png", ""), ("pfm", "--output-format pfm"), ("exr", "--output-format exr")]
+    {
+        folder.done(&format!("render a.toml -o b.{extension}"));
+        let then = folder.done(&format!("render a.toml -o - {format}"));
+        assert_eq!(then.out, folder.bytes(&format!("b.{extension}")), "{extension}");
+    }
+}
+
+#[test]
+fn a_scene_comes_from_standard_input() {
+    let folder = balls();
+    folder.done("render a.toml");
+    let mut command = folder.command("render - --format toml -o b.png");
+    let mut child = command.stdin(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    child.stdin.take().unwrap().write_all(BALLS.as_bytes()).unwrap();
+    assert_eq!(Then::of(child.wait_with_output().unwrap()).code, Some(0));
+    assert_eq!(folder.bytes("a.png"), folder.bytes("b.png"));
+}
+
+#[test]
+fn a_crop_has_the_size_of_the_crop_and_the_pixels_of_the_whole() {
+    let folder = balls();
+    folder.done("render a.toml -o whole.pfm");
+    folder.done("render a.toml -o part.pfm --crop 3,5,20,17");
+    let picture = |name| phong::image::Picture::read(&folder.bytes(name)).unwrap();
+    let (whole, part) = (picture("whole.pfm"), picture("part.pfm"));
+    assert_eq!(part.size, [17, 12]);
+    for (c, (whole, part)) in whole.planes.iter().zip(&part.planes).enumerate() {
+        for (i, value) in part.values.iter().enumerate() {
+            let (x, y) = (3 + i % 17, 5 + i / 17);
+            assert_eq!(*value, whole.values[40 * y + x], "channel {c} at {x}, {y}");
+        }
+    }
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_bytes() {
+    let folder = balls();
+    for threads in [1, 2, 7] {
+        folder.done(&format!("render a.toml --threads {threads} -o {threads}.exr --terms"));
+    }
+    assert_eq!(folder.bytes("1.exr"), folder.bytes("2.exr"));
+    assert_eq!(folder.bytes("1.exr"), folder.bytes("7.exr"));
+}
+
+#[test]
+fn shares_merge_to_the_very_bytes_of_the_whole() {
+    let folder = balls();
+    let how = "--bits 16 --exposure -0.5 --aov depth";
+    folder.done(&format!("render a.toml -o whole.png {how}"));
+    for i in 0..3 {
+        folder.done(&format!("render a.toml -o {i}.part --tile {i}/3 {how}"));
+    }
+    folder.done("merge 2.part 0.part 1.part -o merged.png");
+    assert_eq!(folder.bytes("whole.png"), folder.bytes("merged.png"));
+    assert_eq!(folder.bytes("whole.depth.png"), folder.bytes("merged.depth.png"));
+
+    folder.when("merge 0.part 2.part -o b.png").is_refused(&["share 1/3 is missing"]);
+    folder.when("merge 0.part 0.part -o b.png").is_refused(&["0.part", "both are share 0/3"]);
+    folder.done(&format!("render a.toml -o other.part --tile 1/3 --samples 5 {how}"));
+    folder.when("merge 0.part other.part -o b.png").is_refused(&["samples is 4 and 5"]);
+    folder.when("merge 0.part a.toml -o b.png").is_refused(&["a.toml", "no part file"]);
+    folder.when("merge 0.part 1.part 2.part -o 1.part --output-format png").is_refused(&["over"]);
+    assert!(!folder.path("b.png").exists());
+}
+
+#[test]
+fn layers_lie_beside_the_picture_or_in_it() {
+    let folder = balls();
+    folder.done("render a.toml --terms --aov normal,depth,normal -o x.png");
+    let names = folder.names().join(" ");
+    let beside = "a.toml x.ambient.png x.background.png x.depth.png x.diffuse.png x.normal.png \
+                  x.png x.reflection.png x.specular.png x.transmission.png";
+    assert_eq!(names, beside);
+    let folder = balls();
+    folder.done("render a.toml --terms --aov normal -o x.exr");
+    assert_eq!(folder.names(), ["a.toml", "x.exr"]);
+}
+
+#[test]
+fn json_tells_what_was_done() {
+    let folder = balls();
+    let told = folder.done("render a.toml --json --crop 0,0,20,30 --threads 1").json();
+    assert_eq!(told["output"], "a.png");
+    assert_eq!(told["size"], serde_json::json!([20, 30]));
+    assert_eq!((&told["samples"], &told["threads"]), (&4.into(), &1.into()));
+    assert_eq!(told["rays"]["primary"], 20 * 30 * 4);
+    for stage in ["read", "build", "trace", "write", "total"] {
+        assert!(told["seconds"][stage].as_f64().unwrap() >= 0.0, "{stage}");
+    }
+    assert!(told["warnings"].as_array().unwrap().is_empty());
+    let told = folder.done("info a.toml --json").json();
+    let counts = ["format", "triangles", "spheres", "primitives", "lights", "materials", "bytes"];
+    assert!(counts.iter().all(|key| !told[key].is_null()), "{told}");
+    assert_eq!((&told["spheres"], &told["primitives"]), (&1.into(), &2.into()));
+    let told = folder.done("bench a.toml --json").json();
+    for kind in ["primary", "shadow", "secondary"] {
+        assert!(told["rays_per_second"][kind].as_f64().unwrap() > 0.0, "{kind}");
+    }
+    assert!(told["bytes_per_primitive"].as_f64().unwrap() > 0.0);
+}
+
+#[cfg(unix)]
+#[test]
+fn links_are_written_through_and_devices_stay_devices() {
+    use std::os::unix::fs::FileTypeExt;
+    let folder = balls();
+    fs::write(folder.path("real.png"), b"old").unwrap();
+    std::os::unix::fs::symlink("real.png", folder.path("link.png")).unwrap();
+    folder.done("render a.toml -o link.png");
+    assert!(folder.path("link.png").is_symlink());
+    assert_eq!(png_size(&folder.bytes("real.png")), (40, 30));
+    folder.done("render a.toml -o /dev/null --output-format exr");
+    assert!(fs::metadata("/dev/null").unwrap().file_type().is_char_device());
+}
+
+#[test]
+fn compare_answers_with_numbers_and_an_exit_code() {
+    let folder = balls();
+    folder.done("render a.toml -o a.png");
+    folder.done("render a.toml -o b.png --no-shadows");
+    folder.done("render a.toml -o small.png --size 20x30");
+    assert_eq!(folder.done("compare a.png a.png --json").json()["max"], 0.0);
+    let then = folder.when("compare a.png b.png --json --diff d.png");
+    assert_eq!(then.code, Some(1));
+    let max = then.json()["max"].as_f64().unwrap();
+    assert!(max > 0.1);
+    assert_eq!(png_size(&folder.bytes("d.png")), (40, 30));
+    folder.done(&format!("compare a.png b.png --tolerance {max}"));
+    folder.when("compare a.png small.png").is_refused(&["40x30", "20x30"]);
+}
+
+/// A render that takes some seconds; it runs until its checkpoint is there, then is interrupted.
+#[cfg(target_os = "linux")]
+fn interrupted(folder: &Given, words: &str, until: &str) -> Then {
+    let mut command = folder.command(words);
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let begun = Instant::now();
+    while !folder.names().iter().any(|name| name.ends_with(until)) {
+        assert!(begun.elapsed() < Duration::from_mins(1), "no {until}: {:?}", folder.names());
+        sleep(Duration::from_millis(5));
+    }
+    let kill = format!("kill -INT {}", child.id());
+    assert!(std::process::Command::new("sh").args(["-c", &kill]).status().unwrap().success());
+    Then::of(child.wait_with_output().unwrap())
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn an_interrupted_render_leaves_nothing_behind() {
+    let folder = balls();
+    let words = "render a.toml --size 2000x2000 --samples 1024 --terms";
+    let then = interrupted(&folder, words, ".tmp");
+    assert_eq!(then.code, Some(130), "{}", then.err);
+    assert_eq!(folder.names(), ["a.toml"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn an_interrupted_render_goes_on_to_the_same_bytes() {
+    let folder = balls();
+    let words = "render a.toml --size 160x120 --samples 400 --threads 1";
+    let then = interrupted(&folder, &format!("{words} --resume -o r.png"), "r.png.part");
+    assert_eq!(then.code, Some(130), "{}", then.err);
+    assert_eq!(folder.names(), ["a.toml", "r.png.part"]);
+
+    let other = format!("{words} --resume -o r.png --seed 7");
+    folder.when(&other).is_refused(&["r.png.part", "seed is 0, not 7", "remove it"]);
+
+    let told = folder.done(&format!("{words} --resume -o r.png --json")).json();
+    assert!(told["rays"]["primary"].as_u64().unwrap() < 160 * 120 * 400, "it began anew");
+    folder.done(&format!("{words} -o w.png"));
+    assert_eq!(folder.bytes("r.png"), folder.bytes("w.png"));
+    assert_eq!(folder.names(), ["a.toml", "r.png", "w.png"]);
+}
+
+#[test]
+fn a_damaged_checkpoint_is_refused_and_kept() {
+    let folder = balls();
+    fs::write(folder.path("a.png.part"), b"phong part 1\nrubbish\n\n").unwrap();
+    folder.when("render a.toml --resume").is_refused(&["a.png.part", "damaged", "remove it"]);
+    assert_eq!(folder.names(), ["a.png.part", "a.toml"]);
+}
