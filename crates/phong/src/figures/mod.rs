@@ -17,6 +17,7 @@ mod blinn;
 mod cosine;
 mod diffuse;
 mod drawing;
+mod examples;
 mod grid;
 mod halfway;
 mod index;
@@ -49,7 +50,7 @@ pub struct Entry {
 }
 
 /// All figures, in the lecture's order.
-pub const CATALOGUE: [Entry; 13] = [
+pub const CATALOGUE: [Entry; 14] = [
     Entry { name: "normal", line: "the normal of a sphere, n = p − c", draw: normal::draw },
     Entry {
         name: "vectors",
@@ -86,6 +87,7 @@ pub const CATALOGUE: [Entry; 13] = [
         draw: blinn::draw,
     },
     Entry { name: "terms", line: "ambient + diffuse + specular = Phong", draw: terms::draw },
+    Entry { name: "examples", line: "the model at work: four scenes", draw: examples::draw },
     Entry {
         name: "microfacets",
         line: "tiny mirrors, and the lobe they add up to",
