@@ -9,7 +9,7 @@ use phong::part::{self, Settings};
 use phong::render::RenderOptions;
 use phong_scene::Scene;
 
-use crate::args::{self, EncodingArgs, OutputFormat};
+use crate::args::{self, EncodingArgs, OutputFormat, ViewArgs};
 use crate::command::render::{Args, ImageArgs};
 use crate::failure::Failure;
 use crate::input::{self, Input};
@@ -151,31 +151,41 @@ impl Plan {
 
     /// Lays the command line's values over the scene's; the rendering that follows.
     pub(crate) fn settle(&self, args: &Args, input: &mut Input) -> Result<RenderOptions, Failure> {
-        let ImageArgs { size, samples, seed, depth, no_shadows, background, crop } = &args.image;
-        let scene: &mut Scene = &mut input.scene;
-        scene.image.size = size.map_or(scene.image.size, |size| size.0);
-        input::look(scene, input.bare, &args.view)?;
-        let image = &mut scene.image;
-        image.samples = samples.unwrap_or(image.samples);
-        image.seed = seed.unwrap_or(image.seed);
-        image.depth = depth.unwrap_or(image.depth);
-        image.background = background.unwrap_or(image.background);
-        let mut options = RenderOptions::of(image);
-        if let Some(args::Crop { x0, y0, x1, y1 }) = *crop {
-            options.window = Window { x0, y0, x1, y1 };
-            if !options.window.fits(image.size) {
-                let [width, height] = image.size;
-                return Err(Failure::usage(format!(
-                    "--crop {x0},{y0},{x1},{y1} reaches out of the picture, which is {width}x{height}"
-                )));
-            }
-        }
-        options.shadows = !no_shadows;
+        let mut options = settle(&args.image, &args.view, input)?;
         options.share = self.share;
         options.terms = self.terms;
         options.aovs.clone_from(&self.aovs);
         Ok(options)
     }
+}
+
+/// Lays the command line's values over the scene's.
+pub(crate) fn settle(
+    args: &ImageArgs,
+    view: &ViewArgs,
+    input: &mut Input,
+) -> Result<RenderOptions, Failure> {
+    let ImageArgs { size, samples, seed, depth, no_shadows, background, crop } = args;
+    let scene: &mut Scene = &mut input.scene;
+    scene.image.size = size.map_or(scene.image.size, |size| size.0);
+    input::look(scene, input.bare, view)?;
+    let image = &mut scene.image;
+    image.samples = samples.unwrap_or(image.samples);
+    image.seed = seed.unwrap_or(image.seed);
+    image.depth = depth.unwrap_or(image.depth);
+    image.background = background.unwrap_or(image.background);
+    let mut options = RenderOptions::of(image);
+    if let Some(args::Crop { x0, y0, x1, y1 }) = *crop {
+        options.window = Window { x0, y0, x1, y1 };
+        if !options.window.fits(image.size) {
+            let [width, height] = image.size;
+            return Err(Failure::usage(format!(
+                "--crop {x0},{y0},{x1},{y1} reaches out of the picture, which is {width}x{height}"
+            )));
+        }
+    }
+    options.shadows = !no_shadows;
+    Ok(options)
 }
 
 /// How the command line wants a picture written.

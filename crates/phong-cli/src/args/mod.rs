@@ -47,7 +47,7 @@ pub(crate) struct Cli {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     Render(Box<command::render::Args>),
-    Explain(command::explain::Args),
+    Explain(Box<command::explain::Args>),
     Figure(command::figure::Args),
     Eval(command::eval::Args),
     Fit(command::fit::Args),

@@ -81,7 +81,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     if same { Ok(()) } else { Err(Failure::No) }
 }
 
-fn read(path: &Path) -> Result<Picture, Failure> {
+pub(crate) fn read(path: &Path) -> Result<Picture, Failure> {
     let at_fault = |why: String| Failure::usage(format!("{}: {why}", path.display()));
     let bytes = fs::read(path).map_err(|error| at_fault(error.to_string()))?;
     Picture::read(&bytes).map_err(|error| at_fault(error.to_string()))

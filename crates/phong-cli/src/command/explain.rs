@@ -1,15 +1,170 @@
 //! `phong explain`: why is this pixel this colour.
 
-use crate::args::Anything;
+use std::io::{self, Cursor};
+use std::path::{Path, PathBuf};
+
+use phong::compile::CompiledScene;
+use phong::explain::html::{MAX_PIXELS, page};
+use phong::explain::{Explanation, explain};
+use phong::film::{LayerKind, Window};
+use phong::image::{self, Content, Encoding, Format};
+use phong::render::{Cancel, RenderOptions, render};
+
+use crate::args::{InputArgs, ViewArgs};
+use crate::command::render::ImageArgs;
+use crate::compile::compile;
 use crate::failure::Failure;
+use crate::memory::readable;
+use crate::output::Output;
+use crate::{input, plan, report};
+
+const EXAMPLES: &str = "\
+Examples:
+  phong explain scene.toml 480 270                 the equation with the pixel's numbers put in
+  phong explain scene.toml 480 270 --samples 1     the ray through the pixel's centre alone
+  phong explain scene.toml 480 270 --json | jq .linear
+  phong explain scene.toml 480 270 --svg vectors.svg
+  phong explain scene.toml --html page.html        every pixel, on one offline page to click in
+
+X runs to the right and Y down from 0, 0 at the upper left.";
 
 /// Why is this pixel this colour: every vector, term, shadow test and ray, with numbers
 #[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
     #[command(flatten)]
-    _anything: Anything,
+    pub(crate) input: InputArgs,
+
+    /// Column of the pixel, from 0 at the left
+    #[arg(required_unless_present = "html", requires = "y")]
+    pub(crate) x: Option<u32>,
+
+    /// Row of the pixel, from 0 at the top
+    pub(crate) y: Option<u32>,
+
+    /// One JSON object on standard output
+    #[arg(long, conflicts_with = "latex")]
+    pub(crate) json: bool,
+
+    /// A LaTeX document on standard output
+    #[arg(long)]
+    pub(crate) latex: bool,
+
+    /// Draw the vectors at the point, in the plane of incidence and in space
+    #[arg(long, value_name = "FILE", requires = "x")]
+    pub(crate) svg: Option<PathBuf>,
+
+    /// Write one offline page that explains every pixel; one sample a pixel and a small size
+    /// unless --samples and --size say otherwise
+    #[arg(long, value_name = "FILE")]
+    pub(crate) html: Option<PathBuf>,
+
+    /// Which sample to tell in full, from 1 [default: the first; text tells all of up to 2]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) sample: Option<u32>,
+
+    /// Tell mirror and glass rays too that bring less than half a level
+    #[arg(long)]
+    pub(crate) full: bool,
+
+    #[command(flatten)]
+    pub(crate) image: ImageArgs,
+
+    #[command(flatten)]
+    pub(crate) view: ViewArgs,
 }
 
-pub(crate) fn run(_args: &Args) -> Result<(), Failure> {
-    Err(Failure::not_yet("phong explain"))
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let mut svg = args.svg.as_deref().map(Output::create).transpose()?;
+    let mut html = args.html.as_deref().map(Output::create).transpose()?;
+    let mut input = input::open(&args.input, false)?;
+    let mut options = plan::settle(&args.image, &args.view, &mut input)?;
+    if let Some(sample) = args.sample.filter(|&sample| sample > options.samples) {
+        let samples = options.samples;
+        return Err(Failure::usage(format!("--sample {sample}: the pixel has {samples} samples")));
+    }
+    let scene = compile(input.scene, &args.input, 0)?;
+    if let (Some(x), Some(y)) = (args.x, args.y) {
+        let told = explain(&scene, &options, [x, y]).map_err(|outside| {
+            let [width, height] = outside.size;
+            Failure::usage(outside.to_string()).with_help(format!(
+                "x is from 0 to {}, y from 0 to {}",
+                width - 1,
+                height - 1
+            ))
+        })?;
+        if let Some(output) = &mut svg {
+            let drawing = told.svg(chosen(args)).ok_or_else(|| {
+                Failure::usage("--svg: the ray meets nothing, so there are no vectors to draw")
+            })?;
+            output.write(|out| io::Write::write_all(out, drawing.as_bytes()))?;
+        }
+        tell(args, &told)?;
+    }
+    if let (Some(output), Some(path)) = (&mut html, &args.html) {
+        write_page(args, &scene, &mut options, output, path)?;
+    }
+    Output::commit(svg.into_iter().chain(html).collect())
+}
+
+/// The sample to tell in full, from 0.
+fn chosen(args: &Args) -> usize {
+    args.sample.map_or(0, |sample| sample as usize - 1)
+}
+
+fn tell(args: &Args, told: &Explanation) -> Result<(), Failure> {
+    if args.json {
+        return report::json(&told.json());
+    }
+    if args.latex {
+        return report::data(told.latex(chosen(args)).as_bytes());
+    }
+    let all = told.samples.len() <= 2 && args.sample.is_none();
+    let mut text = told.text((!all).then(|| chosen(args)), args.full);
+    if !all && args.sample.is_none() {
+        text.push_str(
+            "\n(told in full: sample 1; --sample N tells another, --samples 1 the centre)\n",
+        );
+    }
+    report::data(text.as_bytes())
+}
+
+fn write_page(
+    args: &Args,
+    scene: &CompiledScene,
+    options: &mut RenderOptions,
+    output: &mut Output,
+    path: &Path,
+) -> Result<(), Failure> {
+    options.samples = args.image.samples.unwrap_or(1);
+    let [width, height] = options.size;
+    let pixels = f64::from(width) * f64::from(height);
+    if pixels > f64::from(MAX_PIXELS) {
+        if args.image.size.is_some() {
+            return Err(Failure::usage(format!(
+                "--html: {width} × {height} pixels are more than the {MAX_PIXELS} a page can hold"
+            ))
+            .with_help("give a smaller --size"));
+        }
+        let shrink = (f64::from(MAX_PIXELS) / 2.0 / pixels).sqrt();
+        options.size = [width, height].map(|n| ((f64::from(n) * shrink) as u32).max(1));
+    }
+    options.window = Window::full(options.size);
+    let cancel = Cancel::new();
+    let cancelled = |cancelled: phong::render::Cancelled| Failure::System(cancelled.to_string());
+    let film = render(scene, options, &|_, _| {}, &cancel).map_err(cancelled)?.film;
+    let mut png = Cursor::new(Vec::new());
+    let picture = Content::Layer(LayerKind::Picture);
+    image::write(&film, picture, Format::Png, &Encoding::default(), &mut png)
+        .map_err(|error| Failure::System(error.to_string()))?;
+    let title = input::stem(&args.input.input);
+    let html = page(scene, options, &title, png.get_ref(), &|_| {}, &cancel).map_err(cancelled)?;
+    output.write(|out| io::Write::write_all(out, html.as_bytes()))?;
+    let [width, height] = options.size;
+    report::say(&format!(
+        "{}: {width} × {height} pixels explained in {}",
+        path.display(),
+        readable(html.len() as u64)
+    ));
+    Ok(())
 }

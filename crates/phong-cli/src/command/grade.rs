@@ -1,15 +1,139 @@
 //! `phong grade`: somebody else's rendering held against ours.
 
-use crate::args::Anything;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use phong::grade::{Grade, MISTAKES, grade};
+use serde_json::{Value, json};
+
+use super::compare;
+use crate::args::InputArgs;
 use crate::failure::Failure;
+use crate::{input, report};
+
+const EXAMPLES: &str = "\
+Examples:
+  phong grade scene.toml mine.png
+  phong grade scene.toml */picture.png --json
+
+Give the scene the size of the pictures; one sample a pixel, through its centre, is expected, but
+pixels at edges are left out, so smoothed edges do no harm. Exit code 0: every picture passes; 1:
+one does not; 2: no comparison is possible.";
 
 /// Hold somebody else's rendering against ours, term by term: names the term that is wrong
 #[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES, after_long_help = causes())]
 pub(crate) struct Args {
     #[command(flatten)]
-    _anything: Anything,
+    pub(crate) input: InputArgs,
+
+    /// Pictures of the scene (.png .pfm .exr), drawn by another program
+    #[arg(required = true, value_name = "IMAGE")]
+    pub(crate) images: Vec<PathBuf>,
+
+    /// One JSON object on standard output
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
-pub(crate) fn run(_args: &Args) -> Result<(), Failure> {
-    Err(Failure::not_yet("phong grade"))
+/// The examples, and the list of causes.
+fn causes() -> String {
+    let mut text = format!("{EXAMPLES}\n\nCauses:\n");
+    for mistake in MISTAKES {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "  {:<24} {}", mistake.cause, mistake.says);
+    }
+    text
+}
+
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let pictures =
+        args.images.iter().map(|path| compare::read(path)).collect::<Result<Vec<_>, Failure>>()?;
+    let scene = input::open(&args.input, false)?.scene;
+    let mut answers = Vec::new();
+    let mut all_pass = true;
+    for (path, picture) in args.images.iter().zip(&pictures) {
+        let graded = grade(&scene, picture).map_err(|error| {
+            let failure = Failure::usage(format!("{}: {error}", path.display()));
+            failure.with_help("grade takes pictures of the scene's own size")
+        })?;
+        all_pass &= graded.pass;
+        if args.json {
+            answers.push(as_json(path, &graded));
+        } else {
+            report::data(as_text(path, &graded).as_bytes())?;
+        }
+    }
+    if args.json {
+        match <[Value; 1]>::try_from(answers) {
+            Ok([answer]) => report::json(&answer)?,
+            Err(answers) => report::json(&json!({ "pass": all_pass, "images": answers }))?,
+        }
+    }
+    if all_pass { Ok(()) } else { Err(Failure::No) }
+}
+
+fn as_json(path: &Path, graded: &Grade) -> Value {
+    let candidates: Vec<Value> = graded
+        .candidates
+        .iter()
+        .map(|one| {
+            json!({
+                "cause": one.cause,
+                "says": one.says,
+                "evidence": one.evidence,
+                "rms": one.residual.rms,
+            })
+        })
+        .collect();
+    let terms: serde_json::Map<String, Value> =
+        graded.terms.iter().map(|(name, factor)| ((*name).to_owned(), json!(factor))).collect();
+    json!({
+        "image": path.to_string_lossy(),
+        "verdict": if graded.pass { "pass" } else { "fail" },
+        "cause": graded.cause,
+        "confidence": graded.confidence,
+        "candidates": candidates,
+        "terms": terms,
+        "rms": graded.residual.rms,
+        "worst": { "difference": graded.residual.worst, "at": graded.residual.worst_at },
+        "share_noticed": graded.residual.over,
+        "pixels_compared": graded.residual.pixels,
+    })
+}
+
+fn as_text(path: &Path, graded: &Grade) -> String {
+    let residual = graded.residual;
+    let [x, y] = residual.worst_at;
+    let mut text = format!(
+        "{}: {}\n  differs by {:.2}/255 rms, {:.1}/255 at worst in pixel ({x}, {y}); {:.2} % of {} pixels notably\n",
+        path.display(),
+        if graded.pass { "pass" } else { "fail" },
+        255.0 * residual.rms,
+        255.0 * residual.worst,
+        100.0 * residual.over,
+        residual.pixels,
+    );
+    let mut line = |line: String| {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "  {line}");
+    };
+    let terms: Vec<String> = graded
+        .terms
+        .iter()
+        .filter_map(|(name, factor)| factor.map(|factor| format!("{name} × {factor:.2}")))
+        .collect();
+    line(format!("terms, ours = 1: {}", terms.join(", ")));
+    if graded.pass {
+        return text;
+    }
+    match &graded.cause {
+        Some(cause) => line(format!("cause: {cause} (confidence {:.2})", graded.confidence)),
+        None => line("no known mistake explains it".to_owned()),
+    }
+    for one in &graded.candidates {
+        line(format!("- {}: {}", one.cause, one.says));
+        line(format!("    {}", one.evidence));
+    }
+    text
 }

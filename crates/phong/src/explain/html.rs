@@ -237,7 +237,7 @@ fn in_script(json: &str) -> String {
 }
 
 /// Text that means nothing to HTML.
-fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

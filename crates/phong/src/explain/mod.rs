@@ -8,6 +8,7 @@ pub mod html;
 mod json;
 mod latex;
 mod record;
+mod svg;
 mod text;
 
 use glam::DVec3;
