@@ -137,9 +137,9 @@ impl<'a> World<'a> {
     }
 }
 
-/// Entries a stack can need: a tree is at most [`DEEP`](crate::build) cuts and 32 halvings deep, and
+/// Entries a stack can need: a tree is at most [`DEEP`](crate::build) cuts and 40 halvings deep, and
 /// each node leaves seven children behind.
-const STACK: usize = 7 * (64 + 32);
+const STACK: usize = 7 * (64 + 40);
 
 thread_local! {
     /// Stacks of a thread: clearing one for each ray would cost a tenth of its time.
