@@ -75,10 +75,7 @@ pub(crate) fn surface(bvh: &Bvh, ray: &Ray, hit: &Hit) -> Surface {
             facing(patch, f64::EPSILON * 8.0 * plane.point.abs())
         }
         Geometry::Solid(solid) => {
-            let m = &solid.to_world.matrix3;
-            let size = m.x_axis.abs() + m.y_axis.abs() + m.z_axis.abs();
-            let slack = f64::EPSILON * 64.0 * (size + solid.to_world.translation.abs());
-            facing(solid.patch(ray, hit.t), slack)
+            facing(solid.patch(ray, hit.t), f64::EPSILON * 64.0 * solid.largest())
         }
     }
 }

@@ -69,6 +69,16 @@ impl Solid {
         ]
     }
 
+    /// No less than any coordinate in its parts: what roundings in f64 are relative to.
+    pub(crate) fn largest(&self) -> DVec3 {
+        let radius = match self.shape {
+            Canonical::Cone { radius, radius_to, .. } => radius.max(radius_to).max(1.0),
+            Canonical::Torus { tube } => 1.0 + tube,
+            _ => 1.0,
+        };
+        radius * box_::reach(&self.to_world.matrix3) + self.to_world.translation.abs()
+    }
+
     /// The surface where `ray` meets it at `t`, in world space: of the crossings the one nearest to
     /// `t`, solved again in f64.
     pub(crate) fn patch(&self, ray: &Ray, t: f32) -> Patch {

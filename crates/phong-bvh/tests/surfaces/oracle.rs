@@ -88,6 +88,17 @@ impl Placed {
         (gradient / gradient.length(), gradient.length())
     }
 
+    /// The `t` near that of a hit, which is rounded to f32, at which the sign function is least.
+    pub(crate) fn on_surface(&self, ray: &Ray, t: f64) -> f64 {
+        let (o, d) = (ray.origin.as_dvec3(), ray.dir.as_dvec3());
+        let value = |t: f64| self.side(self.local(o + t * d)).abs();
+        let ulp = f64::from((t as f32).next_up()) - t;
+        (-512..=512)
+            .map(|i| t + ulp * f64::from(i) / 512.0)
+            .min_by(|a, b| value(*a).total_cmp(&value(*b)))
+            .unwrap_or(t)
+    }
+
     /// Every `t` at which the line of `ray` passes the surface, as far as steps of a thousandth of
     /// the solid show.
     pub(crate) fn march(&self, ray: &Ray) -> Vec<f64> {

@@ -30,7 +30,7 @@ fn agrees(placed: &Placed, ray: &Ray) -> Result<(), TestCaseError> {
             prop_assert!(!is_sure(sought), "passed through {sought}, hit {t}");
         }
         (Some(t), _) => {
-            let exact = placed.solid_t(ray, t);
+            let exact = placed.on_surface(ray, t);
             prop_assert!(
                 is_on_surface(placed, at(exact)),
                 "a phantom hit at {t}, not {expected:?}"
@@ -40,23 +40,6 @@ fn agrees(placed: &Placed, ray: &Ray) -> Result<(), TestCaseError> {
         (None, None) => {}
     }
     Ok(())
-}
-
-trait Exact {
-    fn solid_t(&self, ray: &Ray, t: f64) -> f64;
-}
-
-impl Exact for Placed {
-    /// The point near `t` where the sign function is least: a hit's `t` is rounded to f32.
-    fn solid_t(&self, ray: &Ray, t: f64) -> f64 {
-        let value =
-            |t: f64| self.side(self.local(ray.origin.as_dvec3() + t * ray.dir.as_dvec3())).abs();
-        let ulp = f64::from((t as f32).next_up()) - t;
-        (-512..=512)
-            .map(|i| t + ulp * f64::from(i) / 512.0)
-            .min_by(|a, b| value(*a).total_cmp(&value(*b)))
-            .unwrap_or(t)
-    }
 }
 
 proptest! {
@@ -83,7 +66,7 @@ proptest! {
         let hit = bvh.intersect(&ray);
         if hit.is_some() {
             let surface = bvh.surface(&ray, &hit);
-            let exact = placed.solid_t(&ray, f64::from(hit.t));
+            let exact = placed.on_surface(&ray, f64::from(hit.t));
             let p = ray.origin.as_dvec3() + exact * ray.dir.as_dvec3();
             let (normal, _) = placed.normal(p);
             // Differences straddle an edge, an apex: there they are no gradient.
@@ -103,7 +86,7 @@ proptest! {
         let [low, high] = placed.solid.bounds();
         let ray = ray_at(&placed, toward, -toward, 3.0);
         if let Some(t) = placed.solid.intersect(&ray) {
-            let p = ray.origin.as_dvec3() + placed.solid_t(&ray, f64::from(t)) * ray.dir.as_dvec3();
+            let p = ray.origin.as_dvec3() + placed.on_surface(&ray, f64::from(t)) * ray.dir.as_dvec3();
             let slack = 1e-9 * placed.bounding_sphere().1;
             prop_assert!((p + slack).cmpge(low.as_dvec3()).all(), "{p} is below {low}");
             prop_assert!((p - slack).cmple(high.as_dvec3()).all(), "{p} is above {high}");
