@@ -10,6 +10,7 @@ ambient 0.1, diffuse 0.7, specular 0.3, exponent 40.
 
 import gzip
 import math
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -254,3 +255,7 @@ def write(name, folder: Path, ply=None):
     write_tachyon(scene, folder / f"{name}.dat")
     write_povray(scene, folder / f"{name}.pov.part")
     (folder / f"{name}.pov.part").rename(done)
+
+
+if __name__ == "__main__":
+    write(sys.argv[1], Path(sys.argv[2]), *sys.argv[3:])
