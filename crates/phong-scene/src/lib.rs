@@ -5,6 +5,7 @@
 //! It never prints, exits or panics on input: reading gives *all* [`Diagnostic`]s as data.
 
 mod camera;
+mod check;
 mod color;
 mod diagnostic;
 mod dialect;

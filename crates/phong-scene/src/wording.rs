@@ -34,6 +34,7 @@ pub(crate) fn list<'a>(words: impl IntoIterator<Item = &'a str>, last: &str) -> 
     match words.split_last() {
         None => String::new(),
         Some((only, [])) => only.clone(),
+        Some((end, rest)) if last == "," => format!("{}, {end}", rest.join(", ")),
         Some((end, rest)) => format!("{} {last} {end}", rest.join(", ")),
     }
 }

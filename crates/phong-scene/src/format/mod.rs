@@ -111,11 +111,11 @@ impl fmt::Display for Format {
 /// assert!(reading.scene.is_none());
 /// assert_eq!(
 ///     reading.diagnostics[0].to_string(),
-///     "ball.toml:5:1: error: this sphere has no `radius` (`radius` is a number, above 0)",
+///     "ball.toml:5:1: error: this `sphere` has no `radius` (`radius` is a number above 0)",
 /// );
 /// assert_eq!(
 ///     reading.diagnostics[1].to_string(),
-///     "ball.toml:7:1: error: unknown key \"radus\" in this sphere (did you mean `radius`?)",
+///     "ball.toml:7:1: error: unknown key \"radus\" in this `sphere` (did you mean `radius`?)",
 /// );
 /// ```
 pub fn read(path: &str, format: Option<Format>, source: &dyn Source, limits: &Limits) -> Reading {

@@ -36,7 +36,7 @@ pub(crate) enum Kind {
     Material,
     /// The name of a group.
     Group,
-    /// `[width, height]`, whole numbers from 1 to 1,000,000.
+    /// `[width, height]`, whole numbers from 1 to 1,048,576.
     Size,
     /// `[c, l, q]`, none negative, not all 0.
     Attenuation,
@@ -105,21 +105,16 @@ impl Range {
             && (if self.max_included { v <= self.max } else { v < self.max })
     }
 
-    /// What a number must be to lie in it, as a sentence's end: `above 0`, `between 0 and 180`.
+    /// What a number in it is: `above 0`, `from 0 to 90`, `above 0 and below 180`.
     pub(crate) fn words(&self) -> String {
         let Self { min, max, min_included, max_included } = *self;
-        match (min <= -LARGEST, max >= LARGEST) {
-            (true, true) => "any number".to_owned(),
-            (false, true) if min_included => format!("{min} or above"),
-            (false, true) => format!("above {min}"),
-            (true, false) if max_included => format!("{max} or below"),
-            (true, false) => format!("below {max}"),
-            (false, false) => match (min_included, max_included) {
-                (true, true) => format!("between {min} and {max}"),
-                (true, false) => format!("at least {min} and below {max}"),
-                (false, true) => format!("above {min} and at most {max}"),
-                (false, false) => format!("between {min} and {max}, neither included"),
-            },
+        let lower = if min_included { format!("from {min}") } else { format!("above {min}") };
+        match max_included {
+            _ if max >= LARGEST && min_included => format!("{min} or above"),
+            _ if max >= LARGEST => lower,
+            true if min_included => format!("{lower} to {max}"),
+            true => format!("{lower} up to {max}"),
+            false => format!("{lower} and below {max}"),
         }
     }
 }

@@ -3,10 +3,11 @@
 //! Reading gives everything there is to say in one go, in the order of the text:
 //! `syntax` tells all syntax errors and takes the faulty statements out, `table` and `value` hold
 //! every table against its table of [`keys`](crate::keys), the concepts' files (`settings light
-//! material shape file`) say what only several keys together can be wrong about, and `resolve`
-//! looks every name up.
+//! material shape file`) say what only several keys together can be wrong about, `resolve` and
+//! `groups` look every name up, and [`check`](crate::check) adds what can hardly be meant.
 
 mod file;
+mod groups;
 mod light;
 mod material;
 mod notes;

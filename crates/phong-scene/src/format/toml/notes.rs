@@ -68,6 +68,23 @@ impl Notes {
         self.lost.contains(&(spot.file, spot.start))
     }
 
+    /// Says this where its place is, and shows the text that stands there.
+    pub(super) fn say_located(&mut self, mut diagnostic: Diagnostic) {
+        let mut at = Spot::new(0, 0..0);
+        let labels = diagnostic.labels.iter_mut().map(|label| &mut label.span);
+        for span in labels.chain(&mut diagnostic.span) {
+            at = self.spot_of(&span.place);
+            *span = self.span(at);
+        }
+        self.say(at, diagnostic);
+    }
+
+    /// The rest of the line from a place on, without a comment.
+    fn spot_of(&self, place: &Place) -> Spot {
+        let file = self.texts.iter().position(|text| text.file == place.file).unwrap_or(0);
+        Spot::new(file as u32, self.texts[file].rest_of_line(place))
+    }
+
     /// Whether an error was said.
     pub(super) fn has_errors(&self) -> bool {
         self.said.iter().any(|(_, diagnostic)| diagnostic.is_error())

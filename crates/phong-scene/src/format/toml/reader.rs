@@ -26,6 +26,8 @@ pub(super) struct Reader<'a> {
     pub(super) lights: Vec<Light>,
     light_count: usize,
     pub(super) materials: Named<Material>,
+    /// The materials that shapes name, and where.
+    pub(super) material_names: Vec<(String, Spot)>,
     /// The materials of model files, a list a file.
     pub(super) models: Vec<Vec<Material>>,
     pub(super) groups: Named<Vec<Draft>>,
@@ -57,7 +59,7 @@ impl<T> Named<T> {
     }
 
     /// All names.
-    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
+    pub(super) fn names(&self) -> impl Iterator<Item = &str> + Clone {
         self.numbers.keys().map(String::as_str)
     }
 
@@ -82,8 +84,8 @@ impl<T> Named<T> {
 pub(super) struct Draft {
     pub(super) name: String,
     pub(super) shape: DraftShape,
-    /// The material that its table names.
-    pub(super) material: Option<(String, Spot)>,
+    /// Where in [`Reader::material_names`] its own is, if it names one.
+    pub(super) material: Option<usize>,
     pub(super) transform: DAffine3,
     pub(super) place: Place,
 }
@@ -120,6 +122,7 @@ impl<'a> Reader<'a> {
             lights: Vec::new(),
             light_count: 0,
             materials: Named::new(),
+            material_names: Vec::new(),
             models: Vec::new(),
             groups: Named::new(),
             drafts: Vec::new(),
@@ -169,7 +172,7 @@ impl<'a> Reader<'a> {
             match key.kind {
                 Kind::Table(_) if !main => {
                     let message = format!("`[{}]` stands in an included file", key.name);
-                    let help = "it belongs into the scene itself; included are lights, materials, groups and shapes";
+                    let help = "it belongs in the scene itself; included are lights, materials, groups and shapes";
                     self.notes.error(at, message).help = Some(help.to_owned());
                 }
                 Kind::Table(table) => {
@@ -312,7 +315,11 @@ impl<'a> Reader<'a> {
         let v = Values::read(table, text, spot, &mut self.notes);
         let transform = shape::transform(&v, &mut self.notes);
         let name = v.text("name").unwrap_or(numbered);
-        let material = v.text("material").map(|name| (name, v.spot_of("material")));
+        // Kept apart, so that it is looked up even if the shape itself is faulty.
+        let material = v.text("material").map(|name| {
+            self.material_names.push((name, v.spot_of("material")));
+            self.material_names.len() - 1
+        });
         let shapes = match table.name {
             "mesh" => self.mesh(&v, path),
             "points" => self.points(&v, path),
@@ -335,7 +342,7 @@ impl<'a> Reader<'a> {
         let draft = |(part, shape): (String, DraftShape)| Draft {
             name: if one || part.is_empty() { name.clone() } else { format!("{name}: {part}") },
             shape,
-            material: material.clone(),
+            material,
             transform,
             place: place.clone(),
         };

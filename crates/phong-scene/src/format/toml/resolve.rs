@@ -1,87 +1,198 @@
-//! Names looked up: the parts of the files become a scene.
+//! Names looked up: what the files say becomes a scene.
 
-use super::reader::{Draft, DraftShape, Reader};
-use crate::wording::{closest, quoted};
+use std::collections::BTreeSet;
+
+use super::groups;
+use super::notes::Notes;
+use super::reader::{Draft, DraftShape, Named, Reader};
+use super::text::Spot;
+use crate::check::check;
+use crate::wording::{closest, list, quoted};
 use crate::{Diagnostic, Group, GroupId, Material, MaterialId, Object, Scene, Shape};
+
+/// Most names that a message lists.
+const MOST_NAMES: usize = 12;
 
 impl Reader<'_> {
     /// The scene, unless there was an error, and everything there is to say.
-    pub(super) fn resolve(mut self) -> (Option<Scene>, Vec<Diagnostic>) {
-        let mut materials: Vec<Material> = std::mem::take(&mut self.materials.items)
-            .into_iter()
-            .map(|(_, _, material)| material.unwrap_or_default())
+    pub(super) fn resolve(self) -> (Option<Scene>, Vec<Diagnostic>) {
+        let Self { mut notes, materials: named, models, groups: mut texts, drafts, .. } = self;
+        let named_by_shapes: Vec<_> = self
+            .material_names
+            .iter()
+            .map(|(name, spot)| material(&named, name, *spot, &mut notes))
             .collect();
-        let default = MaterialId(materials.len() as u32);
-        materials.push(Material::default());
-        let mut first_of_model = Vec::new();
-        for model in std::mem::take(&mut self.models) {
-            first_of_model.push(materials.len() as u32);
-            materials.extend(model);
+        let order = groups::order(&texts, &drafts, self.limits, &mut notes);
+        let mut group_ids = vec![None; texts.items.len()];
+        for (id, &group) in order.iter().enumerate() {
+            group_ids[group] = Some(GroupId(id as u32));
         }
-        let drafts = std::mem::take(&mut self.drafts);
-        let objects = self.objects(drafts, default, &first_of_model);
-        let mut groups = Vec::new();
-        for i in 0..self.groups.items.len() {
-            let name = self.groups.items[i].0.clone();
-            let drafts = self.groups.items[i].2.take().unwrap_or_default();
-            groups.push(Group { name, objects: self.objects(drafts, default, &first_of_model) });
-        }
-        let camera = self.camera.take();
-        let scene = match camera {
-            Some(camera) if !self.notes.has_errors() => Some(Scene {
-                image: self.image,
-                camera,
-                ambient: self.ambient,
-                lights: self.lights,
-                materials,
-                objects,
-                groups,
-            }),
-            _ => None,
+
+        let in_groups = texts.items.iter().flat_map(|(.., drafts)| drafts.iter().flatten());
+        let default_needed = drafts.iter().chain(in_groups).any(takes_the_default);
+        let (materials, default, first_of_model) = materials(&named, models, default_needed);
+        let mut resolver = Resolver {
+            named: named_by_shapes,
+            default,
+            first_of_model,
+            group_used: vec![false; texts.items.len()],
+            group_ids,
         };
-        (scene, self.notes.into_diagnostics())
+        let objects = resolver.objects(&texts, drafts);
+        let mut groups = Vec::with_capacity(order.len());
+        for group in order {
+            let drafts = texts.items[group].2.take().unwrap_or_default();
+            let objects = resolver.objects(&texts, drafts);
+            groups.push(Group { name: texts.items[group].0.clone(), objects });
+        }
+
+        let sound = !notes.has_errors();
+        let scene = self.camera.filter(|_| sound).map(|camera| Scene {
+            image: self.image,
+            camera,
+            ambient: self.ambient,
+            lights: self.lights,
+            materials,
+            objects,
+            groups,
+        });
+        if let Some(scene) = &scene {
+            let default = default_needed.then_some(default);
+            let used: BTreeSet<_> = resolver.named.into_iter().flatten().chain(default).collect();
+            let used = |number: usize| used.contains(&MaterialId(number as u32));
+            say_unused(
+                &named,
+                used,
+                |name| format!("no shape is of the material {name}"),
+                &mut notes,
+            );
+            let used = |number: usize| resolver.group_used[number];
+            say_unused(
+                &texts,
+                used,
+                |name| format!("no instance places the group {name}"),
+                &mut notes,
+            );
+            for warning in check(scene, &notes.text(0).file.clone()) {
+                notes.say_located(warning);
+            }
+        }
+        (scene, notes.into_diagnostics())
+    }
+}
+
+/// The scene's materials: those of the text, the default one if needed, those of model files.
+/// Also which is the default one, and the first of each model file.
+fn materials(
+    named: &Named<Material>,
+    models: Vec<Vec<Material>>,
+    default_needed: bool,
+) -> (Vec<Material>, MaterialId, Vec<u32>) {
+    let mut materials: Vec<_> =
+        named.items.iter().map(|(.., material)| material.clone().unwrap_or_default()).collect();
+    // Who defines a material of this name says what shapes without one are made of.
+    let own = named.find("default");
+    let default = own.unwrap_or(materials.len() as u32);
+    if default_needed && own.is_none() {
+        materials.push(Material::default());
+    }
+    let mut first_of_model = Vec::with_capacity(models.len());
+    for model in models {
+        first_of_model.push(materials.len() as u32);
+        materials.extend(model);
+    }
+    (materials, MaterialId(default), first_of_model)
+}
+
+fn takes_the_default(draft: &Draft) -> bool {
+    draft.material.is_none() && matches!(draft.shape, DraftShape::Shape(_))
+}
+
+/// The number of the material of this name, which is named there; says if there is none.
+fn material(
+    named: &Named<Material>,
+    name: &str,
+    spot: Spot,
+    notes: &mut Notes,
+) -> Option<MaterialId> {
+    let number = named.find(name);
+    if number.is_none() {
+        say_unknown_name(notes, "material", name, named.names(), spot);
+    }
+    number.map(MaterialId)
+}
+
+/// Says what nobody uses. Included files may be libraries, so there it is no news.
+fn say_unused<T>(
+    named: &Named<T>,
+    used: impl Fn(usize) -> bool,
+    message: impl Fn(String) -> String,
+    notes: &mut Notes,
+) {
+    for (number, (name, spot, _)) in named.items.iter().enumerate() {
+        if spot.file == 0 && !used(number) {
+            notes.warning(*spot, message(quoted(name)));
+        }
+    }
+}
+
+struct Resolver {
+    /// The materials that shapes name, in the order of [`Reader::material_names`].
+    named: Vec<Option<MaterialId>>,
+    default: MaterialId,
+    first_of_model: Vec<u32>,
+    /// The scene's number of each group of the text; `None`: something is wrong with the order.
+    group_ids: Vec<Option<GroupId>>,
+    /// Which of them some instance names.
+    group_used: Vec<bool>,
+}
+
+impl Resolver {
+    fn objects<T>(&mut self, groups: &Named<T>, drafts: Vec<Draft>) -> Vec<Object> {
+        drafts.into_iter().filter_map(|draft| self.object(groups, draft)).collect()
     }
 
-    fn objects(&mut self, drafts: Vec<Draft>, default: MaterialId, first: &[u32]) -> Vec<Object> {
-        drafts.into_iter().filter_map(|draft| self.object(draft, default, first)).collect()
-    }
-
-    fn object(&mut self, draft: Draft, default: MaterialId, first: &[u32]) -> Option<Object> {
+    /// The object; `None`: something is wrong with a name, which has been said.
+    fn object<T>(&mut self, groups: &Named<T>, draft: Draft) -> Option<Object> {
         let Draft { name, shape, material, transform, place } = draft;
         let material = match material {
-            None => default,
-            Some((wanted, spot)) => {
-                if let Some(number) = self.materials.find(&wanted) {
-                    MaterialId(number)
-                } else {
-                    let near = closest(&wanted, self.materials.names());
-                    let message = format!("there is no material {}", quoted(&wanted));
-                    let help = near.map(|near| format!("did you mean {}?", quoted(near)));
-                    self.notes.error(spot, message).help = help;
-                    return None;
-                }
-            }
+            Some(material) => self.named[material]?,
+            None => self.default,
         };
-        let shape = match shape {
-            DraftShape::Shape(shape) => shape,
+        let (shape, material) = match shape {
+            DraftShape::Shape(shape) => (shape, material),
             DraftShape::Model(mut mesh, model) => {
-                for face in &mut mesh.face_materials {
-                    *face += first[model];
-                }
-                Shape::Mesh(mesh)
+                let first = self.first_of_model[model];
+                mesh.face_materials.iter_mut().for_each(|material| *material += first);
+                (Shape::Mesh(mesh), MaterialId(first))
             }
-            DraftShape::Instance(wanted, spot) => {
-                if let Some(number) = self.groups.find(&wanted) {
-                    Shape::Instance(GroupId(number))
-                } else {
-                    let near = closest(&wanted, self.groups.names());
-                    let message = format!("there is no group {}", quoted(&wanted));
-                    let help = near.map(|near| format!("did you mean {}?", quoted(near)));
-                    self.notes.error(spot, message).help = help;
-                    return None;
-                }
+            DraftShape::Instance(group, _) => {
+                let group = groups.find(&group)? as usize;
+                self.group_used[group] = true;
+                (Shape::Instance(self.group_ids[group]?), material)
             }
         };
         Some(Object { name, shape, material, transform, place })
     }
+}
+
+/// Says that there is nothing of this name, and what may have been meant.
+pub(super) fn say_unknown_name<'n>(
+    notes: &mut Notes,
+    what: &str,
+    name: &str,
+    known: impl Iterator<Item = &'n str> + Clone,
+    spot: Spot,
+) {
+    let help = match (closest(name, known.clone()), known.clone().count()) {
+        (Some(meant), _) => format!("did you mean `{meant}`?"),
+        (None, 0) => format!("`[{what}s.NAME]` defines one"),
+        (None, 1) => format!("there is {}", list(known, "and")),
+        (None, ..=MOST_NAMES) => format!("there are {}", list(known, "and")),
+        (None, count) => {
+            let more = count - MOST_NAMES;
+            format!("there are {} and {more} more", list(known.take(MOST_NAMES), ","))
+        }
+    };
+    notes.error(spot, format!("there is no {what} {}", quoted(name))).help = Some(help);
 }

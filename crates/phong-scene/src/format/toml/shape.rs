@@ -1,6 +1,6 @@
 //! The shapes that are written out, and where any shape is placed.
 
-use glam::{DAffine3, DMat3, DQuat, DVec3};
+use glam::{DAffine3, DMat3, DVec3};
 
 use super::notes::Notes;
 use super::table::Values;
@@ -111,9 +111,7 @@ pub(super) fn transform(v: &Values, notes: &mut Notes) -> Option<DAffine3> {
             notes.error(v.spot_of("rotate"), "`rotate` is about an axis too short to tell");
             return None;
         };
-        let (sin, cos) = libm::sincos(0.5 * rotation.w.to_radians());
-        let turn = DQuat::from_vec4((axis * sin).extend(cos));
-        matrix = DMat3::from_quat(turn) * matrix;
+        matrix = turn(axis, rotation.w) * matrix;
     }
     if !is_regular(matrix) {
         notes
@@ -121,4 +119,42 @@ pub(super) fn transform(v: &Values, notes: &mut Notes) -> Option<DAffine3> {
         return None;
     }
     Some(DAffine3 { matrix3: matrix, translation: v.vector("translate")? })
+}
+
+/// The rotation by an angle in degrees about a unit axis, right-handed (Rodrigues' formula);
+/// exact for right angles about the axes of space.
+fn turn(axis: DVec3, degrees: f64) -> DMat3 {
+    let degrees = degrees % 360.0; // exact
+    let (sin, cos) = match degrees {
+        0.0 => (0.0, 1.0),
+        90.0 | -270.0 => (1.0, 0.0),
+        180.0 | -180.0 => (0.0, -1.0),
+        270.0 | -90.0 => (-1.0, 0.0),
+        _ => libm::sincos(degrees.to_radians()),
+    };
+    let column = |e: DVec3| e * cos + axis.cross(e) * sin + axis * (axis.dot(e) * (1.0 - cos));
+    DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_right_angle_about_an_axis_is_exact() {
+        for degrees in [90.0, 450.0, -270.0] {
+            let matrix = turn(DVec3::Z, degrees);
+            assert_eq!([matrix * DVec3::X, matrix * DVec3::Y], [DVec3::Y, -DVec3::X]);
+        }
+        assert_eq!(turn(DVec3::X, 180.0) * DVec3::Y, -DVec3::Y);
+        assert_eq!(turn(DVec3::Y, -90.0) * DVec3::X, DVec3::Z);
+        assert_eq!(turn(DVec3::Y, 720.0), DMat3::IDENTITY);
+    }
+
+    #[test]
+    fn a_rotation_is_right_handed_and_keeps_lengths() {
+        let third = turn(DVec3::ONE.normalize_or_zero(), 120.0);
+        assert!((third * DVec3::X).distance(DVec3::Y) < 1e-15);
+        assert!((third * DVec3::new(1.0, -2.0, 3.0)).distance(DVec3::new(3.0, 1.0, -2.0)) < 1e-14);
+    }
 }

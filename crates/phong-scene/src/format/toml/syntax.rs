@@ -13,9 +13,13 @@ use toml::de::DeTable;
 
 use super::notes::Notes;
 use super::text::Spot;
+use crate::wording::quoted;
 
 /// Most syntax errors that are told of one file.
 const MOST: usize = 20;
+
+/// Most keys and tables written twice that are taken out, since each is searched for.
+const MOST_TWICE: usize = 200;
 
 /// A text without its faulty statements.
 #[derive(Debug)]
@@ -32,35 +36,40 @@ pub(super) fn mend(file: u32, notes: &mut Notes) -> Mended {
     let text = text.text.as_str();
     let mut bytes = text.as_bytes().to_vec();
     let mut lost = BTreeSet::new();
-    let mut errors = Vec::new();
+    let (mut errors, mut count) = (Vec::new(), 0);
     let sections = sections(text);
     for section in &sections {
         if DeTable::parse(&text[section.clone()]).is_ok() {
             continue;
         }
         for Statement { range, unclosed } in statements(text, section.clone()) {
+            if bytes[range.clone()].iter().all(u8::is_ascii_whitespace) {
+                continue; // lost with its header
+            }
             let Err(error) = DeTable::parse(&text[range.clone()]) else { continue };
             // A table whose header cannot be read is lost wholly: its keys belong to no other.
             let header = range.start == section.start && text[range.clone()].starts_with('[');
             blank(&mut bytes, if header { section.clone() } else { range.clone() });
             lost.insert(section.start);
+            count += 1;
+            if errors.len() == MOST {
+                continue;
+            }
             errors.push(match unclosed {
-                Some(at) => {
-                    let bracket = &text[at..=at];
-                    let message = format!("this `{bracket}` is never closed");
-                    (at..at + 1, message, None)
+                Some(open) => {
+                    let message = format!("this `{}` is never closed", &text[open.clone()]);
+                    (open, message, None)
                 }
                 None => told(&error, text, range.start),
             });
-            if header {
-                break;
-            }
         }
     }
     // What is left are keys and tables written twice. The second is taken out as well, so that
     // the first is read as if it stood alone.
     let rest = String::from_utf8_lossy(&bytes).into_owned();
-    for error in DeTable::parse_recoverable(&rest).1 {
+    let twice = DeTable::parse_recoverable(&rest).1;
+    count += twice.len();
+    for error in twice.iter().take(MOST_TWICE) {
         let at = error.span().map_or(0, |span| span.start);
         let section = sections[sections.partition_point(|s| s.start <= at).max(1) - 1].clone();
         let range = match statements(&rest, section.clone()).find(|s| s.range.contains(&at)) {
@@ -70,15 +79,14 @@ pub(super) fn mend(file: u32, notes: &mut Notes) -> Mended {
         };
         blank(&mut bytes, range);
         lost.insert(section.start);
-        errors.push(told(&error, text, 0));
+        errors.push(told(error, text, 0));
     }
     errors.sort_by_key(|(range, ..)| range.start);
-    errors.dedup_by_key(|(range, ..)| range.clone());
-    let count = errors.len();
     for (i, (range, message, help)) in errors.into_iter().take(MOST).enumerate() {
-        let message = match count - MOST.min(count) {
-            more if more > 0 && i + 1 == MOST => format!("{message}; and {more} more like this"),
-            _ => message,
+        let message = if i + 1 == MOST && count > MOST {
+            format!("{message} ({} more syntax errors are not shown)", count - MOST)
+        } else {
+            message
         };
         notes.error(Spot::new(file, range), message).help = help;
     }
@@ -88,17 +96,33 @@ pub(super) fn mend(file: u32, notes: &mut Notes) -> Mended {
 type Told = (Range<usize>, String, Option<String>);
 
 /// The parser's error, its place counted from the beginning of the text.
+///
+/// Where its words are about the grammar, ours are about what to write.
 fn told(error: &toml::de::Error, text: &str, from: usize) -> Told {
     let span = error.span().unwrap_or(0..0);
     let range = from + span.start..from + span.end;
-    let (message, help) = match error.message().split_once(", expected ") {
-        // The parser says of `key =` that strings must be quoted.
-        Some(_) if range.is_empty() && text[..range.start].trim_end().ends_with('=') => {
+    let here = text.get(range.clone()).unwrap_or_default();
+    let (message, expected) =
+        error.message().split_once(", expected ").unwrap_or((error.message(), ""));
+    let (message, help) = match message {
+        "duplicate key" => return (range, format!("{} is there already", quoted(here)), None),
+        "string values must be quoted" if here.is_empty() => {
             ("a value is missing".to_owned(), None)
         }
-        Some((message, "nothing")) => (message.to_owned(), None),
-        Some((message, expected)) => (message.to_owned(), Some(format!("expected {expected}"))),
-        None => (error.message().to_owned(), None),
+        "string values must be quoted" => {
+            let number = here.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
+            let help = if number {
+                "numbers are written like 12, -0.5 or 1e3, in a list with commas between".to_owned()
+            } else {
+                format!("text stands in quotes: {}", quoted(here))
+            };
+            (format!("{} is no value", quoted(here)), Some(help))
+        }
+        "invalid basic string" | "invalid literal string" if !expected.is_empty() => {
+            (format!("the text has no closing {expected}"), None)
+        }
+        _ if expected.is_empty() || expected == "nothing" => (message.to_owned(), None),
+        _ => (message.to_owned(), Some(format!("expected {expected}"))),
     };
     (range, message, help)
 }
@@ -134,8 +158,8 @@ fn sections(text: &str) -> Vec<Range<usize>> {
 /// A header, or a key with its value.
 struct Statement {
     range: Range<usize>,
-    /// Where an array or inline table begins that the statement does not end.
-    unclosed: Option<usize>,
+    /// What opens an array, table or long text that the statement does not end.
+    unclosed: Option<Range<usize>>,
 }
 
 /// A section cut into statements, over line breaks only inside brackets and long strings.
@@ -147,7 +171,7 @@ fn statements(text: &str, section: Range<usize>) -> impl Iterator<Item = Stateme
         }
         let start = at;
         let mut open = Vec::new();
-        let mut quote: Option<&str> = None;
+        let mut quote: Option<Range<usize>> = None;
         for line in text[start..section.end].split_inclusive('\n') {
             // A key in the middle of an array: the array was never closed.
             let inside_array = open.last().is_some_and(|&i| text.as_bytes()[i] == b'[');
@@ -156,35 +180,41 @@ fn statements(text: &str, section: Range<usize>) -> impl Iterator<Item = Stateme
             }
             let header = at == section.start && line.starts_with('[');
             if !header {
-                scan_line(line, at, &mut open, &mut quote);
+                scan_line(text, at..at + line.len(), &mut open, &mut quote);
             }
             at += line.len();
             if open.is_empty() && quote.is_none() {
                 break;
             }
         }
-        Some(Statement { range: start..at, unclosed: open.first().copied() })
+        let bracket = open.first().map(|&at| at..at + 1);
+        Some(Statement { range: start..at, unclosed: bracket.or(quote) })
     })
 }
 
-/// Follows brackets and long strings through one line.
-fn scan_line(line: &str, at: usize, open: &mut Vec<usize>, quote: &mut Option<&'static str>) {
-    let mut rest = line;
-    while let Some(c) = rest.chars().next() {
-        let offset = at + line.len() - rest.len();
-        let long = ["\"\"\"", "'''"].into_iter().find(|q| rest.starts_with(q));
+/// Follows brackets and long texts through one line: what is open, and the quotes of a long text.
+fn scan_line(
+    text: &str,
+    line: Range<usize>,
+    open: &mut Vec<usize>,
+    quote: &mut Option<Range<usize>>,
+) {
+    let mut at = line.start;
+    while let Some(c) = text[at..line.end].chars().next() {
+        let rest = &text[at..line.end];
+        let long = (rest.starts_with("\"\"\"") || rest.starts_with("'''")).then(|| at..at + 3);
         let mut step = c.len_utf8();
-        match (*quote, c) {
+        match (quote.clone().map(|quote| &text[quote]), c) {
             (Some("\"\"\""), '\\') => step += rest[1..].chars().next().map_or(0, char::len_utf8),
-            (Some(q), _) if long == Some(q) => (*quote, step) = (None, 3),
+            (Some(quotes), _) if rest.starts_with(quotes) => (*quote, step) = (None, 3),
             (None, '#') => return,
             (None, '"' | '\'') if long.is_some() => (*quote, step) = (long, 3),
             (None, '"' | '\'') => step = short_string(rest, c),
-            (None, '[' | '{') => open.push(offset),
+            (None, '[' | '{') => open.push(at),
             (None, ']' | '}') => drop(open.pop()),
             _ => {}
         }
-        rest = &rest[step..];
+        at += step;
     }
 }
 

@@ -98,7 +98,7 @@ impl Values {
             let applies = key.only.is_empty() || self.word.is_some() && key.applies(self.word);
             if applies && matches!(key.default, Default::Required) && !self.has(key.name) {
                 let table = self.table.name;
-                let message = format!("this {table} has no `{}`", key.name);
+                let message = format!("this `{table}` has no `{}`", key.name);
                 notes.error(self.spot, message).help =
                     Some(format!("`{}` is {}", key.name, wanted(key.kind)));
             }
@@ -225,7 +225,7 @@ pub(super) fn say_unknown(
         None => format!("known here: {}", list(known(), "and")),
     };
     let name = crate::wording::quoted(name);
-    notes.error(at, format!("unknown key {name} in this {}", table.name)).help = Some(help);
+    notes.error(at, format!("unknown key {name} in this `{}`", table.name)).help = Some(help);
 }
 
 fn article(word: &str) -> &'static str {

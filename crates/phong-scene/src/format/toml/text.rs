@@ -55,6 +55,17 @@ impl Text {
         Place { file: Arc::clone(&self.file), line: line as u32 + 1, column: column as u32 + 1 }
     }
 
+    /// The bytes from a place of this text to the end of its line, without a comment.
+    pub(super) fn rest_of_line(&self, place: &Place) -> Range<usize> {
+        let line = (place.line.max(1) as usize - 1).min(self.lines.len() - 1);
+        let next = self.lines.get(line + 1).copied().unwrap_or(self.text.len());
+        let whole = &self.text[self.lines[line]..next];
+        let before = whole.char_indices().nth(place.column.max(1) as usize - 1);
+        let from = before.map_or(whole.len(), |(i, _)| i);
+        let rest = whole[from..].split('#').next().unwrap_or_default().trim_end();
+        self.lines[line] + from..self.lines[line] + from + rest.len()
+    }
+
     /// A range of bytes, with the line it begins on.
     pub(super) fn span(&self, range: Range<usize>) -> Span {
         let start = self.boundary(range.start);

@@ -37,8 +37,8 @@ pub(super) fn wanted(kind: Kind) -> String {
             format!("a whole number, {min} or above")
         }
         Kind::Integer(min, max) if min == max => min.to_string(),
-        Kind::Integer(min, max) => format!("a whole number between {min} and {max}"),
-        Kind::Number(range) => format!("a number, {}", range.words()),
+        Kind::Integer(min, max) => format!("a whole number from {min} to {max}"),
+        Kind::Number(range) => format!("a number {}", range.words()),
         Kind::Point => "three numbers, `[x, y, z]`".to_owned(),
         Kind::Direction => "three numbers, `[x, y, z]`, not all 0".to_owned(),
         Kind::Color | Kind::Reflectance => {
@@ -53,12 +53,12 @@ pub(super) fn wanted(kind: Kind) -> String {
         Kind::File => "the path of a file, in quotes".to_owned(),
         Kind::Material => "the name of a material, in quotes".to_owned(),
         Kind::Group => "the name of a group, in quotes".to_owned(),
-        Kind::Size => "`[width, height]`, whole numbers between 1 and 1000000".to_owned(),
+        Kind::Size => "`[width, height]`, whole numbers from 1 to 1048576".to_owned(),
         Kind::Attenuation => "`[c, l, q]`, 0 or above, not all 0".to_owned(),
         Kind::Points => "three points, `[[x, y, z], [x, y, z], [x, y, z]]`".to_owned(),
         Kind::Directions => "three directions, `[[x, y, z], [x, y, z], [x, y, z]]`".to_owned(),
         Kind::Uvs => "three pairs, `[[u, v], [u, v], [u, v]]`".to_owned(),
-        Kind::Smooth => "`true`, `false` or an angle between 0 and 180 degrees".to_owned(),
+        Kind::Smooth => "`true`, `false` or an angle from 0 to 180 degrees".to_owned(),
         Kind::Scale => "a number or `[x, y, z]`, none 0".to_owned(),
         Kind::Rotate => "`[ax, ay, az, degrees]`, or a list of them".to_owned(),
         Kind::Matrix => "four rows of four numbers".to_owned(),
@@ -69,7 +69,7 @@ pub(super) fn wanted(kind: Kind) -> String {
     }
 }
 
-/// What was found, as the end of "…, not …".
+/// What was found, as the end of "…; this is …".
 fn found(value: &DeValue<'_>) -> String {
     match value {
         DeValue::String(text) => format!("the text {}", quoted(text)),
@@ -123,12 +123,12 @@ impl ValueReader<'_> {
             Kind::Text | Kind::File | Kind::Material | Kind::Group => self.text(value),
             Kind::Size => self.size(value).map(Value::Size),
             Kind::Attenuation => self.attenuation(value).map(Value::Vector),
-            Kind::Points => {
-                self.triple(value, Self::numbers).map(|p| Value::Vectors(p.map(DVec3::from)))
-            }
-            Kind::Directions => self.triple(value, Self::direction).map(Value::Vectors),
+            Kind::Points => self
+                .triple::<3, _>(value, Self::numbers)
+                .map(|p| Value::Vectors(p.map(DVec3::from))),
+            Kind::Directions => self.triple::<3, _>(value, Self::direction).map(Value::Vectors),
             Kind::Uvs => {
-                self.triple(value, Self::numbers).map(|uv| Value::Uvs(uv.map(DVec2::from)))
+                self.triple::<2, _>(value, Self::numbers).map(|uv| Value::Uvs(uv.map(DVec2::from)))
             }
             Kind::Smooth => match value.get_ref() {
                 DeValue::Boolean(flag) => Some(Value::Flag(*flag)),
@@ -148,7 +148,8 @@ impl ValueReader<'_> {
     /// Says what the key wants and what it got.
     fn mismatch<T>(&mut self, value: &Spanned<DeValue<'_>>) -> Option<T> {
         let Key { name, kind, .. } = self.key;
-        let message = format!("`{name}` must be {}, not {}", wanted(*kind), found(value.get_ref()));
+        let message =
+            format!("`{name}` must be {}; this is {}", wanted(*kind), found(value.get_ref()));
         let spot = self.spot(value);
         self.notes.error(spot, message);
         None
@@ -216,12 +217,19 @@ impl ValueReader<'_> {
         good.then_some(numbers)
     }
 
-    fn triple<T>(
+    fn triple<const N: usize, T>(
         &mut self,
         value: &Spanned<DeValue<'_>>,
         read: fn(&mut Self, &Spanned<DeValue<'_>>) -> Option<T>,
     ) -> Option<[T; 3]> {
-        let [a, b, c] = self.items(value)?;
+        let items @ [a, b, c] = self.items::<3>(value)?;
+        // One complaint about the form is enough; about numbers, one a number.
+        let of_form = |item: &&Spanned<DeValue<'_>>| {
+            item.get_ref().as_array().is_some_and(|numbers| numbers.len() == N)
+        };
+        if let Some(item) = items.iter().find(|item| !of_form(item)) {
+            return self.mismatch(item);
+        }
         let (a, b, c) = (read(self, a), read(self, b), read(self, c));
         Some([a?, b?, c?])
     }
@@ -279,7 +287,7 @@ impl ValueReader<'_> {
             return Some(word);
         }
         let Key { name, kind, .. } = self.key;
-        let message = format!("`{name}` must be {}, not {}", wanted(*kind), quoted(text));
+        let message = format!("`{name}` must be {}; this is {}", wanted(*kind), quoted(text));
         let spot = self.spot(value);
         self.notes.error(spot, message).help =
             closest(text, words.iter().copied()).map(|word| format!("did you mean `{word}`?"));
@@ -297,7 +305,7 @@ impl ValueReader<'_> {
     fn size(&mut self, value: &Spanned<DeValue<'_>>) -> Option<[u32; 2]> {
         let [w, h] = self.items(value)?;
         let pixels = |v: &Spanned<DeValue<'_>>| {
-            whole(v.get_ref()).filter(|n| (1..=1_000_000).contains(n)).map(|n| n as u32)
+            whole(v.get_ref()).filter(|n| (1..=1 << 20).contains(n)).map(|n| n as u32)
         };
         match (pixels(w), pixels(h)) {
             (Some(w), Some(h)) => Some([w, h]),

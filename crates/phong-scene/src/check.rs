@@ -1,0 +1,157 @@
+//! What can hardly be meant although every part of the scene is valid: all of it warnings.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use crate::{Diagnostic, Label, Light, LightKind, Object, Place, Scene, Shape, Span};
+
+/// Everything suspicious about a scene, each with its place but without an excerpt. What is
+/// missing from the scene as a whole is told of the file `main`.
+pub(crate) fn check(scene: &Scene, main: &Arc<str>) -> Vec<Diagnostic> {
+    let mut said = Vec::new();
+    let top = Place { file: Arc::clone(main), line: 1, column: 1 };
+    if scene.objects.is_empty() {
+        let help = "add a shape, such as `[[sphere]]`";
+        said.push(Diagnostic::warning("the scene has no objects", at(&top)).with_help(help));
+    }
+    if scene.lights.is_empty() {
+        let help = "without a `[[light]]` only the ambient term is seen";
+        said.push(Diagnostic::warning("the scene has no lights", at(&top)).with_help(help));
+    }
+    for object in &scene.objects {
+        let eye_inside = contains(object, scene.camera.eye);
+        let lights = || scene.lights.iter().filter_map(|light| Some((light, position(light)?)));
+        if eye_inside {
+            // A closed room or a dome is lit from within; a ball that the camera fell into is not.
+            let lit = lights().any(|(_, position)| contains(object, position));
+            if matches!(object.shape, Shape::Sphere { .. }) && !lit {
+                let message = format!("the camera is inside {}, and no light is", object.name);
+                said.push(Diagnostic::warning(message, at(&object.place)));
+            }
+        } else {
+            for (light, position) in lights().filter(|(light, _)| light.shadows) {
+                if contains(object, position) {
+                    said.push(dark(light, object));
+                }
+            }
+        }
+    }
+    said
+}
+
+/// The warning that nothing outside `object` gets anything of the light inside it.
+fn dark(light: &Light, object: &Object) -> Diagnostic {
+    let message = format!("{} is inside {}, which keeps all its light", light.name, object.name);
+    let label = Label { message: format!("{} is here", object.name), span: at(&object.place) };
+    let mut warning = Diagnostic::warning(message, at(&light.place));
+    warning.labels.push(label);
+    warning.with_help("move it out, or give the light `shadows = false`")
+}
+
+fn at(place: &Place) -> Span {
+    Span { place: place.clone(), ..Span::default() }
+}
+
+fn position(light: &Light) -> Option<DVec3> {
+    match light.kind {
+        LightKind::Point { position, .. } | LightKind::Spot { position, .. } => Some(position),
+        LightKind::Distant { .. } => None,
+    }
+}
+
+/// Whether `p` lies inside an object that is closed all round. Meshes and instances are not
+/// looked into: that takes rays, or time.
+fn contains(object: &Object, p: DVec3) -> bool {
+    let p = || object.transform.inverse().transform_point3(p);
+    match object.shape {
+        Shape::Sphere { center, radius } => p().distance(center) < radius,
+        Shape::Box { min, max } => p().cmpgt(min).all() && p().cmplt(max).all(),
+        Shape::Cylinder { from, to, radius, capped: true } => {
+            let (along, across) = about(from, to - from, p());
+            along > 0.0 && along < 1.0 && across < radius
+        }
+        Shape::Cone { from, to, radius, radius_to, capped: true } => {
+            let (along, across) = about(from, to - from, p());
+            along > 0.0 && along < 1.0 && across < radius + along * (radius_to - radius)
+        }
+        Shape::Torus { center, axis, radius, tube } => {
+            let (along, across) = about(center, axis, p());
+            let height = along * axis.length();
+            let from_ring = across - radius;
+            from_ring * from_ring + height * height < tube * tube
+        }
+        _ => false,
+    }
+}
+
+/// Where `p` is about an axis: along it, in lengths of `axis`, and its distance from it.
+fn about(from: DVec3, axis: DVec3, p: DVec3) -> (f64, f64) {
+    let along = (p - from).dot(axis) / axis.length_squared();
+    (along, p.distance(from + along * axis))
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DAffine3;
+
+    use super::*;
+    use crate::MaterialId;
+
+    fn object(shape: Shape, transform: DAffine3) -> Object {
+        let name = "it".to_owned();
+        Object { name, shape, material: MaterialId(0), transform, place: Place::default() }
+    }
+
+    #[track_caller]
+    fn assert_holds(shape: &Shape, inside: [f64; 3], outside: [f64; 3]) {
+        let shift = DAffine3::from_translation(DVec3::new(10.0, 0.0, 0.0));
+        for (transform, by) in [(DAffine3::IDENTITY, 0.0), (shift, 10.0)] {
+            let object = object(shape.clone(), transform);
+            assert!(contains(&object, DVec3::from(inside) + DVec3::X * by), "inside");
+            assert!(!contains(&object, DVec3::from(outside) + DVec3::X * by), "outside");
+        }
+    }
+
+    #[test]
+    fn a_sphere_holds_what_is_nearer_than_its_radius() {
+        let shape = Shape::Sphere { center: DVec3::Y, radius: 1.0 };
+        assert_holds(&shape, [0.0, 0.1, 0.0], [0.0, -0.1, 0.0]);
+    }
+
+    #[test]
+    fn a_box_holds_what_lies_between_its_corners() {
+        let shape = Shape::Box { min: DVec3::ZERO, max: DVec3::ONE };
+        assert_holds(&shape, [0.5, 0.5, 0.9], [0.5, 0.5, 1.1]);
+    }
+
+    #[test]
+    fn a_cylinder_ends_at_its_caps() {
+        let shape =
+            Shape::Cylinder { from: DVec3::ZERO, to: 4.0 * DVec3::Y, radius: 1.0, capped: true };
+        assert_holds(&shape, [0.9, 3.9, 0.0], [0.9, 4.1, 0.0]);
+        assert_holds(&shape, [0.9, 3.9, 0.0], [1.1, 3.9, 0.0]);
+    }
+
+    #[test]
+    fn a_cone_narrows_towards_its_tip() {
+        let (from, to) = (DVec3::ZERO, 4.0 * DVec3::Y);
+        let shape = Shape::Cone { from, to, radius: 1.0, radius_to: 0.0, capped: true };
+        assert_holds(&shape, [0.2, 3.0, 0.0], [0.3, 3.0, 0.0]);
+    }
+
+    #[test]
+    fn a_torus_holds_its_tube_and_not_its_hole() {
+        let (center, axis) = (DVec3::ZERO, 5.0 * DVec3::Y);
+        let shape = Shape::Torus { center, axis, radius: 2.0, tube: 0.5 };
+        assert_holds(&shape, [2.4, 0.0, 0.0], [0.0, 0.0, 0.0]);
+        assert_holds(&shape, [2.0, 0.4, 0.0], [2.0, 0.6, 0.0]);
+    }
+
+    #[test]
+    fn what_is_open_holds_nothing() {
+        let (from, to) = (DVec3::ZERO, 4.0 * DVec3::Y);
+        let tube = Shape::Cylinder { from, to, radius: 1.0, capped: false };
+        assert!(!contains(&object(tube, DAffine3::IDENTITY), DVec3::Y));
+    }
+}
