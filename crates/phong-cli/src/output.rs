@@ -54,14 +54,34 @@ enum Target {
     },
 }
 
+/// A temporary file, known to the interrupt handler until it has its name or is gone.
 #[derive(Debug)]
-struct Temporary(NamedTempFile);
+struct Temporary(Option<NamedTempFile>);
+
+impl Temporary {
+    fn create_in(folder: &Path) -> io::Result<Self> {
+        let mut all = temporaries();
+        let file = builder().tempfile_in(folder)?;
+        all.push(file.path().to_owned());
+        Ok(Self(Some(file)))
+    }
+
+    /// Gives it its name; `all` are the temporary files.
+    fn persist(&mut self, path: &Path, all: &mut Vec<PathBuf>) -> io::Result<()> {
+        let Some(file) = self.0.take() else { return Ok(()) };
+        all.retain(|other| other != file.path());
+        // What cannot be renamed is removed with the error.
+        file.persist(path).map(drop).map_err(|error| error.error)
+    }
+}
 
 impl Drop for Temporary {
     fn drop(&mut self) {
-        let mut all = temporaries();
-        let _ = fs::remove_file(self.0.path());
-        all.retain(|path| path != self.0.path());
+        if let Some(file) = self.0.take() {
+            let mut all = temporaries();
+            all.retain(|path| path != file.path());
+            drop(file);
+        }
     }
 }
 
@@ -92,12 +112,9 @@ impl Output {
         if path.file_name().is_none() {
             return Err(cannot("it names no file", look));
         }
-        let mut all = temporaries();
         let temporary =
-            builder().tempfile_in(folder).map_err(|error| cannot(&reason(&error), look))?;
-        all.push(temporary.path().to_owned());
-        drop(all);
-        Ok(Self { target: Target::File { path, temporary: Temporary(temporary) } })
+            Temporary::create_in(folder).map_err(|error| cannot(&reason(&error), look))?;
+        Ok(Self { target: Target::File { path, temporary } })
     }
 
     /// Whether this would replace `path`.
@@ -119,10 +136,13 @@ impl Output {
                 content(memory).map_err(Into::into)
             }
             Target::File { temporary, .. } => {
-                let mut out = BufWriter::with_capacity(1 << 18, temporary.0.as_file_mut());
-                content(&mut out)
-                    .map_err(Into::into)
-                    .and_then(|()| out.flush().map_err(WriteFailure::Io))
+                let file = temporary.0.as_mut().map(NamedTempFile::as_file_mut);
+                file.map_or(Ok(()), |file| {
+                    let mut out = BufWriter::with_capacity(1 << 18, file);
+                    content(&mut out)
+                        .map_err(Into::into)
+                        .and_then(|()| out.flush().map_err(WriteFailure::Io))
+                })
             }
         };
         written.map_err(|failure| match failure {
@@ -140,38 +160,29 @@ impl Output {
 
     /// Gives all outputs their names, the first last: where it is, the others are, too.
     pub(crate) fn commit(outputs: Vec<Self>) -> Result<(), Failure> {
-        let mut all = temporaries();
-        let mut named: Vec<PathBuf> = Vec::new();
+        let mut files = Vec::new();
         for output in outputs.into_iter().rev() {
             match output.target {
-                Target::Stdout(memory) => {
-                    drop(all);
-                    report::data(memory.get_ref())?;
-                    all = temporaries();
-                }
-                Target::Special(path, memory) => {
-                    File::options()
-                        .write(true)
-                        .open(&path)
-                        .and_then(|mut file| file.write_all(memory.get_ref()))
-                        .map_err(|error| Failure::writing(&path, &error))?;
-                }
-                Target::File { path, temporary } => {
-                    let from = temporary.0.path().to_owned();
-                    let renamed = fs::rename(&from, &path);
-                    all.retain(|path| *path != from);
-                    if let Err(error) = renamed {
-                        for path in &named {
-                            let _ = fs::remove_file(path);
-                        }
-                        drop(all);
-                        return Err(Failure::writing(&path, &error));
-                    }
-                    // Its path is gone: there is nothing for the destructor to remove.
-                    std::mem::forget(temporary);
-                    named.push(path);
-                }
+                Target::Stdout(memory) => report::data(memory.get_ref())?,
+                Target::Special(path, memory) => File::options()
+                    .write(true)
+                    .open(&path)
+                    .and_then(|mut file| file.write_all(memory.get_ref()))
+                    .map_err(|error| Failure::writing(&path, &error))?,
+                Target::File { path, temporary } => files.push((path, temporary)),
             }
+        }
+        // Declared after the files, so that it is free again when they are dropped.
+        let mut all = temporaries();
+        let mut named: Vec<&Path> = Vec::new();
+        for (path, temporary) in &mut files {
+            if let Err(error) = temporary.persist(path, &mut all) {
+                for path in named {
+                    let _ = fs::remove_file(path);
+                }
+                return Err(Failure::writing(path, &error));
+            }
+            named.push(path);
         }
         Ok(())
     }
@@ -219,5 +230,36 @@ fn reason(error: &io::Error) -> String {
         io::ErrorKind::PermissionDenied => "its folder may not be written to".to_owned(),
         // Without the temporary file's name, which says nothing to anybody.
         _ => error.to_string().split(" at path ").next().unwrap_or_default().to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn written(path: &Path, text: &[u8]) -> Output {
+        let mut output = Output::create(path).unwrap();
+        output.write(|out| out.write_all(text)).unwrap();
+        output
+    }
+
+    #[test]
+    fn what_was_named_is_taken_back_where_a_later_name_cannot_be_given() {
+        let folder = tempfile::tempdir().unwrap();
+        let [first, second] = ["first", "second"].map(|name| folder.path().join(name));
+        let outputs = vec![written(&first, b"1"), written(&second, b"2")];
+        // It takes its name last, and by then a folder has it.
+        fs::create_dir(&first).unwrap();
+        assert!(matches!(Output::commit(outputs), Err(Failure::System(_))));
+        let names: Vec<_> =
+            fs::read_dir(folder.path()).unwrap().map(|e| e.unwrap().path()).collect();
+        assert_eq!(names, [first]);
+    }
+
+    #[test]
+    fn what_is_given_up_leaves_no_file() {
+        let folder = tempfile::tempdir().unwrap();
+        drop(written(&folder.path().join("a"), b"half"));
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
     }
 }

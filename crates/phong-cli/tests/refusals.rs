@@ -58,6 +58,14 @@ fn what_cannot_be_written_is_known_before_anything_is_read() {
 }
 
 #[test]
+fn of_several_files_all_are_written_or_none() {
+    let folder = given(&[("a.toml", BALLS)]);
+    std::fs::create_dir(folder.path("x.depth.png")).unwrap();
+    folder.when("render a.toml -o x.png --aov normal,depth").is_refused(&["x.depth.png", "folder"]);
+    assert_eq!(folder.names(), ["a.toml", "x.depth.png"]);
+}
+
+#[test]
 fn the_input_is_never_written_over() {
     let folder = given(&[("a.toml", BALLS)]);
     folder.when("render a.toml -o a.toml --output-format png").is_refused(&["over the input"]);

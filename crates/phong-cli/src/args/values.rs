@@ -139,9 +139,7 @@ pub(crate) fn background(text: &str) -> Result<Background, String> {
     if text == "transparent" {
         return Ok(Background::Transparent);
     }
-    color(text)
-        .map(Background::Color)
-        .map_err(|_| "write \"#rrggbb\", a CSS name, r,g,b, one number, or transparent".to_owned())
+    color(text).map(Background::Color)
 }
 
 /// The name of an arbitrary output variable.

@@ -195,7 +195,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         let [width, height] = [options.window.width(), options.window.height()];
         let seconds = clock.seconds("trace");
         report::say(&format!(
-            "{}: {width} × {height}, {} samples a pixel, {}rays in {seconds:.2} s ({})",
+            "{}: {width} × {height}, {} samples a pixel, {} rays in {seconds:.2} s ({})",
             plan.output.display(),
             options.samples,
             short(rays.total() as f64),
