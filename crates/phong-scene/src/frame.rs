@@ -28,7 +28,8 @@ pub struct View {
     pub up: DVec3,
     /// Position of the eye; `None`: where everything fits into the picture.
     pub eye: Option<DVec3>,
-    /// The point in the middle of the picture; `None`: the middle of the model's box.
+    /// The point in the middle of the picture; `None`: that which leaves the same margin on both
+    /// sides, or, seen from an `eye` of one's own, the middle of the model's box.
     pub look_at: Option<DVec3>,
     /// Vertical field of view in degrees, in (0, 180); `None`: 40.
     pub fov: Option<f64>,
@@ -128,9 +129,7 @@ impl Scene {
     /// The camera is a perspective one; two distant lights stand behind it, a key light over its
     /// left shoulder and a weaker one low on its right, which throws no shadows.
     pub fn frame(&mut self, view: &View) {
-        let bounds = self.bounds();
-        let aspect = f64::from(self.image.size[0].max(1)) / f64::from(self.image.size[1].max(1));
-        self.camera = camera(bounds, view, aspect);
+        self.camera = self.fit(view);
         self.lights = lights(&self.camera);
         self.image.background = Background::Gradient {
             top: Rgb::from_srgb8([0xd8, 0xdf, 0xe8]),
@@ -140,31 +139,53 @@ impl Scene {
             material.color = view.color.unwrap_or(Rgb::from_srgb8([0xd9, 0xcf, 0xc2]));
         }
     }
-}
 
-/// The camera of `view` for a box and a picture `aspect` times as wide as high.
-fn camera(bounds: Bounds, view: &View, aspect: f64) -> Camera {
-    let fov = view.fov.unwrap_or(40.0);
-    let bounds = if bounds.is_empty() { Bounds::EMPTY.with(DVec3::ZERO) } else { bounds };
-    let look_at = view.look_at.unwrap_or(bounds.center());
-    let (to_eye, up) = directions(view.side, view.up);
-    let forward = -to_eye;
-    let right = forward.cross(up).normalize_or(DVec3::X);
-    let image_up = right.cross(forward);
-    let tan_up = libm::tan(0.5 * fov.to_radians()) * FILL;
-    let tan_right = tan_up * aspect;
-    // A corner that lies z nearer to the eye than the middle needs the eye at |x| / tan + z.
-    let distance = bounds.corners().into_iter().fold(0.0_f64, |distance, corner| {
-        let c = corner - look_at;
-        let sideways = (c.dot(right).abs() / tan_right).max(c.dot(image_up).abs() / tan_up);
-        distance.max(sideways + c.dot(to_eye))
-    });
-    // A single point, or a flat thing seen edge-on: step back as far as it is from nothing.
-    let scale = look_at.abs().max_element();
-    let least = if bounds.size() == DVec3::ZERO { scale.max(1.0) } else { scale * 1e-9 };
-    let eye = view.eye.unwrap_or(look_at + to_eye * distance.max(least));
-    let up = if (look_at - eye).cross(up).length_squared() > 0.0 { up } else { image_up };
-    Camera { kind: CameraKind::Perspective { fov }, eye, look_at, up, aperture: 0.0, focus: None }
+    /// The camera that looks from a side and has everything in the picture, with a margin.
+    ///
+    /// The picture's edges are four planes through the eye. Each just touches the model if the
+    /// eye lies as far along its normal as the model reaches: two edges left and right give the
+    /// eye's place across and a distance, those above and below its height and another distance,
+    /// and the larger counts.
+    fn fit(&self, view: &View) -> Camera {
+        let fov = view.fov.unwrap_or(40.0);
+        let [width, height] = self.image.size.map(|side| f64::from(side.max(1)));
+        let (to_eye, up) = directions(view.side, view.up);
+        let right = up.cross(to_eye).normalize_or(DVec3::X);
+        let image_up = to_eye.cross(right);
+        let bounds = self.bounds();
+        let bounds = if bounds.is_empty() { Bounds::EMPTY.with(DVec3::ZERO) } else { bounds };
+        let center = bounds.center();
+
+        // In the frame of right, up and to_eye around the middle of the model.
+        let tan_y = libm::tan(0.5 * fov.to_radians()) * FILL;
+        let tan_x = tan_y * width / height;
+        let edges = [
+            right + tan_x * to_eye,
+            tan_x * to_eye - right,
+            image_up + tan_y * to_eye,
+            tan_y * to_eye - image_up,
+        ];
+        let reach = self.reach(edges);
+        let [east, west, north, south] =
+            std::array::from_fn(|i| (reach[i] - center.dot(edges[i])).max(0.0));
+        let (x, y) = match view.look_at {
+            Some(target) => ((target - center).dot(right), (target - center).dot(image_up)),
+            None => (0.5 * (east - west), 0.5 * (north - south)),
+        };
+        let across = ((east - x) / tan_x).max((west + x) / tan_x);
+        let distance = across.max((north - y) / tan_y).max((south + y) / tan_y);
+        // A single point: step back as far as it is from nothing. f64 must tell eye from target.
+        let scale = center.abs().max_element();
+        let least = if bounds.size() == DVec3::ZERO { scale.max(1.0) } else { scale * 1e-9 };
+        let middle = center + x * right + y * image_up;
+        let look_at = view.look_at.unwrap_or(if view.eye.is_some() { center } else { middle });
+        let eye = view.eye.unwrap_or(middle + to_eye * distance.max(least));
+        let forward = look_at - eye;
+        let along_up = forward.cross(up).length() <= 1e-6 * forward.length() * up.length();
+        let up = if along_up { image_up } else { up };
+        let kind = CameraKind::Perspective { fov };
+        Camera { kind, eye, look_at, up, aperture: 0.0, focus: None }
+    }
 }
 
 /// The unit direction from the model to the eye, and the picture's up.
@@ -231,8 +252,17 @@ mod tests {
         (d.dot(right) / (half * aspect), d.dot(right.cross(forward)) / half)
     }
 
+    /// A scene of one box.
+    fn boxed(min: DVec3, max: DVec3) -> Scene {
+        let mut scene = frame(Model::default(), &View::default(), &Place::default());
+        let (shape, place) = (Shape::Box { min, max }, Place::default());
+        let (material, transform) = (MaterialId(0), DAffine3::IDENTITY);
+        scene.objects = vec![Object { name: String::new(), shape, material, transform, place }];
+        scene
+    }
+
     #[test]
-    fn everything_fits_with_a_margin_and_fills_the_picture_from_every_side() {
+    fn everything_fits_with_a_margin_and_touches_it_on_opposite_sides() {
         let boxes = [
             (DVec3::ZERO, DVec3::ONE),
             (DVec3::splat(-1e9), DVec3::new(1e9, -0.9e9, 1e3)),
@@ -243,16 +273,25 @@ mod tests {
         for (min, max) in boxes {
             for side in SIDES {
                 for up in [DVec3::Y, DVec3::Z, DVec3::NEG_Y, DVec3::new(1.0, 2.0, -3.0)] {
-                    for aspect in [0.25, 1.0, 16.0 / 9.0] {
-                        let bounds = Bounds { min, max };
-                        let camera = camera(bounds, &View { side, up, ..View::default() }, aspect);
-                        let reach = bounds.corners().map(|c| {
-                            let (x, y) = project(&camera, aspect, c);
-                            x.abs().max(y.abs())
-                        });
-                        let most = reach.into_iter().fold(0.0, f64::max);
-                        let told = format!("{side:?} {up} {aspect} {bounds:?}: {most}");
-                        assert!((most - FILL).abs() < 1e-4, "{told}");
+                    for size in [[100, 400], [100, 100], [1600, 900]] {
+                        let mut scene = boxed(min, max);
+                        scene.image.size = size;
+                        scene.frame(&View { side, up, ..View::default() });
+                        let aspect = f64::from(size[0]) / f64::from(size[1]);
+                        let corners = Bounds { min, max }.corners();
+                        let seen = corners.map(|c| project(&scene.camera, aspect, c));
+                        let most = |f: fn((f64, f64)) -> f64| {
+                            seen.map(f).into_iter().fold(f64::NEG_INFINITY, f64::max)
+                        };
+                        let [east, west, north, south] =
+                            [most(|p| p.0), most(|p| -p.0), most(|p| p.1), most(|p| -p.1)];
+                        let told = format!("{side:?} {up} {size:?} {:?}", scene.camera);
+                        let (x, y) = (east.max(west), north.max(south));
+                        assert!((x.max(y) - FILL).abs() < 1e-4, "{told}");
+                        assert!(
+                            (if x > y { east - west } else { north - south }).abs() < 1e-4,
+                            "{told}"
+                        );
                     }
                 }
             }
@@ -260,10 +299,37 @@ mod tests {
     }
 
     #[test]
+    fn a_sphere_is_framed_by_its_outline_and_not_by_its_box() {
+        let mut scene = boxed(DVec3::ZERO, DVec3::ONE);
+        scene.objects[0].shape = Shape::Sphere { center: DVec3::ZERO, radius: 1.0 };
+        scene.image.size = [1, 1];
+        scene.frame(&View { fov: Some(60.0), ..View::default() });
+        // Tangents from the eye leave at the angle whose sine is radius over distance.
+        let half = libm::atan(libm::tan(30_f64.to_radians()) * FILL);
+        assert!((scene.camera.eye.length() - 1.0 / libm::sin(half)).abs() < 1e-12);
+        assert!(scene.camera.look_at.length() < 1e-12);
+    }
+
+    #[test]
     fn a_single_point_and_nothing_at_all_have_a_camera_that_looks_at_them() {
-        for bounds in [Bounds::EMPTY, Bounds::EMPTY.with(DVec3::new(1e7, 0.0, -3.0))] {
-            let camera = camera(bounds, &View::default(), 1.5);
-            assert!(camera.eye.is_finite() && camera.eye != camera.look_at, "{camera:?}");
+        let point = DVec3::new(1e7, 0.0, -3.0);
+        let mut nothing = boxed(point, point);
+        nothing.objects.clear();
+        for mut scene in [nothing, boxed(point, point)] {
+            scene.frame(&View::default());
+            let Camera { eye, look_at, .. } = scene.camera;
+            assert!(eye.is_finite() && eye.distance(look_at) > 1e-3, "{eye} {look_at}");
+        }
+    }
+
+    #[test]
+    fn what_one_chooses_to_look_at_is_in_the_middle_and_everything_still_fits() {
+        let mut scene = boxed(DVec3::ZERO, DVec3::ONE);
+        scene.frame(&View { look_at: Some(DVec3::ZERO), ..View::default() });
+        assert_eq!(scene.camera.look_at, DVec3::ZERO);
+        for corner in (Bounds { min: DVec3::ZERO, max: DVec3::ONE }).corners() {
+            let (x, y) = project(&scene.camera, 16.0 / 9.0, corner);
+            assert!(x.abs().max(y.abs()) <= FILL + 1e-9, "{corner}");
         }
     }
 
@@ -279,7 +345,7 @@ mod tests {
     #[test]
     fn an_eye_of_ones_own_wins_and_looking_along_up_still_has_an_up() {
         let view = View { eye: Some(DVec3::new(0.5, 9.0, 0.5)), ..View::default() };
-        let camera = camera(Bounds { min: DVec3::ZERO, max: DVec3::ONE }, &view, 1.0);
+        let camera = boxed(DVec3::ZERO, DVec3::ONE).fit(&view);
         assert_eq!(camera.eye.y, 9.0);
         assert!((camera.look_at - camera.eye).cross(camera.up).length() > 0.1);
     }

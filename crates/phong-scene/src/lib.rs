@@ -4,6 +4,7 @@
 //! in. This crate knows no rays and no pixels, and never imports another crate of the project.
 //! It never prints, exits or panics on input: reading gives *all* [`Diagnostic`]s as data.
 
+mod bounds;
 mod camera;
 mod check;
 mod color;
@@ -23,6 +24,7 @@ mod shape;
 mod source;
 mod wording;
 
+pub use bounds::Bounds;
 pub use camera::{Camera, CameraKind};
 pub use color::{ColorError, Rgb, srgb_decode, srgb_encode};
 pub use diagnostic::{Diagnostic, Label, Place, Severity, Span};
@@ -34,7 +36,7 @@ pub use material::{
     AmbientRule, Dialect, Distribution, Fresnel, Material, MaterialId, Model, Shadowing, Tint,
     WardForm,
 };
-pub use mesh::{Bounds, Mesh, NO_INDEX, Points};
+pub use mesh::{Mesh, NO_INDEX, Points};
 pub use scene::{Background, FilterKind, Group, GroupId, Image, Object, Reading, Scene};
 pub use shape::Shape;
 pub use source::{Blob, Folder, Memory, Source};

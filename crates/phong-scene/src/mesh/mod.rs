@@ -2,12 +2,10 @@
 //!
 //! The renderer takes these arrays by value; nothing copies them.
 
-mod bounds;
 mod polygon;
 mod smooth;
 mod tidy;
 
-pub use bounds::Bounds;
 pub(crate) use polygon::cut_polygons;
 
 use glam::{DVec3, Vec2, Vec3};

@@ -1,9 +1,14 @@
 //! Boxes along the axes that hold geometry, in f64.
 
+mod reach;
+
 use glam::{DAffine3, DVec3, Vec3};
 use rayon::prelude::*;
 
-use crate::{Mesh, Points, Scene, Shape};
+use crate::{Mesh, Object, Points, Scene, Shape};
+
+/// Along the axes, and against them.
+const AXES: [DVec3; 6] = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
 
 /// A box along the axes; `min ≤ max` unless empty.
 ///
@@ -64,24 +69,18 @@ impl Bounds {
             )
         })
     }
-
-    /// The smallest box that holds this box's image under `transform`; empty stays empty.
-    #[must_use]
-    pub fn transformed(self, transform: &DAffine3) -> Self {
-        if self.is_empty() {
-            return self;
-        }
-        self.corners()
-            .into_iter()
-            .fold(Self::EMPTY, |b, corner| b.with(transform.transform_point3(corner)))
-    }
 }
 
 impl Mesh {
     /// The smallest box that holds every triangle; positions that no triangle uses do not count.
     pub fn bounds(&self) -> Bounds {
-        let (min, max) = self
-            .indices
+        let (min, max) = self.extremes();
+        Bounds { min: self.origin + min.as_dvec3(), max: self.origin + max.as_dvec3() }
+    }
+
+    /// The same relative to the origin.
+    fn extremes(&self) -> (Vec3, Vec3) {
+        self.indices
             .par_iter()
             .with_min_len(1 << 12)
             .fold(empty, |b, triangle| {
@@ -90,8 +89,7 @@ impl Mesh {
                     (min.min(p), max.max(p))
                 })
             })
-            .reduce(empty, join);
-        Bounds { min: self.origin + min.as_dvec3(), max: self.origin + max.as_dvec3() }
+            .reduce(empty, join)
     }
 }
 
@@ -111,61 +109,40 @@ impl Points {
     }
 }
 
-impl Shape {
-    /// A box that holds the shape in its own space, the smallest but for instances, whose boxes
-    /// within boxes may be larger; `None` for a plane, which no box holds. `groups` are the
-    /// boxes of the scene's groups, in order.
-    fn bounds(&self, groups: &[Bounds]) -> Option<Bounds> {
-        let around = |center: DVec3, half: DVec3| Bounds { min: center - half, max: center + half };
-        // A disc reaches r √(1 − n²) along an axis to which its unit normal has the cosine n.
-        let disc = |center: DVec3, normal: DVec3, radius: f64| {
-            let n = normal.try_normalize().unwrap_or(DVec3::ZERO);
-            let reach = (DVec3::ONE - n * n).max(DVec3::ZERO);
-            around(center, radius * DVec3::new(reach.x.sqrt(), reach.y.sqrt(), reach.z.sqrt()))
-        };
-        Some(match *self {
-            Self::Plane { .. } => return None,
-            Self::Sphere { center, radius } => around(center, DVec3::splat(radius)),
-            Self::Triangle { points, .. } => points.into_iter().fold(Bounds::EMPTY, Bounds::with),
-            Self::Disc { center, normal, radius } => disc(center, normal, radius),
-            Self::Box { min, max } => Bounds { min, max },
-            Self::Cylinder { from, to, radius, .. } => {
-                disc(from, to - from, radius).union(disc(to, to - from, radius))
-            }
-            Self::Cone { from, to, radius, radius_to, .. } => {
-                disc(from, to - from, radius).union(disc(to, to - from, radius_to))
-            }
-            Self::Torus { center, axis, radius, tube } => {
-                let ring = disc(center, axis, radius);
-                Bounds { min: ring.min - tube, max: ring.max + tube }
-            }
-            Self::Mesh(ref mesh) => mesh.bounds(),
-            Self::Points(ref points) => points.bounds(),
-            Self::Instance(group) => groups.get(group.0 as usize).copied().unwrap_or(Bounds::EMPTY),
-        })
+impl Scene {
+    /// The smallest box that holds every object but the planes, which have no end; empty if there
+    /// is none. Of an instance it holds the box around its group's.
+    pub fn bounds(&self) -> Bounds {
+        let groups = self.group_bounds();
+        bounds_of(&self.objects, &groups)
+    }
+
+    /// The box of every group.
+    fn group_bounds(&self) -> Vec<Bounds> {
+        let mut bounds = Vec::with_capacity(self.groups.len());
+        for group in &self.groups {
+            // A group holds instances of earlier groups only.
+            let next = bounds_of(&group.objects, &bounds);
+            bounds.push(next);
+        }
+        bounds
     }
 }
 
-impl Scene {
-    /// A box that holds every object but the planes, which have no end; empty if there is none.
-    ///
-    /// It is the smallest where no object is turned or nested; a turned one counts with the box
-    /// of its box.
-    pub fn bounds(&self) -> Bounds {
-        let mut groups = Vec::with_capacity(self.groups.len());
-        let all = |objects: &[crate::Object], groups: &[Bounds]| {
-            objects
-                .iter()
-                .filter_map(|o| Some(o.shape.bounds(groups)?.transformed(&o.transform)))
-                .fold(Bounds::EMPTY, Bounds::union)
-        };
-        for group in &self.groups {
-            // A group holds instances of earlier groups only.
-            let bounds = all(&group.objects, &groups);
-            groups.push(bounds);
+fn bounds_of(objects: &[Object], groups: &[Bounds]) -> Bounds {
+    let bounds = |object: &Object| {
+        match &object.shape {
+            // Without arithmetic in between, and in one pass.
+            Shape::Mesh(mesh) if object.transform == DAffine3::IDENTITY => return mesh.bounds(),
+            Shape::Points(p) if object.transform == DAffine3::IDENTITY => return p.bounds(),
+            _ => {}
         }
-        all(&self.objects, &groups)
-    }
+        object.reach(AXES, groups).map_or(Bounds::EMPTY, |[a, b, c, d, e, f]| Bounds {
+            min: -DVec3::new(d, e, f),
+            max: DVec3::new(a, b, c),
+        })
+    };
+    objects.iter().map(bounds).fold(Bounds::EMPTY, Bounds::union)
 }
 
 fn empty() -> (Vec3, Vec3) {
@@ -181,7 +158,7 @@ mod tests {
     use glam::DQuat;
 
     use super::*;
-    use crate::{GroupId, Material, MaterialId, Object, Place};
+    use crate::{GroupId, Material, MaterialId, Place};
 
     fn object(shape: Shape, transform: DAffine3) -> Object {
         let (material, place) = (MaterialId(0), Place::default());
@@ -209,7 +186,7 @@ mod tests {
     fn round_shapes_reach_exactly_as_far_as_their_rims() {
         let (half, center) = (0.5_f64.sqrt(), DVec3::new(1.0, 2.0, 3.0));
         let tilted = DVec3::new(3.0, 3.0, 0.0);
-        let bounds = |shape: Shape| shape.bounds(&[]).unwrap();
+        let bounds = |shape| bounds_of(&[object(shape, DAffine3::IDENTITY)], &[]);
         close(
             bounds(Shape::Disc { center, normal: tilted, radius: 2.0 }),
             [1.0 - 2.0 * half, 2.0 - 2.0 * half, 1.0],
@@ -247,7 +224,8 @@ mod tests {
                 reached = reached.with(turn * p);
             }
         }
-        let bounds = Shape::Torus { center: DVec3::ZERO, axis, radius, tube }.bounds(&[]).unwrap();
+        let torus = Shape::Torus { center: DVec3::ZERO, axis, radius, tube };
+        let bounds = bounds_of(&[object(torus, DAffine3::IDENTITY)], &[]);
         assert!((bounds.max - reached.max).min_element() >= 0.0, "{bounds:?} {reached:?}");
         assert!((bounds.max - reached.max).max_element() < 1e-3, "{bounds:?} {reached:?}");
     }
@@ -267,6 +245,25 @@ mod tests {
         all.groups = vec![group(vec![object(ball, DAffine3::IDENTITY)]), group(vec![inner])];
         close(all.bounds(), [0.0, -2.0, -2.0], [4.0, 21.0, 2.0]);
         assert!(scene(Vec::new()).bounds().is_empty());
+    }
+
+    #[test]
+    fn what_is_turned_and_stretched_has_the_smallest_box_too() {
+        let turn = DAffine3::from_quat(DQuat::from_rotation_arc(DVec3::X, DVec3::Z));
+        let stretch = DAffine3::from_scale(DVec3::new(3.0, 1.0, 1.0));
+        let ball = Shape::Sphere { center: DVec3::X, radius: 1.0 };
+        let bounds = |shape, transform| bounds_of(&[object(shape, transform)], &[]);
+        close(bounds(ball, turn * stretch), [-1.0, -1.0, 0.0], [1.0, 1.0, 6.0]);
+        // The corners of a turned square's box are not the square's.
+        let eighth = DAffine3::from_quat(DQuat::from_rotation_arc(
+            DVec3::X,
+            DVec3::new(1.0, 1.0, 0.0).normalize_or(DVec3::X),
+        ));
+        let positions = vec![Vec3::X, Vec3::Y, -Vec3::X, -Vec3::Y, Vec3::splat(9.0)];
+        let indices = vec![[0, 1, 2], [0, 2, 3]];
+        let square = Shape::Mesh(Box::new(Mesh { positions, indices, ..Mesh::default() }));
+        let half = 0.5_f64.sqrt();
+        close(bounds(square, eighth), [-half, -half, 0.0], [half, half, 0.0]);
     }
 
     #[test]
