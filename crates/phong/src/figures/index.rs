@@ -57,7 +57,7 @@ fn section(out: &mut String, figure: &Figure) {
             out,
             "<tr><th>{}</th><td>{}{unit}</td></tr>",
             text::escape(name),
-            plot::six(*value)
+            text::html(&plot::six(*value))
         );
     }
     let _ = write!(

@@ -100,7 +100,7 @@ pub(super) fn fixed(value: f64, digits: usize) -> String {
     if zero { words.trim_start_matches('-').to_owned() } else { words.replace('-', "−") }
 }
 
-/// A number to six significant digits, as people write it.
+/// A number to six significant digits, as people write it: markup.
 pub(super) fn six(value: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();
@@ -108,7 +108,7 @@ pub(super) fn six(value: f64) -> String {
     if !(1e-3..1e7).contains(&value.abs()) {
         let scientific = format!("{value:.2e}");
         let (digits, power) = scientific.split_once('e').unwrap_or((&scientific, "0"));
-        return format!("{digits} × 10^{power}").replace('-', "−");
+        return format!("{digits} × 10^{{{power}}}").replace('-', "−");
     }
     let whole = (value.abs() as u64).to_string().len() - 1;
     let words = fixed(value, 5_usize.saturating_sub(whole));
@@ -134,7 +134,7 @@ mod tests {
     #[test]
     fn six_digits_are_enough_for_any_number() {
         let values = [0.0, 23.508_048_9, 0.5, -1.25, 18600.0, 1.192e-7];
-        let words = ["0", "23.508", "0.5", "−1.25", "18600", "1.19 × 10^−7"];
+        let words = ["0", "23.508", "0.5", "−1.25", "18600", "1.19 × 10^{−7}"];
         assert_eq!(values.map(six), words);
     }
 
