@@ -22,6 +22,7 @@
 mod assemble;
 mod block;
 mod libraries;
+mod write;
 
 use std::io;
 use std::sync::Arc;

@@ -136,3 +136,23 @@ proptest! {
         prop_assert_eq!(read.indices, indices);
     }
 }
+
+#[test]
+fn what_is_written_reads_back_to_the_bit() {
+    let text = "mtllib a.mtl\nv 4500000.125 0.1 0 1 0.5 0.25\nv 4500001 0 0 0 0 0\n\
+        v 4500000 1e-7 1.5 0.1 0.2 0.3\nvt 0.1 0.2\nvt 1 0\nvn 0 0 2\nvn 0.6 0.8 0\n\
+        usemtl red\nf 1/1/1 2/2/1 3\nusemtl blue\nf 3//2 2/2 1\n";
+    let library = "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n";
+    let files =
+        |text: &str| Memory::new().with("a.obj", text.as_bytes()).with("a.mtl", library.as_bytes());
+    let read = |text: &str| {
+        let model = read_obj("a.obj", &files(text), &Limits::default(), &mut Vec::new()).unwrap();
+        (format!("{:?}", model.parts), model)
+    };
+    let (first, model) = read(text);
+    let Some(Part::Mesh { mesh, .. }) = model.parts.first() else { panic!("{first}") };
+    let mut file = b"mtllib a.mtl\n".to_vec();
+    mesh.write_obj(&model.materials, &mut file).unwrap();
+    let (second, _) = read(str::from_utf8(&file).unwrap());
+    assert_eq!(first, second);
+}

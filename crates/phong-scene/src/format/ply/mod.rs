@@ -30,6 +30,9 @@ mod faces;
 mod header;
 mod radius;
 mod vertices;
+mod write;
+
+pub use write::PlyEncoding;
 
 #[cfg(test)]
 mod tests;

@@ -238,3 +238,41 @@ proptest! {
         prop_assert!(part.is_none() && told.contains("error"), "{}", told);
     }
 }
+
+#[test]
+fn what_is_written_reads_back_to_the_bit() {
+    let mesh = Mesh {
+        origin: glam::DVec3::new(5e6, 0.0, 0.0),
+        positions: vec![Vec3::ZERO, Vec3::X, Vec3::new(0.1, 1e-7, 0.0), Vec3::Z],
+        indices: vec![[0, 1, 2], [0, 2, 3]],
+        normals: vec![Vec3::Z, Vec3::X],
+        normal_indices: vec![[0, 0, 0], [1, 0, crate::NO_INDEX]],
+        colors: [0.1, 0.5, 2.0, 0.0].map(Rgb::grey).to_vec(),
+        ..Mesh::default()
+    };
+    let corner = |m: &Mesh, face: usize, corner: usize| {
+        let at = m.indices[face][corner] as usize;
+        let numbers = if m.normal_indices.is_empty() { &m.indices } else { &m.normal_indices };
+        let normal = m.normals.get(numbers[face][corner] as usize);
+        (m.origin + m.positions[at].as_dvec3(), normal.copied(), m.colors[at])
+    };
+    for encoding in [PlyEncoding::Ascii, PlyEncoding::Binary] {
+        let mut file = Vec::new();
+        mesh.write_ply(encoding, &mut file).unwrap();
+        let read = self::mesh(&file);
+        // Vertex 0 has two normals.
+        assert_eq!((read.positions.len(), read.indices.len()), (5, 2));
+        for (face, i) in [(0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2)] {
+            assert_eq!(corner(&read, face, i), corner(&mesh, face, i));
+        }
+        let cloud = Points {
+            origin: glam::DVec3::ZERO,
+            spheres: vec![[0.1, -2.0, 3e9, 0.5], [1.0, 2.0, 3.0, 1e-9]],
+            colors: vec![Rgb::new(0.25, 1.0, 7.5), Rgb::BLACK],
+        };
+        let mut file = Vec::new();
+        cloud.write_ply(encoding, &mut file).unwrap();
+        let read = points(&file, None);
+        assert_eq!((read.spheres, read.colors), (cloud.spheres, cloud.colors));
+    }
+}

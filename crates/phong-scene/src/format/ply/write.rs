@@ -1,0 +1,205 @@
+//! Meshes and points as PLY.
+
+use std::collections::HashMap;
+use std::io::{self, Write};
+
+use glam::{DVec3, Vec2, Vec3};
+
+use crate::{Mesh, NO_INDEX, Points, Rgb};
+
+/// How numbers stand in a PLY file that is written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PlyEncoding {
+    /// Bytes, least significant first: small, and fast to read.
+    #[default]
+    Binary,
+    /// Text that reads back to the same bits.
+    Ascii,
+}
+
+impl Mesh {
+    /// Writes the mesh as PLY: positions (as doubles if it has an origin), normals, texture
+    /// coordinates, linear colours as floats, triangles.
+    ///
+    /// PLY knows one normal and one texture coordinate a vertex: a position that has several is
+    /// written several times. A corner without a normal gets (0, 0, 0), which reads back as
+    /// none. Materials are not written: PLY has none.
+    ///
+    /// # Errors
+    /// Whatever `to` says.
+    ///
+    /// ```
+    /// use glam::Vec3;
+    /// use phong_scene::{Mesh, PlyEncoding};
+    /// let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y];
+    /// let triangle = Mesh { positions, indices: vec![[0, 1, 2]], ..Mesh::default() };
+    /// let mut file = Vec::new();
+    /// triangle.write_ply(PlyEncoding::Ascii, &mut file)?;
+    /// assert!(file.ends_with(b"0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"));
+    /// # Ok::<(), std::io::Error>(())
+    /// ```
+    pub fn write_ply(&self, encoding: PlyEncoding, to: &mut dyn Write) -> io::Result<()> {
+        let (vertices, triangles) = self.single_vertices();
+        let mut text = header(encoding, vertices.len(), self.origin);
+        let [normals, uvs] = [self.normals.len(), self.uvs.len()].map(|n| n > 0);
+        for (wanted, names) in [
+            (normals, &["nx", "ny", "nz"][..]),
+            (uvs, &["s", "t"]),
+            (!self.colors.is_empty(), &RGB),
+        ] {
+            text.extend(names.iter().filter(|_| wanted).map(|name| property(name)));
+        }
+        text.extend(["element face ", &triangles.len().to_string(), "\n"]);
+        text += "property list uchar uint vertex_indices\nend_header\n";
+        let mut out = Out { encoding, row: Vec::new(), to };
+        out.to.write_all(text.as_bytes())?;
+        for [position, normal, uv] in vertices {
+            let at = position as usize;
+            out.position(self.positions[at], self.origin);
+            if normals {
+                let n = self.normals.get(normal as usize).copied().unwrap_or(Vec3::ZERO);
+                out.floats(&n.to_array());
+            }
+            if uvs {
+                let uv = self.uvs.get(uv as usize).copied().unwrap_or(Vec2::ZERO);
+                out.floats(&uv.to_array());
+            }
+            out.color(self.colors.get(at));
+            out.end_row()?;
+        }
+        for triangle in triangles {
+            out.triangle(triangle);
+            out.end_row()?;
+        }
+        out.finish()
+    }
+
+    /// Every combination of position, normal and texture coordinate that a corner has, in the
+    /// order of first use (all positions, if there is one a position), and triangles of them.
+    fn single_vertices(&self) -> (Vec<[u32; 3]>, Vec<[u32; 3]>) {
+        if self.normal_indices.is_empty() && self.uv_indices.is_empty() {
+            let vertices = (0..self.positions.len() as u32).map(|i| [i; 3]).collect();
+            return (vertices, self.indices.clone());
+        }
+        let mut numbers = HashMap::new();
+        let mut vertices = Vec::new();
+        let normals = self.normal_indices.iter().chain(&self.indices);
+        let uvs = self.uv_indices.iter().chain(&self.indices);
+        let triangles = self.indices.iter().zip(normals).zip(uvs).map(|((p, n), t)| {
+            [0, 1, 2].map(|corner| {
+                let none = |count: usize, i: u32| if count == 0 { NO_INDEX } else { i };
+                let (n, t) = (none(self.normals.len(), n[corner]), none(self.uvs.len(), t[corner]));
+                *numbers.entry([p[corner], n, t]).or_insert_with_key(|vertex| {
+                    vertices.push(*vertex);
+                    vertices.len() as u32 - 1
+                })
+            })
+        });
+        let triangles = triangles.collect();
+        (vertices, triangles)
+    }
+}
+
+impl Points {
+    /// Writes the points as PLY: centres (as doubles if they have an origin), radii, and linear
+    /// colours as floats.
+    ///
+    /// # Errors
+    /// Whatever `to` says.
+    pub fn write_ply(&self, encoding: PlyEncoding, to: &mut dyn Write) -> io::Result<()> {
+        let mut text = header(encoding, self.spheres.len(), self.origin) + &property("radius");
+        text.extend(RGB.iter().filter(|_| !self.colors.is_empty()).map(|name| property(name)));
+        let mut out = Out { encoding, row: Vec::new(), to };
+        out.to.write_all((text + "end_header\n").as_bytes())?;
+        for (i, &[x, y, z, radius]) in self.spheres.iter().enumerate() {
+            out.position(Vec3::new(x, y, z), self.origin);
+            out.floats(&[radius]);
+            out.color(self.colors.get(i));
+            out.end_row()?;
+        }
+        out.finish()
+    }
+}
+
+const RGB: [&str; 3] = ["red", "green", "blue"];
+
+fn header(encoding: PlyEncoding, vertices: usize, origin: DVec3) -> String {
+    let format = match encoding {
+        PlyEncoding::Binary => "binary_little_endian",
+        PlyEncoding::Ascii => "ascii",
+    };
+    let kind = if origin == DVec3::ZERO { "float" } else { "double" };
+    format!(
+        "ply\nformat {format} 1.0\nelement vertex {vertices}\n\
+         property {kind} x\nproperty {kind} y\nproperty {kind} z\n"
+    )
+}
+
+fn property(name: &str) -> String {
+    format!("property float {name}\n")
+}
+
+/// Rows in either encoding.
+struct Out<'a> {
+    encoding: PlyEncoding,
+    row: Vec<u8>,
+    to: &'a mut dyn Write,
+}
+
+impl Out<'_> {
+    fn position(&mut self, p: Vec3, origin: DVec3) {
+        if origin == DVec3::ZERO {
+            self.floats(&p.to_array());
+            return;
+        }
+        for value in (origin + p.as_dvec3()).to_array() {
+            self.number(&value.to_le_bytes(), value);
+        }
+    }
+
+    fn floats(&mut self, values: &[f32]) {
+        for value in values {
+            self.number(&value.to_le_bytes(), value);
+        }
+    }
+
+    fn color(&mut self, color: Option<&Rgb>) {
+        if let Some(color) = color {
+            self.floats(&color.to_array());
+        }
+    }
+
+    fn triangle(&mut self, triangle: [u32; 3]) {
+        self.number(&[3], 3);
+        for index in triangle {
+            self.number(&index.to_le_bytes(), index);
+        }
+    }
+
+    fn number(&mut self, bytes: &[u8], value: impl std::fmt::Display) {
+        match self.encoding {
+            PlyEncoding::Binary => self.row.extend_from_slice(bytes),
+            PlyEncoding::Ascii => {
+                // Writing to a vector does not fail. The shortest digits read back to the bit.
+                let _ = write!(self.row, "{value} ");
+            }
+        }
+    }
+
+    fn end_row(&mut self) -> io::Result<()> {
+        if self.encoding == PlyEncoding::Ascii {
+            self.row.pop();
+            self.row.push(b'\n');
+        }
+        if self.row.len() >= 1 << 16 {
+            self.to.write_all(&self.row)?;
+            self.row.clear();
+        }
+        Ok(())
+    }
+
+    fn finish(self) -> io::Result<()> {
+        self.to.write_all(&self.row)?;
+        self.to.flush()
+    }
+}
