@@ -175,11 +175,9 @@ impl Layout<'_> {
                 (None, Some(place)) if place < 3 && self.plan.origin[place] == 0.0 => {
                     cursor.float(0.0).map(|value| row[place] = f64::from(value))
                 }
-                (None, place) => double(cursor).map(|value| {
-                    if let Some(place) = place {
-                        row[place] = value;
-                    }
-                }),
+                (None, Some(place)) => double(cursor).map(|value| row[place] = value),
+                // Whatever it says: MeshLab writes NaN for a quality it does not know.
+                (None, None) => skip(cursor),
             };
             if read.is_none() {
                 let (span, fault) = self.blame(cursor, i, element);
@@ -221,7 +219,7 @@ impl Layout<'_> {
             } else if property.list.is_some() {
                 skip_list(cursor)
             } else {
-                double(cursor).map(|_| ())
+                skip(cursor)
             };
             if read.is_none() {
                 let (span, fault) = self.blame(cursor, i, element);
@@ -291,7 +289,12 @@ fn read_list(cursor: &mut Cursor<'_>, numbers: &mut Vec<i64>) -> Option<()> {
 
 fn skip_list(cursor: &mut Cursor<'_>) -> Option<()> {
     for _ in 0..integer(cursor)? {
-        double(cursor)?;
+        skip(cursor)?;
     }
     Some(())
+}
+
+/// Goes over a word, if there is one.
+fn skip(cursor: &mut Cursor<'_>) -> Option<()> {
+    (!cursor.word().is_empty()).then_some(())
 }

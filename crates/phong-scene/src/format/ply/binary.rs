@@ -229,12 +229,13 @@ impl Body<'_> {
         let mut walk = Walk::new(self, offset);
         let mut findings = Findings::default();
         let (mut numbers, mut scratch) = (Vec::new(), Vec::new());
+        let most = self.limits.bytes / 8;
         for number in 0..element.count {
             for (i, property) in element.properties.iter().enumerate() {
                 let whole = match (property.list, list) {
                     (None, _) => walk.number(property.kind)?.is_some(),
                     (Some(count), Some(list)) if list.property == i => {
-                        walk.list(count, property.kind, &mut numbers)?
+                        walk.list(count, property.kind, most, &mut numbers)?
                     }
                     (Some(count), _) => walk.skip_list(count, property.kind)?,
                 };
@@ -497,10 +498,20 @@ impl<'a> Walk<'a> {
         Ok(self.filled >= size)
     }
 
-    /// Reads a list; whether it is there as a whole.
-    fn list(&mut self, count: Type, kind: Type, numbers: &mut Vec<i64>) -> io::Result<bool> {
+    /// Reads a list of at most `most` numbers; whether it is there as a whole.
+    fn list(
+        &mut self,
+        count: Type,
+        kind: Type,
+        most: u64,
+        numbers: &mut Vec<i64>,
+    ) -> io::Result<bool> {
         numbers.clear();
         let Some(count) = self.number(count)? else { return Ok(false) };
+        if count > most as f64 {
+            let message = format!("a list of {count} numbers takes more memory than is allowed");
+            return Err(io::Error::new(io::ErrorKind::InvalidData, message));
+        }
         for _ in 0..count.max(0.0) as u64 {
             // What a count promises is not reserved: the file may be shorter.
             let Some(number) = self.number(kind)? else { return Ok(false) };
