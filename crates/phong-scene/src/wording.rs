@@ -28,9 +28,21 @@ pub(crate) fn quoted(text: &str) -> String {
     }
 }
 
-/// `a`, `b` or `c`.
+/// A path in a sentence; of a very long one the end.
+pub(crate) fn path(text: &str) -> String {
+    match text.char_indices().rev().nth(4 * LONGEST) {
+        Some((start, _)) => format!("`…{}`", &text[start..]),
+        None => format!("`{text}`"),
+    }
+}
+
+/// `a`, `b` or `c`, each cut to a sane length.
 pub(crate) fn list<'a>(words: impl IntoIterator<Item = &'a str>, last: &str) -> String {
-    let words: Vec<_> = words.into_iter().map(|word| format!("`{word}`")).collect();
+    let cut = |word: &'a str| match word.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("`{}…`", &word[..end]),
+        None => format!("`{word}`"),
+    };
+    let words: Vec<_> = words.into_iter().map(cut).collect();
     match words.split_last() {
         None => String::new(),
         Some((only, [])) => only.clone(),
@@ -66,6 +78,8 @@ mod tests {
         let long = "é".repeat(1_000_000);
         assert_eq!(closest(&long, ["center"]), None);
         assert!(quoted(&long).chars().count() < 70);
+        assert!(path(&long).chars().count() < 250);
+        assert!(list([long.as_str()], "or").chars().count() < 70);
     }
 
     #[test]

@@ -7,7 +7,7 @@ use super::table::Values;
 use super::text::{self, Spot, Text};
 use crate::format::model::Part;
 use crate::format::{Format, read_model};
-use crate::{Mesh, Points, Shape};
+use crate::{Mesh, Points, Shape, wording};
 
 /// Most files that a scene may include, those included by others too: a file that includes the
 /// next one twice, and so on, would otherwise double the work at every step.
@@ -23,7 +23,10 @@ impl Reader<'_> {
         if self.open.contains(&normal) {
             let from = self.open.iter().position(|open| *open == normal).unwrap_or(0);
             let round = self.open[from..].join(" → ");
-            let message = format!("the file includes itself: {round} → {normal}");
+            let message = format!(
+                "the file includes itself: {}",
+                wording::path(&format!("{round} → {normal}"))
+            );
             self.notes.error(spot, message);
             return;
         }
@@ -45,7 +48,7 @@ impl Reader<'_> {
                 self.file(&inner, Text::new(inner.as_str().into(), text, at));
             }
             Err(message) => {
-                let message = format!("`{inner}` cannot be read: {message}");
+                let message = format!("{} cannot be read: {message}", wording::path(&inner));
                 self.notes.error(spot, message);
             }
         }
@@ -67,7 +70,7 @@ impl Reader<'_> {
         for part in parts {
             let Part::Mesh { name, mut mesh } = part else {
                 let help = "write `[[points]]` to draw a sphere at each";
-                let message = format!("`{file}` holds points without faces");
+                let message = format!("{} holds points without faces", wording::path(&file));
                 self.notes.error(v.spot_of("file"), message).help = Some(help.to_owned());
                 return Vec::new();
             };
@@ -92,7 +95,7 @@ impl Reader<'_> {
                 (Part::Points { name, points }, _) => (name, points),
                 (Part::Mesh { name, mesh }, Some(radius)) => (name, vertices(mesh, radius)),
                 (Part::Mesh { .. }, None) => {
-                    let message = format!("`{file}` gives its points no radius");
+                    let message = format!("{} gives its points no radius", wording::path(&file));
                     let help = "write `radius = ..`, the radius of the spheres";
                     self.notes.error(v.spot, message).help = Some(help.to_owned());
                     return Vec::new();
@@ -114,7 +117,10 @@ impl Reader<'_> {
         let spot = v.spot_of("file");
         let file = join(path, &name);
         let Some(format) = Format::of_path(&file) else {
-            self.say_format(spot, &format!("the name of `{name}` does not say what it is"));
+            self.say_format(
+                spot,
+                &format!("the name {} does not say what the file is", wording::path(&name)),
+            );
             return None;
         };
         if !matches!(format, Format::Obj | Format::Ply) {
@@ -126,7 +132,7 @@ impl Reader<'_> {
             return None;
         }
         if let Err(e) = self.source.open(&file) {
-            let message = format!("`{file}` cannot be read: {}", text::trouble(&e));
+            let message = format!("{} cannot be read: {}", wording::path(&file), text::trouble(&e));
             self.notes.error(spot, message);
             return None;
         }

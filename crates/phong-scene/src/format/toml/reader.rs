@@ -59,7 +59,7 @@ impl<T> Named<T> {
     }
 
     /// All names.
-    pub(super) fn names(&self) -> impl Iterator<Item = &str> + Clone {
+    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
         self.numbers.keys().map(String::as_str)
     }
 

@@ -11,7 +11,10 @@ use crate::wording::{closest, list, quoted};
 use crate::{Diagnostic, Group, GroupId, Material, MaterialId, Object, Scene, Shape};
 
 /// Most names that a message lists.
-const MOST_NAMES: usize = 12;
+const MOST_LISTED: usize = 12;
+
+/// Most names that a near miss is looked for among: each wrong name is held against all of them.
+const MOST_COMPARED: usize = 500;
 
 impl Reader<'_> {
     /// The scene, unless there was an error, and everything there is to say.
@@ -181,18 +184,20 @@ pub(super) fn say_unknown_name<'n>(
     notes: &mut Notes,
     what: &str,
     name: &str,
-    known: impl Iterator<Item = &'n str> + Clone,
+    known: impl Iterator<Item = &'n str>,
     spot: Spot,
 ) {
-    let help = match (closest(name, known.clone()), known.clone().count()) {
-        (Some(meant), _) => format!("did you mean `{meant}`?"),
-        (None, 0) => format!("`[{what}s.NAME]` defines one"),
-        (None, 1) => format!("there is {}", list(known, "and")),
-        (None, ..=MOST_NAMES) => format!("there are {}", list(known, "and")),
-        (None, count) => {
-            let more = count - MOST_NAMES;
-            format!("there are {} and {more} more", list(known.take(MOST_NAMES), ","))
+    let known: Vec<_> = known.take(MOST_COMPARED + 1).collect();
+    let few = known.len() <= MOST_COMPARED;
+    let near = few.then(|| closest(name, known.iter().copied())).flatten();
+    let help = match near {
+        Some(meant) => format!("did you mean `{meant}`?"),
+        None if known.is_empty() => format!("`[{what}s.NAME]` defines one"),
+        None if known.len() > MOST_LISTED => {
+            format!("there are {}, …", list(known.into_iter().take(MOST_LISTED), ","))
         }
+        None if known.len() > 1 => format!("there are {}", list(known, "and")),
+        None => format!("there is {}", list(known, "and")),
     };
     notes.error(spot, format!("there is no {what} {}", quoted(name))).help = Some(help);
 }

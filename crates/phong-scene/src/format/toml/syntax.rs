@@ -18,9 +18,6 @@ use crate::wording::quoted;
 /// Most syntax errors that are told of one file.
 const MOST: usize = 20;
 
-/// Most keys and tables written twice that are taken out, since each is searched for.
-const MOST_TWICE: usize = 200;
-
 /// A text without its faulty statements.
 #[derive(Debug)]
 pub(super) struct Mended {
@@ -65,11 +62,11 @@ pub(super) fn mend(file: u32, notes: &mut Notes) -> Mended {
         }
     }
     // What is left are keys and tables written twice. The second is taken out as well, so that
-    // the first is read as if it stood alone.
+    // the first is read as if it stood alone; beyond those that are told the parser decides.
     let rest = String::from_utf8_lossy(&bytes).into_owned();
     let twice = DeTable::parse_recoverable(&rest).1;
     count += twice.len();
-    for error in twice.iter().take(MOST_TWICE) {
+    for error in twice.iter().take(MOST) {
         let at = error.span().map_or(0, |span| span.start);
         let section = sections[sections.partition_point(|s| s.start <= at).max(1) - 1].clone();
         let range = match statements(&rest, section.clone()).find(|s| s.range.contains(&at)) {
