@@ -28,7 +28,7 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// The settings of a rendering. `scene` is the scene's [`fingerprint`](super::fingerprint).
+    /// The settings of a rendering. `scene` is the scene's [`fingerprint`](super::fingerprint()).
     pub fn of(scene: u32, options: &RenderOptions, encoding: Encoding) -> Self {
         let RenderOptions {
             size,
