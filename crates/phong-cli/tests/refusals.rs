@@ -91,7 +91,9 @@ fn values_out_of_range_are_refused_with_the_way_out() {
 #[test]
 fn a_picture_that_memory_cannot_hold_is_refused() {
     let folder = given(&[("a.toml", BALLS)]);
-    folder.when("render a.toml --max-memory 10k").is_refused(&["memory", "--max-memory"]);
+    folder
+        .when("render a.toml --size 400x400 --max-memory 100k")
+        .is_refused(&["memory", "--max-memory"]);
     folder.when("render a.toml --size 1000000x1000000").is_refused(&["memory"]);
     assert_eq!(folder.names(), ["a.toml"]);
 }

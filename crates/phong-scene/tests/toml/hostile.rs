@@ -97,7 +97,7 @@ fn a_text_beyond_the_limits_is_refused_and_so_are_many_small_ones() {
     let limits = Limits { text_bytes: text_bytes + 1000, ..Limits::default() };
     assert_refused(&read_files(&files, &limits), "`b.toml` cannot be read: it has 4100 bytes");
     let limits = Limits { bytes: 85 * text_bytes, ..Limits::default() };
-    assert_refused(&read_files(&files, &limits), "within the limits");
+    assert_refused(&read_files(&files, &limits), "within the memory allowed");
 }
 
 #[test]

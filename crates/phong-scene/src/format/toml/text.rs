@@ -134,7 +134,8 @@ pub(super) fn load(path: &str, source: &dyn Source, limits: &Limits) -> Result<S
     let blob = source.open(path).map_err(|e| trouble(&e))?;
     let len = blob.len();
     let most = MOST_BYTES.min(limits.text_bytes).min(limits.bytes / BYTES_PER_BYTE);
-    let too_large = || format!("it has {len} bytes; at most {most} are read within the limits");
+    let too_large =
+        || format!("it has {len} bytes; at most {most} are read within the memory allowed");
     if len > most {
         return Err(too_large());
     }
