@@ -1,4 +1,24 @@
 //! The camera: where the eye is, what it looks at, and how directions become pixels.
+//!
+//! ```toml
+//! [camera]
+//! kind = "perspective"            # or orthographic, fisheye, panorama
+//! eye = [0, 2, 8]
+//! look_at = [0, 1, 0]
+//! fov = 40
+//! ```
+//!
+//! | key | value | default | meaning |
+//! |---|---|---|---|
+//! | `kind` | `perspective`, `orthographic`, `fisheye` or `panorama` | `"perspective"` | The projection. |
+//! | `eye` | three numbers, `[x, y, z]` | required | Position of the eye, in scene units. |
+//! | `look_at` | three numbers, `[x, y, z]` | required | The point in the middle of the picture. |
+//! | `up` | three numbers, `[x, y, z]`, not all 0 | `[0, 1, 0]` | The direction that points up in the picture; any length. |
+//! | `fov` (perspective) | a number above 0 and below 180 | `40` | Vertical field of view, degrees. |
+//! | `height` (orthographic) | a number above 0 | required | The picture's height in scene units. |
+//! | `fov` (fisheye) | a number above 0 up to 360 | `180` | Full angle of the image circle, degrees; it touches the nearer edges. |
+//! | `aperture` (perspective, orthographic) | a number 0 or above | `0` | Radius of the lens in scene units; 0 is a pinhole. |
+//! | `focus` (perspective, orthographic) | a number above 0 | the distance of `look_at` | Distance along forward that is sharp. |
 
 use glam::DVec3;
 

@@ -13,7 +13,6 @@ mod dialect;
 #[expect(dead_code, reason = "`Cursor::since` waits for its first caller")]
 mod format;
 mod frame;
-#[expect(dead_code, reason = "the documentation in it is for the reference, which comes next")]
 mod keys;
 mod light;
 mod limits;
@@ -31,6 +30,7 @@ pub use diagnostic::{Diagnostic, Label, Place, Severity, Span};
 pub use format::ply::PlyEncoding;
 pub use format::{Format, read};
 pub use frame::{Side, View};
+pub use keys::reference_markdown;
 pub use light::{Light, LightKind};
 pub use limits::Limits;
 pub use material::{

@@ -1,4 +1,39 @@
 //! Lights: distant, point and spot.
+//!
+//! ```toml
+//! [[light]]
+//! kind = "point"
+//! position = [3, 4, 5]
+//! color = "#fff4e0"
+//!
+//! [[light]]
+//! kind = "distant"
+//! direction = [-1, -2, -1]        # the way the light travels
+//! color = 0.3
+//!
+//! [[light]]
+//! kind = "spot"
+//! position = [0, 6, 0]
+//! target = [0, 0, 0]
+//! cone = 20
+//! edge = 25
+//! ```
+//!
+//! | key | value | default | meaning |
+//! |---|---|---|---|
+//! | `kind` | `point`, `distant` or `spot` | required | Where its light comes from. |
+//! | `name` | text | `light N`, N from 1 | What `explain` calls it. |
+//! | `position` (point, spot) | three numbers, `[x, y, z]` | required | Where it is, in scene units. |
+//! | `direction` (distant) | three numbers, `[x, y, z]`, not all 0 | required | The way the light travels; any length. |
+//! | `target` (spot) | three numbers, `[x, y, z]` | required | A point on the axis of the cone. |
+//! | `cone` (spot) | a number from 0 to 90 | required | Half-angle of full light, degrees. |
+//! | `edge` (spot) | a number above 0 up to 90 | `cone` | Half-angle where the light ends, degrees, not below `cone`; between them smoothstep in the cosine. |
+//! | `color` | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name | `1` | `C_m,d` is this times the material's diffuse colour. |
+//! | `specular_color` | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name | `color` | `C_m,s` is this times the material's specular colour. |
+//! | `attenuation` (point, spot) | `[c, l, q]`, 0 or above, not all 0 | `[1, 0, 0]` | `[c, l, q]`: the light is divided by c + l d + q d², d the distance. |
+//! | `shadows` | `true` or `false` | `true` | Whether things in between take the light away. |
+//! | `radius` (point, spot) | a number 0 or above | `0` | Radius of the luminous sphere, scene units; 0: hard shadows. |
+//! | `angle` (distant) | a number from 0 and below 180 | `0` | Degrees across of the luminous disc; 0: hard shadows. |
 
 use glam::DVec3;
 

@@ -1,4 +1,89 @@
 //! The scene: what was written, resolved.
+//!
+//! ```toml
+//! version = 1
+//!
+//! [image]
+//! size = [960, 540]
+//! background = { top = "#4a7fc0", bottom = "#dfe9f4" }
+//!
+//! [camera]
+//! eye = [0, 2, 8]
+//! look_at = [0, 1, 0]
+//!
+//! [ambient]
+//! color = 1.0
+//!
+//! [[include]]
+//! file = "lights.toml"            # relative to the file that says so
+//!
+//! [groups.snowman]
+//! [[groups.snowman.sphere]]
+//! center = [0, 1, 0]
+//! radius = 1
+//! [[groups.snowman.sphere]]
+//! center = [0, 2.4, 0]
+//! radius = 0.7
+//!
+//! [[instance]]
+//! group = "snowman"
+//! translate = [3, 0, 0]
+//! ```
+//!
+//! The file as a whole:
+//!
+//! | key | value | default | meaning |
+//! |---|---|---|---|
+//! | `version` | 1 | 1, with a warning | Version of this format; 1 is the only one so far. |
+//! | `image` | a table | every key's default | The picture. |
+//! | `camera` | a table | required | Where the picture is taken from. |
+//! | `ambient` | a table | every key's default | The ambient light. |
+//! | `ambient_occlusion` | not built yet | none | Ambient occlusion. |
+//! | `light` | a list of tables | none | The lights. |
+//! | `materials` | tables by name | none | The materials, by name. |
+//! | `groups` | tables by name | none | Shapes to be placed together, by name. |
+//! | `sphere` | a list of tables | none | All points at `radius` from `center`; scaled unevenly, an ellipsoid. |
+//! | `plane` | a list of tables | none | An infinite plane. |
+//! | `triangle` | a list of tables | none | One triangle, counter-clockwise seen from outside. |
+//! | `disc` | a list of tables | none | A flat disc. |
+//! | `box` | a list of tables | none | A box with faces along the axes. |
+//! | `cylinder` | a list of tables | none | A cylinder around the line from `from` to `to`. |
+//! | `cone` | a list of tables | none | A cone or frustum around the line from `from` to `to`. |
+//! | `torus` | a list of tables | none | A ring with a round section. |
+//! | `mesh` | a list of tables | none | The triangles of a file. |
+//! | `points` | a list of tables | none | A sphere at every point of a file. |
+//! | `instance` | a list of tables | none | A group, placed. |
+//! | `include` | a list of tables | none | Other files, at this place. |
+//!
+//! `[image]`:
+//!
+//! | key | value | default | meaning |
+//! |---|---|---|---|
+//! | `size` | `[width, height]`, whole numbers from 1 to 1048576 | `[960, 540]` | Width and height in pixels. |
+//! | `samples` | a whole number from 1 to 1000000 | `16` | Samples a pixel; 1 is the pixel's centre. |
+//! | `background` | a colour, "transparent", or `{ top = .., bottom = .. }` | `0` | What rays see that hit nothing; a table `{ top, bottom }` runs along the picture's height. |
+//! | `filter` | `box`, `tent`, `gaussian` or `mitchell` | `"box"` | How samples are weighted into a pixel. |
+//! | `seed` | a whole number, 0 or above | `0` | Seed of the sampling pattern. |
+//! | `depth` | a whole number from 0 to 100 | `8` | Mirror and glass bounces; beyond it a ray brings black. |
+//!
+//! `background = { .. }`:
+//!
+//! | key | value | default | meaning |
+//! |---|---|---|---|
+//! | `top` | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name | required | Colour at the upper edge. |
+//! | `bottom` | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name | required | Colour at the lower edge. |
+//!
+//! `[ambient]`:
+//!
+//! | key | value | default | meaning |
+//! |---|---|---|---|
+//! | `color` | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name | `1` | `C_a` is this times the material's ambient colour. |
+//!
+//! `[[include]]`:
+//!
+//! | key | value | default | meaning |
+//! |---|---|---|---|
+//! | `file` | the path of a file, in quotes | required | The scene file. |
 
 use glam::DAffine3;
 

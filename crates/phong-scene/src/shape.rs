@@ -1,4 +1,176 @@
 //! Shapes: what a ray can meet. All in the object's own space; the object's transform places them.
+//!
+//! # `[[sphere]]`
+//!
+//! ```toml
+//! [[sphere]]
+//! center = [0, 1, 0]
+//! radius = 1
+//! material = "plastic"
+//! ```
+//!
+//! | key | value | default | meaning |
+//! |---|---|---|---|
+//! | `center` | three numbers, `[x, y, z]` | required | The middle. |
+//! | `radius` | a number above 0 | required | Distance of the surface from the middle. |
+//!
+//! # `[[plane]]`
+//!
+//! ```toml
+//! [[plane]]
+//! point = [0, 0, 0]
+//! normal = [0, 1, 0]
+//! ```
+//!
+//! | key | value | default | meaning |
+//! |---|---|---|---|
+//! | `point` | three numbers, `[x, y, z]` | required | Any point on it. |
+//! | `normal` | three numbers, `[x, y, z]`, not all 0 | required | Its normal; any length. |
+//!
+//! # `[[triangle]]`
+//!
+//! ```toml
+//! [[triangle]]
+//! points = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+//! ```
+//!
+//! | key | value | default | meaning |
+//! |---|---|---|---|
+//! | `points` | three points, `[[x, y, z], [x, y, z], [x, y, z]]` | required | The corners, not on one line. |
+//! | `normals` | three directions, `[[x, y, z], [x, y, z], [x, y, z]]` | the geometric normal | Shading normals at the corners; any length. |
+//! | `uv` | three pairs, `[[u, v], [u, v], [u, v]]` | (0, 0), (1, 0), (1, 1) | Texture coordinates at the corners. |
+//!
+//! # `[[disc]]`
+//!
+//! ```toml
+//! [[disc]]
+//! center = [0, 0, 0]
+//! normal = [0, 1, 0]
+//! radius = 1
+//! ```
+//!
+//! | key | value | default | meaning |
+//! |---|---|---|---|
+//! | `center` | three numbers, `[x, y, z]` | required | The middle. |
+//! | `normal` | three numbers, `[x, y, z]`, not all 0 | required | Its normal; any length. |
+//! | `radius` | a number above 0 | required | Radius. |
+//!
+//! # `[[box]]`
+//!
+//! ```toml
+//! [[box]]
+//! min = [-1, 0, -1]
+//! max = [1, 2, 1]
+//! rotate = [0, 1, 0, 30]
+//! ```
+//!
+//! | key | value | default | meaning |
+//! |---|---|---|---|
+//! | `min` | three numbers, `[x, y, z]` | required | The corner with the smallest coordinates. |
+//! | `max` | three numbers, `[x, y, z]` | required | The corner with the largest; above `min` in each. |
+//!
+//! # `[[cylinder]]`
+//!
+//! ```toml
+//! [[cylinder]]
+//! from = [0, 0, 0]
+//! to = [0, 2, 0]
+//! radius = 0.5
+//! ```
+//!
+//! | key | value | default | meaning |
+//! |---|---|---|---|
+//! | `from` | three numbers, `[x, y, z]` | required | One end of the axis. |
+//! | `to` | three numbers, `[x, y, z]` | required | The other end. |
+//! | `radius` | a number above 0 | required | Radius. |
+//! | `capped` | `true` or `false` | `true` | Whether discs close the ends. |
+//!
+//! # `[[cone]]`
+//!
+//! ```toml
+//! [[cone]]
+//! from = [0, 0, 0]
+//! to = [0, 2, 0]
+//! radius = 1
+//! ```
+//!
+//! | key | value | default | meaning |
+//! |---|---|---|---|
+//! | `from` | three numbers, `[x, y, z]` | required | One end of the axis. |
+//! | `to` | three numbers, `[x, y, z]` | required | The other end. |
+//! | `radius` | a number 0 or above | required | Radius at `from`. |
+//! | `radius_to` | a number 0 or above | `0` | Radius at `to`; not both are 0. |
+//! | `capped` | `true` or `false` | `true` | Whether discs close the ends. |
+//!
+//! # `[[torus]]`
+//!
+//! ```toml
+//! [[torus]]
+//! center = [0, 1, 0]
+//! axis = [0, 0, 1]
+//! radius = 1
+//! tube = 0.25
+//! ```
+//!
+//! | key | value | default | meaning |
+//! |---|---|---|---|
+//! | `center` | three numbers, `[x, y, z]` | required | The middle. |
+//! | `axis` | three numbers, `[x, y, z]`, not all 0 | required | The axis it runs around; any length. |
+//! | `radius` | a number above 0 | required | From the middle to the middle of the tube. |
+//! | `tube` | a number above 0 | required | Radius of the tube; below `radius`. |
+//!
+//! # `[[mesh]]`
+//!
+//! ```toml
+//! [[mesh]]
+//! file = "dragon.ply"
+//! scale = 2.0
+//! ```
+//!
+//! | key | value | default | meaning |
+//! |---|---|---|---|
+//! | `file` | the path of a file, in quotes | required | A model file. |
+//! | `smooth` | `true`, `false` or an angle from 0 to 180 degrees | the file's normals, else 60 | Shading normals: `false`: none, flat triangles; `true`: the default; an angle: area-weighted normals where faces meet under it, degrees, in place of the file's. |
+//! | `material` | the name of a material, in quotes | the file's own, else the default material | The name of its material; replaces the file's own. |
+//!
+//! # `[[points]]`
+//!
+//! ```toml
+//! [[points]]
+//! file = "atoms.ply"
+//! radius = 0.5
+//! ```
+//!
+//! | key | value | default | meaning |
+//! |---|---|---|---|
+//! | `file` | the path of a file, in quotes | required | A file of points. |
+//! | `radius` | a number above 0 | the file's own; an error where it has none | Radius of the spheres; the file's own per point win. |
+//! | `material` | the name of a material, in quotes | the file's own, else the default material | The name of its material; replaces the file's own. |
+//!
+//! # `[[instance]]`
+//!
+//! ```toml
+//! [[instance]]
+//! group = "snowman"
+//! translate = [3, 0, 0]
+//! ```
+//!
+//! | key | value | default | meaning |
+//! |---|---|---|---|
+//! | `group` | the name of a group, in quotes | required | The name of the group. |
+//!
+//! # Any shape
+//!
+//! These go with every shape; an instance has no `material` of its own.
+//!
+//! | key | value | default | meaning |
+//! |---|---|---|---|
+//! | `material` | the name of a material, in quotes | the default material | The name of its material. |
+//! | `name` | text | the kind and a number from 1 | What `explain` calls it. |
+//! | `scale` | a number or `[x, y, z]`, none 0 | 1 | First of the transform: a factor, or one along each axis. |
+//! | `rotate` | `[ax, ay, az, degrees]`, or a list of them | none | Then: `[ax, ay, az, degrees]`, right-handed about an axis; or a list of them, in order. |
+//! | `translate` | three numbers, `[x, y, z]` | `[0, 0, 0]` | Then: the shift. |
+//! | `matrix` | four rows of four numbers | the three above | Instead of all three: four rows of four, for column vectors. |
 
 use glam::{DVec2, DVec3};
 

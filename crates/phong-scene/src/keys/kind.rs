@@ -1,6 +1,9 @@
 //! What may stand as a key's value, and what holds if the key is not written.
 
+use std::fmt;
+
 use super::Table;
+use crate::wording::list;
 
 /// The largest magnitude of any number in a scene: its square still fits an f32.
 pub(crate) const LARGEST: f64 = 1e18;
@@ -62,6 +65,50 @@ pub(crate) enum Kind {
     Named(&'static Table),
     /// Known, but not built yet.
     NotYet,
+}
+
+impl Kind {
+    /// What a value of this kind is, as the end of "it must be …".
+    pub(crate) fn words(self) -> String {
+        match self {
+            Self::Flag => "`true` or `false`".to_owned(),
+            Self::Integer(min, max) if max == u64::MAX => {
+                format!("a whole number, {min} or above")
+            }
+            Self::Integer(min, max) if min == max => min.to_string(),
+            Self::Integer(min, max) => format!("a whole number from {min} to {max}"),
+            Self::Number(range) => format!("a number {}", range.words()),
+            Self::Point => "three numbers, `[x, y, z]`".to_owned(),
+            Self::Direction => "three numbers, `[x, y, z]`, not all 0".to_owned(),
+            Self::Color | Self::Reflectance => {
+                "a colour: a number, `[r, g, b]`, \"#rrggbb\" or a CSS name".to_owned()
+            }
+            Self::ColorOrObject => {
+                "a colour (a number, `[r, g, b]`, \"#rrggbb\", a CSS name) or \"object\"".to_owned()
+            }
+            Self::Background => {
+                "a colour, \"transparent\", or `{ top = .., bottom = .. }`".to_owned()
+            }
+            Self::Word(words) => list(words.iter().copied(), "or"),
+            Self::Text => "text".to_owned(),
+            Self::File => "the path of a file, in quotes".to_owned(),
+            Self::Material => "the name of a material, in quotes".to_owned(),
+            Self::Group => "the name of a group, in quotes".to_owned(),
+            Self::Size => "`[width, height]`, whole numbers from 1 to 1048576".to_owned(),
+            Self::Attenuation => "`[c, l, q]`, 0 or above, not all 0".to_owned(),
+            Self::Points => "three points, `[[x, y, z], [x, y, z], [x, y, z]]`".to_owned(),
+            Self::Directions => "three directions, `[[x, y, z], [x, y, z], [x, y, z]]`".to_owned(),
+            Self::Uvs => "three pairs, `[[u, v], [u, v], [u, v]]`".to_owned(),
+            Self::Smooth => "`true`, `false` or an angle from 0 to 180 degrees".to_owned(),
+            Self::Scale => "a number or `[x, y, z]`, none 0".to_owned(),
+            Self::Rotate => "`[ax, ay, az, degrees]`, or a list of them".to_owned(),
+            Self::Matrix => "four rows of four numbers".to_owned(),
+            Self::Table(_) => "a table".to_owned(),
+            Self::Tables(_) => "a list of tables".to_owned(),
+            Self::Named(_) => "tables by name".to_owned(),
+            Self::NotYet => "not built yet".to_owned(),
+        }
+    }
 }
 
 /// An interval of numbers.
@@ -138,4 +185,20 @@ pub(crate) enum Default {
     Word(&'static str),
     /// What these words say; the reader works it out.
     Said(&'static str),
+}
+
+impl fmt::Display for Default {
+    /// As it would be written in the text, or in words.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Required => f.write_str("required"),
+            Self::Flag(flag) => write!(f, "`{flag}`"),
+            Self::Integer(n) => write!(f, "`{n}`"),
+            Self::Number(n) => write!(f, "`{n}`"),
+            Self::Vector([x, y, z]) => write!(f, "`[{x}, {y}, {z}]`"),
+            Self::Size([w, h]) => write!(f, "`[{w}, {h}]`"),
+            Self::Word(word) => write!(f, "`\"{word}\"`"),
+            Self::Said(words) => f.write_str(words),
+        }
+    }
 }

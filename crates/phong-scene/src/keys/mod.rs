@@ -7,12 +7,14 @@ mod camera;
 mod kind;
 mod light;
 mod material;
+mod reference;
 mod scene;
 mod shape;
 
 pub(crate) use kind::{Default, Kind, LARGEST, Range};
 pub(crate) use light::LIGHT;
 pub(crate) use material::MATERIAL;
+pub use reference::reference_markdown;
 pub(crate) use scene::{BACKGROUND, INCLUDE, SCENE};
 pub(crate) use shape::GROUP;
 

@@ -84,7 +84,8 @@ pub(crate) static IMAGE: Table = Table {
             "background",
             Kind::Background,
             Default::Number(0.0),
-            "What rays see that hit nothing; a table `{ top, bottom }` runs along the picture's height.",
+            "What rays see that hit nothing; a table `{ top, bottom }` runs along the \
+             picture's height.",
         ),
         Key::new(
             "filter",

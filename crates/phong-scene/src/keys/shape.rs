@@ -3,7 +3,7 @@
 use super::{Default, Key, Kind, Range, Table};
 
 /// Where any shape is placed: scale, then rotate, then translate; or a matrix alone.
-const PLACED: &[Key] = &[
+pub(super) static PLACED: [Key; 5] = [
     Key::new(
         "name",
         Kind::Text,
@@ -32,7 +32,7 @@ const PLACED: &[Key] = &[
 ];
 
 /// What any shape is made of.
-const MATERIAL: &[Key] = &[Key::new(
+pub(super) static MADE_OF: [Key; 1] = [Key::new(
     "material",
     Kind::Material,
     Default::Said("the default material"),
@@ -40,7 +40,7 @@ const MATERIAL: &[Key] = &[Key::new(
 )];
 
 /// What a shape read from a file is made of.
-const FILE_MATERIAL: &[Key] = &[Key::new(
+static FILE_MATERIAL: [Key; 1] = [Key::new(
     "material",
     Kind::Material,
     Default::Said("the file's own, else the default material"),
@@ -62,8 +62,8 @@ pub(crate) static SPHERE: Table = Table {
                 "Distance of the surface from the middle.",
             ),
         ],
-        MATERIAL,
-        PLACED,
+        &MADE_OF,
+        &PLACED,
     ],
 };
 
@@ -77,8 +77,8 @@ pub(crate) static PLANE: Table = Table {
             Key::new("point", Kind::Point, Default::Required, "Any point on it."),
             Key::new("normal", Kind::Direction, Default::Required, "Its normal; any length."),
         ],
-        MATERIAL,
-        PLACED,
+        &MADE_OF,
+        &PLACED,
     ],
 };
 
@@ -103,8 +103,8 @@ pub(crate) static TRIANGLE: Table = Table {
                 "Texture coordinates at the corners.",
             ),
         ],
-        MATERIAL,
-        PLACED,
+        &MADE_OF,
+        &PLACED,
     ],
 };
 
@@ -119,8 +119,8 @@ pub(crate) static DISC: Table = Table {
             Key::new("normal", Kind::Direction, Default::Required, "Its normal; any length."),
             Key::new("radius", Kind::Number(Range::POSITIVE), Default::Required, "Radius."),
         ],
-        MATERIAL,
-        PLACED,
+        &MADE_OF,
+        &PLACED,
     ],
 };
 
@@ -144,8 +144,8 @@ pub(crate) static BOX: Table = Table {
                 "The corner with the largest; above `min` in each.",
             ),
         ],
-        MATERIAL,
-        PLACED,
+        &MADE_OF,
+        &PLACED,
     ],
 };
 
@@ -161,8 +161,8 @@ pub(crate) static CYLINDER: Table = Table {
             Key::new("radius", Kind::Number(Range::POSITIVE), Default::Required, "Radius."),
             Key::new("capped", Kind::Flag, Default::Flag(true), "Whether discs close the ends."),
         ],
-        MATERIAL,
-        PLACED,
+        &MADE_OF,
+        &PLACED,
     ],
 };
 
@@ -189,8 +189,8 @@ pub(crate) static CONE: Table = Table {
             ),
             Key::new("capped", Kind::Flag, Default::Flag(true), "Whether discs close the ends."),
         ],
-        MATERIAL,
-        PLACED,
+        &MADE_OF,
+        &PLACED,
     ],
 };
 
@@ -221,8 +221,8 @@ pub(crate) static TORUS: Table = Table {
                 "Radius of the tube; below `radius`.",
             ),
         ],
-        MATERIAL,
-        PLACED,
+        &MADE_OF,
+        &PLACED,
     ],
 };
 
@@ -238,11 +238,13 @@ pub(crate) static MESH: Table = Table {
                 "smooth",
                 Kind::Smooth,
                 Default::Said("the file's normals, else 60"),
-                "Shading normals: `false`: none, flat triangles; `true`: the default; an angle: area-weighted normals where faces meet under it, degrees, in place of the file's.",
+                "Shading normals: `false`: none, flat triangles; `true`: the default; an angle: \
+             area-weighted normals where faces meet under it, degrees, in place of the \
+             file's.",
             ),
         ],
-        FILE_MATERIAL,
-        PLACED,
+        &FILE_MATERIAL,
+        &PLACED,
     ],
 };
 
@@ -261,8 +263,8 @@ pub(crate) static POINTS: Table = Table {
                 "Radius of the spheres; the file's own per point win.",
             ),
         ],
-        FILE_MATERIAL,
-        PLACED,
+        &FILE_MATERIAL,
+        &PLACED,
     ],
 };
 
@@ -271,7 +273,10 @@ pub(crate) static INSTANCE: Table = Table {
     name: "instance",
     doc: "A group, placed.",
     select: None,
-    keys: &[&[Key::new("group", Kind::Group, Default::Required, "The name of the group.")], PLACED],
+    keys: &[
+        &[Key::new("group", Kind::Group, Default::Required, "The name of the group.")],
+        &PLACED,
+    ],
 };
 
 /// All shapes: at the scene's top level, and in groups.

@@ -45,6 +45,10 @@ fn spot(v: &Values, attenuation: [f64; 3], notes: &mut Notes) -> Option<LightKin
         notes.error(v.spot_of("edge"), message).help = Some(help.to_owned());
         return None;
     }
+    if edge == 0.0 {
+        notes.error(v.spot_of("cone"), "a cone of 0 without an `edge` holds no light");
+        return None;
+    }
     let radius = v.number("radius")?;
     Some(LightKind::Spot { position, target, cone, edge, attenuation, radius })
 }

@@ -4,7 +4,7 @@ use toml::de::DeTable;
 
 use super::notes::Notes;
 use super::text::Spot;
-use super::value::{Value, ValueReader, wanted};
+use super::value::{Value, ValueReader};
 use crate::keys::{Default, Key, Kind, Table};
 use crate::wording::{closest, list};
 use crate::{Background, Rgb};
@@ -100,7 +100,7 @@ impl Values {
                 let table = self.table.name;
                 let message = format!("this `{table}` has no `{}`", key.name);
                 notes.error(self.spot, message).help =
-                    Some(format!("`{}` is {}", key.name, wanted(key.kind)));
+                    Some(format!("`{}` is {}", key.name, key.kind.words()));
             }
         }
     }

@@ -8,7 +8,7 @@ use super::notes::Notes;
 use super::table::Values;
 use super::text::Spot;
 use crate::keys::{self, Key, Kind, LARGEST, Range};
-use crate::wording::{closest, list, quoted};
+use crate::wording::{closest, quoted};
 use crate::{Background, Rgb};
 
 /// A value, read.
@@ -27,46 +27,6 @@ pub(super) enum Value {
     Background(Background),
     Word(&'static str),
     Text(String),
-}
-
-/// What a value of this kind must be, as the end of "`key` must be …".
-pub(super) fn wanted(kind: Kind) -> String {
-    match kind {
-        Kind::Flag => "`true` or `false`".to_owned(),
-        Kind::Integer(min, max) if max >= i64::MAX as u64 => {
-            format!("a whole number, {min} or above")
-        }
-        Kind::Integer(min, max) if min == max => min.to_string(),
-        Kind::Integer(min, max) => format!("a whole number from {min} to {max}"),
-        Kind::Number(range) => format!("a number {}", range.words()),
-        Kind::Point => "three numbers, `[x, y, z]`".to_owned(),
-        Kind::Direction => "three numbers, `[x, y, z]`, not all 0".to_owned(),
-        Kind::Color | Kind::Reflectance => {
-            "a colour: a number, `[r, g, b]`, \"#rrggbb\" or a CSS name".to_owned()
-        }
-        Kind::ColorOrObject => {
-            "a colour (a number, `[r, g, b]`, \"#rrggbb\", a CSS name) or \"object\"".to_owned()
-        }
-        Kind::Background => "a colour, \"transparent\", or `{ top = .., bottom = .. }`".to_owned(),
-        Kind::Word(words) => list(words.iter().copied(), "or"),
-        Kind::Text => "text".to_owned(),
-        Kind::File => "the path of a file, in quotes".to_owned(),
-        Kind::Material => "the name of a material, in quotes".to_owned(),
-        Kind::Group => "the name of a group, in quotes".to_owned(),
-        Kind::Size => "`[width, height]`, whole numbers from 1 to 1048576".to_owned(),
-        Kind::Attenuation => "`[c, l, q]`, 0 or above, not all 0".to_owned(),
-        Kind::Points => "three points, `[[x, y, z], [x, y, z], [x, y, z]]`".to_owned(),
-        Kind::Directions => "three directions, `[[x, y, z], [x, y, z], [x, y, z]]`".to_owned(),
-        Kind::Uvs => "three pairs, `[[u, v], [u, v], [u, v]]`".to_owned(),
-        Kind::Smooth => "`true`, `false` or an angle from 0 to 180 degrees".to_owned(),
-        Kind::Scale => "a number or `[x, y, z]`, none 0".to_owned(),
-        Kind::Rotate => "`[ax, ay, az, degrees]`, or a list of them".to_owned(),
-        Kind::Matrix => "four rows of four numbers".to_owned(),
-        Kind::Table(_) => "a table".to_owned(),
-        Kind::Tables(_) => "a list of tables".to_owned(),
-        Kind::Named(_) => "tables by name".to_owned(),
-        Kind::NotYet => "left out".to_owned(),
-    }
 }
 
 /// What was found, as the end of "…; this is …".
@@ -149,7 +109,7 @@ impl ValueReader<'_> {
     fn mismatch<T>(&mut self, value: &Spanned<DeValue<'_>>) -> Option<T> {
         let Key { name, kind, .. } = self.key;
         let message =
-            format!("`{name}` must be {}; this is {}", wanted(*kind), found(value.get_ref()));
+            format!("`{name}` must be {}; this is {}", kind.words(), found(value.get_ref()));
         let spot = self.spot(value);
         self.notes.error(spot, message);
         None
@@ -287,7 +247,7 @@ impl ValueReader<'_> {
             return Some(word);
         }
         let Key { name, kind, .. } = self.key;
-        let message = format!("`{name}` must be {}; this is {}", wanted(*kind), quoted(text));
+        let message = format!("`{name}` must be {}; this is {}", kind.words(), quoted(text));
         let spot = self.spot(value);
         self.notes.error(spot, message).help =
             closest(text, words.iter().copied()).map(|word| format!("did you mean `{word}`?"));

@@ -1,0 +1,141 @@
+//! The reference of the scene text, for people: one table of keys after another, in Markdown.
+
+use super::shape::{MADE_OF, PLACED};
+use super::{BACKGROUND, Key, Kind, SCENE, Table};
+
+/// The reference of the scene text in Markdown: every table, key, kind, range and default.
+///
+/// The reader reads by the very same tables, so the two cannot differ.
+///
+/// ```
+/// let text = phong_scene::reference_markdown();
+/// assert!(text.contains("\n## `[camera]`\n"));
+/// assert!(text.contains("| `fov` (perspective) | a number above 0 and below 180 | `40` |"));
+/// ```
+pub fn reference_markdown() -> String {
+    let mut sections = vec![section(None, &SCENE)];
+    for key in SCENE.keys() {
+        let (header, table) = match key.kind {
+            Kind::Table(table) => (format!("[{}]", key.name), table),
+            Kind::Tables(table) => (format!("[[{}]]", key.name), table),
+            Kind::Named(table) if table.name == "group" => continue, // holds shapes, below
+            Kind::Named(table) => (format!("[{}.NAME]", key.name), table),
+            _ => continue,
+        };
+        sections.push(section(Some(&header), table));
+        if key.name == "image" {
+            sections.push(section(Some("background = { .. }"), &BACKGROUND));
+        }
+    }
+    let any = "## Any shape\n\nEvery shape takes these as well, an instance all but `material`. \
+               Those in `[groups.NAME]` are written `[[groups.NAME.sphere]]` and so on.\n\n";
+    let shared: Vec<_> = MADE_OF.iter().chain(&PLACED).collect();
+    sections.push(format!("{any}{}", rows(&shared)));
+    sections.join("\n")
+}
+
+/// A table's keys under its header; of a shape, those it does not share with all of them.
+fn section(header: Option<&str>, table: &Table) -> String {
+    let title = header.map(|header| format!("## `{header}`\n\n")).unwrap_or_default();
+    format!("{title}{}\n\n{}", table.doc, rows(&own_keys(table)))
+}
+
+/// The keys of a table that not all shapes share.
+pub(super) fn own_keys(table: &Table) -> Vec<&'static Key> {
+    let shared = |list: &[Key]| std::ptr::eq(list, &PLACED) || std::ptr::eq(list, &MADE_OF);
+    table.keys.iter().filter(|list| !shared(list)).flat_map(|list| list.iter()).collect()
+}
+
+/// The keys as the rows of a table in Markdown.
+pub(super) fn rows(keys: &[&Key]) -> String {
+    let head = "| key | value | default | meaning |\n|---|---|---|---|\n";
+    let row = |key: &&Key| {
+        let only = match key.only {
+            [] => String::new(),
+            only => format!(" ({})", only.join(", ")),
+        };
+        let Key { name, kind, default, doc, .. } = key;
+        format!("| `{name}`{only} | {} | {default} | {doc} |\n", kind.words())
+    };
+    keys.iter().map(row).fold(head.to_owned(), |rows, row| rows + &row)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::keys::camera::CAMERA;
+    use crate::keys::scene::{AMBIENT, IMAGE};
+    use crate::keys::shape::SHAPES;
+    use crate::keys::{INCLUDE, LIGHT, MATERIAL};
+    use crate::{Limits, Memory, read};
+
+    const CONCEPTS: [(&str, &str); 5] = [
+        ("camera.rs", include_str!("../camera.rs")),
+        ("light.rs", include_str!("../light.rs")),
+        ("material.rs", include_str!("../material.rs")),
+        ("scene.rs", include_str!("../scene.rs")),
+        ("shape.rs", include_str!("../shape.rs")),
+    ];
+
+    /// The module's doc, as Markdown.
+    fn doc(file: &str) -> String {
+        let source = CONCEPTS.iter().find(|(name, _)| *name == file).expect("a concept").1;
+        let lines = source.lines().map_while(|line| line.strip_prefix("//!"));
+        lines.map(|line| line.strip_prefix(' ').unwrap_or(line)).collect::<Vec<_>>().join("\n")
+            + "\n"
+    }
+
+    #[track_caller]
+    fn assert_doc_holds(file: &str, keys: &[&Key]) {
+        let rows = rows(keys);
+        assert!(doc(file).contains(&rows), "the doc of {file} does not hold this table:\n{rows}");
+    }
+
+    #[test]
+    fn the_doc_of_each_concept_is_its_table_of_keys() {
+        assert_doc_holds("camera.rs", &own_keys(&CAMERA));
+        assert_doc_holds("light.rs", &own_keys(&LIGHT));
+        assert_doc_holds("material.rs", &own_keys(&MATERIAL));
+        for table in [&SCENE, &IMAGE, &BACKGROUND, &AMBIENT, &INCLUDE] {
+            assert_doc_holds("scene.rs", &own_keys(table));
+        }
+        for key in SHAPES {
+            let Kind::Tables(table) = key.kind else { panic!("a shape is a list of tables") };
+            assert_doc_holds("shape.rs", &own_keys(table));
+        }
+        assert_doc_holds("shape.rs", &MADE_OF.iter().chain(&PLACED).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn the_examples_in_the_docs_of_concepts_are_valid() {
+        for (file, _) in CONCEPTS {
+            let doc = doc(file);
+            let examples = doc.split("```toml\n").skip(1).map(|rest| rest.split("```").next());
+            for example in examples.flatten() {
+                let files = Memory::new().with("a.toml", example.as_bytes());
+                let said = read("a.toml", None, &files, &Limits::default()).diagnostics;
+                // Other files, materials and the camera are not part of every example.
+                let absent = ["there is no", "no such file", "the scene has no"];
+                let wrong = said.iter().find(|d| {
+                    d.is_error() && !absent.iter().any(|absent| d.message.contains(absent))
+                });
+                assert_eq!(wrong, None, "{file}:\n{example}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_reference_names_every_key_of_every_table() {
+        let text = reference_markdown();
+        let mut tables = vec![&SCENE];
+        while let Some(table) = tables.pop() {
+            for key in table.keys() {
+                assert!(text.contains(&format!("| `{}`", key.name)), "{}", key.name);
+                assert!(text.contains(key.doc), "{}: {}", key.name, key.doc);
+                if let Kind::Table(t) | Kind::Tables(t) | Kind::Named(t) = key.kind {
+                    tables.push(t);
+                }
+            }
+        }
+    }
+}
