@@ -30,7 +30,7 @@ pub use diagnostic::{Diagnostic, Label, Place, Severity, Span};
 pub use format::ply::PlyEncoding;
 pub use format::{Format, read};
 pub use frame::{Side, View};
-pub use keys::reference_markdown;
+pub use keys::{reference_markdown, schema_json};
 pub use light::{Light, LightKind};
 pub use limits::Limits;
 pub use material::{

@@ -9,6 +9,7 @@ mod light;
 mod material;
 mod reference;
 mod scene;
+mod schema;
 mod shape;
 
 pub(crate) use kind::{Default, Kind, LARGEST, Range};
@@ -16,6 +17,7 @@ pub(crate) use light::LIGHT;
 pub(crate) use material::MATERIAL;
 pub use reference::reference_markdown;
 pub(crate) use scene::{BACKGROUND, INCLUDE, SCENE};
+pub use schema::schema_json;
 pub(crate) use shape::GROUP;
 
 /// One table of the scene text, such as `[camera]` or `[[sphere]]`.

@@ -6,6 +6,7 @@
 
 mod cases;
 mod hostile;
+mod schema;
 mod told;
 
 use std::fs;

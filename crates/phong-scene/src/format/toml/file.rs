@@ -2,7 +2,8 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use super::reader::{DraftShape, Reader};
+use super::draft::DraftShape;
+use super::reader::Reader;
 use super::table::Values;
 use super::text::{self, Spot, Text};
 use crate::format::model::Part;

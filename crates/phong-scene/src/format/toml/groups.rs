@@ -1,7 +1,8 @@
 //! The order of groups: each after those whose instances it holds.
 
+use super::draft::{Draft, DraftShape, Named};
 use super::notes::Notes;
-use super::reader::{Draft, DraftShape, Named};
+
 use super::resolve::say_unknown_name;
 use super::text::Spot;
 use crate::Limits;

@@ -6,6 +6,7 @@
 //! material shape file`) say what only several keys together can be wrong about, `resolve` and
 //! `groups` look every name up, and [`check`](crate::check) adds what can hardly be meant.
 
+mod draft;
 mod file;
 mod groups;
 mod light;

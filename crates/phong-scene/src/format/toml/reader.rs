@@ -7,13 +7,14 @@ use glam::DAffine3;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::draft::{Draft, DraftShape, Named};
 use super::notes::Notes;
 use super::table::{Values, say_unknown};
 use super::text::{Spot, Text};
 use super::{file, light, material, settings, shape, syntax};
 use crate::keys::{self, Kind, Table};
 use crate::wording::quoted;
-use crate::{Camera, Diagnostic, Image, Light, Limits, Material, Place, Rgb, Scene, Shape, Source};
+use crate::{Camera, Diagnostic, Image, Light, Limits, Material, Rgb, Scene, Source};
 
 /// Reads a scene's files; names between them are looked up when all are read.
 pub(super) struct Reader<'a> {
@@ -39,66 +40,6 @@ pub(super) struct Reader<'a> {
     /// How many files were read, and bytes of text.
     pub(super) files: u32,
     pub(super) bytes: u64,
-}
-
-/// Things by name, in the order of the text.
-#[derive(Debug)]
-pub(super) struct Named<T> {
-    pub(super) items: Vec<(String, Spot, Option<T>)>,
-    numbers: BTreeMap<String, u32>,
-}
-
-impl<T> Named<T> {
-    const fn new() -> Self {
-        Self { items: Vec::new(), numbers: BTreeMap::new() }
-    }
-
-    /// The number of the thing of this name.
-    pub(super) fn find(&self, name: &str) -> Option<u32> {
-        self.numbers.get(name).copied()
-    }
-
-    /// All names.
-    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
-        self.numbers.keys().map(String::as_str)
-    }
-
-    /// Takes a name in, for the thing to follow; says if it is there already.
-    fn declare(&mut self, what: &str, name: &str, spot: Spot, notes: &mut Notes) -> Option<u32> {
-        if let Some(first) = self.find(name) {
-            let label = notes.span(self.items[first as usize].1);
-            let message = format!("the {what} {} is defined twice", quoted(name));
-            let error = Diagnostic::error(message, notes.span(spot));
-            notes.say(spot, error.with_label("first defined here", label));
-            return None;
-        }
-        let number = self.items.len() as u32;
-        self.items.push((name.to_owned(), spot, None));
-        self.numbers.insert(name.to_owned(), number);
-        Some(number)
-    }
-}
-
-/// An object whose names are still to be looked up.
-#[derive(Debug)]
-pub(super) struct Draft {
-    pub(super) name: String,
-    pub(super) shape: DraftShape,
-    /// Where in [`Reader::material_names`] its own is, if it names one.
-    pub(super) material: Option<usize>,
-    pub(super) transform: DAffine3,
-    pub(super) place: Place,
-}
-
-/// A shape, or what names stand for it.
-#[derive(Debug)]
-pub(super) enum DraftShape {
-    /// A shape.
-    Shape(Shape),
-    /// A mesh whose faces' materials are those of this model file.
-    Model(Box<crate::Mesh>, usize),
-    /// An instance of the group of this name.
-    Instance(String, Spot),
 }
 
 /// What is read in the order of the text.

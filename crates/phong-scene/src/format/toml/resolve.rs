@@ -2,9 +2,10 @@
 
 use std::collections::BTreeSet;
 
+use super::draft::{Draft, DraftShape, Named};
 use super::groups;
 use super::notes::Notes;
-use super::reader::{Draft, DraftShape, Named, Reader};
+use super::reader::Reader;
 use super::text::Spot;
 use crate::check::check;
 use crate::wording::{closest, list, quoted};

@@ -1,0 +1,76 @@
+//! What is read before names are looked up.
+
+use std::collections::BTreeMap;
+
+use glam::DAffine3;
+
+use super::notes::Notes;
+use super::text::Spot;
+use crate::wording::quoted;
+use crate::{Diagnostic, Mesh, Place, Shape};
+
+/// Things by name, in the order of the text.
+#[derive(Debug)]
+pub(super) struct Named<T> {
+    pub(super) items: Vec<(String, Spot, Option<T>)>,
+    numbers: BTreeMap<String, u32>,
+}
+
+impl<T> Named<T> {
+    pub(super) const fn new() -> Self {
+        Self { items: Vec::new(), numbers: BTreeMap::new() }
+    }
+
+    /// The number of the thing of this name.
+    pub(super) fn find(&self, name: &str) -> Option<u32> {
+        self.numbers.get(name).copied()
+    }
+
+    /// All names.
+    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
+        self.numbers.keys().map(String::as_str)
+    }
+
+    /// Takes a name in, for the thing to follow; says if it is there already.
+    pub(super) fn declare(
+        &mut self,
+        what: &str,
+        name: &str,
+        spot: Spot,
+        notes: &mut Notes,
+    ) -> Option<u32> {
+        if let Some(first) = self.find(name) {
+            let label = notes.span(self.items[first as usize].1);
+            let message = format!("the {what} {} is defined twice", quoted(name));
+            let error = Diagnostic::error(message, notes.span(spot));
+            notes.say(spot, error.with_label("first defined here", label));
+            return None;
+        }
+        let number = self.items.len() as u32;
+        self.items.push((name.to_owned(), spot, None));
+        self.numbers.insert(name.to_owned(), number);
+        Some(number)
+    }
+}
+
+/// An object whose names are still to be looked up.
+#[derive(Debug)]
+pub(super) struct Draft {
+    pub(super) name: String,
+    pub(super) shape: DraftShape,
+    /// Where in the reader's list of materials that shapes name its own is, if it names one.
+    pub(super) material: Option<usize>,
+    pub(super) transform: DAffine3,
+    pub(super) place: Place,
+}
+
+/// A shape, or what names stand for it.
+#[derive(Debug)]
+pub(super) enum DraftShape {
+    /// A shape.
+    Shape(Shape),
+    /// A mesh whose faces' materials are those of this model file.
+    Model(Box<Mesh>, usize),
+    /// An instance of the group of this name.
+    Instance(String, Spot),
+}

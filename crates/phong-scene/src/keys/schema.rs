@@ -1,0 +1,159 @@
+//! The scene text as a JSON schema, for editors: completion, hover and errors while typing.
+
+use serde_json::{Map, Value, json};
+
+use super::{BACKGROUND, Default, Key, Kind, LARGEST, Range, SCENE, Table};
+
+/// The scene text as a JSON schema (draft 7, which TOML editors understand).
+///
+/// The reader reads by the very same tables of keys. What only several keys together can be wrong
+/// about, the schema does not know: an eye where `look_at` is, a name that is not defined.
+///
+/// ```
+/// let schema = phong_scene::schema_json();
+/// assert!(schema.contains("\"$schema\": \"http://json-schema.org/draft-07/schema#\""));
+/// assert!(schema.contains("Vertical field of view, degrees."));
+/// ```
+pub fn schema_json() -> String {
+    let mut schema = object(&SCENE);
+    schema.insert("$schema".into(), json!("http://json-schema.org/draft-07/schema#"));
+    schema.insert("title".into(), json!("phong scene"));
+    // Included files are scene files as well, and have no camera.
+    schema.remove("required");
+    format!("{:#}\n", Value::Object(schema))
+}
+
+/// A table: its keys and no others, and which of them go with which kind.
+fn object(table: &Table) -> Map<String, Value> {
+    let mut properties = Map::new();
+    for key in table.keys() {
+        let schema = value(key);
+        match properties.get_mut(key.name) {
+            // The same name for other kinds: either will do here, the conditions below tell.
+            Some(known) => *known = json!({ "anyOf": [known.take(), schema] }),
+            None => drop(properties.insert(key.name.into(), schema)),
+        }
+    }
+    let mut schema = Map::new();
+    schema.insert("type".into(), json!("object"));
+    schema.insert("description".into(), json!(table.doc));
+    schema.insert("properties".into(), Value::Object(properties));
+    schema.insert("additionalProperties".into(), json!(false));
+    schema.insert("required".into(), required(table, |key| key.only.is_empty()));
+    if let Some(select) = table.select {
+        schema.insert("allOf".into(), conditions(table, select));
+    }
+    schema
+}
+
+fn required(table: &Table, applies: impl Fn(&Key) -> bool) -> Value {
+    let required = table.keys().filter(|key| matches!(key.default, Default::Required));
+    required.filter(|key| applies(key)).map(|key| json!(key.name)).collect()
+}
+
+/// For each word of the selecting key: what goes with it, and how.
+fn conditions(table: &Table, select: &str) -> Value {
+    let Some(Key { kind: Kind::Word(words), default, .. }) = table.find(select, None) else {
+        return json!([]);
+    };
+    let condition = |&word: &&'static str| {
+        let mut properties = Map::new();
+        for key in table.keys().filter(|key| !key.only.is_empty()) {
+            let schema = table.find(key.name, Some(word)).map_or(json!(false), value);
+            properties.insert(key.name.into(), schema);
+        }
+        // Where the key is not written its default counts, else it must be written.
+        let written = match default {
+            Default::Word(default) if *default == word => json!([]),
+            _ => json!([select]),
+        };
+        json!({
+            "if": { "properties": { select: { "const": word } }, "required": written },
+            "then": {
+                "properties": properties,
+                "required": required(table, |key| key.only.contains(&word)),
+            },
+        })
+    };
+    words.iter().map(condition).collect()
+}
+
+/// What may stand as a key's value, with its meaning and default.
+fn value(key: &Key) -> Value {
+    let mut schema = kind(key.kind);
+    if let Value::Object(schema) = &mut schema {
+        schema.insert("description".into(), json!(key.doc));
+        let default = match key.default {
+            Default::Required | Default::Said(_) => None,
+            Default::Flag(flag) => Some(json!(flag)),
+            Default::Integer(n) => Some(json!(n)),
+            Default::Number(n) => Some(json!(n)),
+            Default::Vector(v) => Some(json!(v)),
+            Default::Size(size) => Some(json!(size)),
+            Default::Word(word) => Some(json!(word)),
+        };
+        if let Some(default) = default {
+            schema.insert("default".into(), default);
+        }
+    }
+    schema
+}
+
+fn kind(kind: Kind) -> Value {
+    match kind {
+        Kind::Flag => json!({ "type": "boolean" }),
+        Kind::Integer(min, max) => json!({ "type": "integer", "minimum": min, "maximum": max }),
+        Kind::Number(range) => number(&range),
+        Kind::Point | Kind::Direction => list(&any_number(), 3),
+        Kind::Color | Kind::ColorOrObject => color(LARGEST), // "object" is among its texts
+        Kind::Reflectance => color(1.0),
+        Kind::Background => json!({ "anyOf": [color(LARGEST), object(&BACKGROUND)] }),
+        Kind::Word(words) => json!({ "enum": words }),
+        Kind::Text | Kind::File | Kind::Material | Kind::Group => text(),
+        Kind::Size => list(&json!({ "type": "integer", "minimum": 1, "maximum": 1 << 20 }), 2),
+        Kind::Attenuation => list(&number(&Range::NOT_NEGATIVE), 3),
+        Kind::Points | Kind::Directions => list(&list(&any_number(), 3), 3),
+        Kind::Uvs => list(&list(&any_number(), 2), 3),
+        Kind::Smooth => {
+            json!({ "anyOf": [{ "type": "boolean" }, number(&Range::closed(0.0, 180.0))] })
+        }
+        Kind::Scale => json!({ "anyOf": [any_number(), list(&any_number(), 3)] }),
+        Kind::Rotate => {
+            let rotation = list(&any_number(), 4);
+            json!({ "anyOf": [rotation, { "type": "array", "items": rotation }] })
+        }
+        Kind::Matrix => list(&list(&any_number(), 4), 4),
+        Kind::Table(table) => Value::Object(object(table)),
+        Kind::Tables(table) => json!({ "type": "array", "items": object(table) }),
+        Kind::Named(table) => json!({ "type": "object", "additionalProperties": object(table) }),
+        Kind::NotYet => json!({ "not": {} }),
+    }
+}
+
+fn any_number() -> Value {
+    json!({ "type": "number" })
+}
+
+fn number(range: &Range) -> Value {
+    let mut schema = Map::new();
+    schema.insert("type".into(), json!("number"));
+    let lower = if range.min_included { "minimum" } else { "exclusiveMinimum" };
+    schema.insert(lower.into(), json!(range.min));
+    let upper = if range.max_included { "maximum" } else { "exclusiveMaximum" };
+    schema.insert(upper.into(), json!(range.max));
+    Value::Object(schema)
+}
+
+fn color(most: f64) -> Value {
+    let channel = number(&Range::closed(0.0, most));
+    json!({ "anyOf": [channel, list(&channel, 3), text()] })
+}
+
+fn text() -> Value {
+    json!({ "type": "string", "minLength": 1 })
+}
+
+/// So many of these.
+fn list(item: &Value, count: usize) -> Value {
+    json!({ "type": "array", "items": item, "minItems": count, "maxItems": count })
+}
