@@ -33,8 +33,8 @@
 //! | `shininess` (phong, blinn-phong, cook-torrance) | a number 0 or above | `32` | α, always the exponent that is applied; for cook-torrance with Blinn's distribution, above 0. |
 //! | `distribution` (cook-torrance) | `beckmann`, `blinn` or `ggx` | `"beckmann"` | How the facets' normals are distributed. |
 //! | `roughness` (cook-torrance, ggx) | a number above 0 up to 10 | `0.3` | Beckmann's m or GGX's α, as they stand in the formulas (not squared); Blinn's distribution takes `shininess` instead. |
-//! | `shadowing` (cook-torrance) | `v-cavity`, `separable` or `correlated` | `"v-cavity"` | How facets hide one another: Cook and Torrance's grooves, or Smith's function. |
-//! | `shadowing` (ggx) | `correlated`, `separable` or `v-cavity` | `"correlated"` | As for cook-torrance. |
+//! | `shadowing` (cook-torrance) | `v-cavity`, `separable`, `correlated` or `implicit` | `"v-cavity"` | How facets hide one another: Cook and Torrance's grooves, Smith's function, or (N·L)(N·E), which leaves D F / 4. |
+//! | `shadowing` (ggx) | `correlated`, `separable`, `v-cavity` or `implicit` | `"correlated"` | As for cook-torrance. |
 //! | `f0` (cook-torrance, ggx) | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name | 0.04, unless `eta` is given | Facets follow Schlick's formula from this reflectance at normal incidence; 1: perfect mirrors. |
 //! | `eta` (cook-torrance, ggx) | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name | none | Facets follow the exact Fresnel equations for this index of refraction: a number for a dielectric, one a channel with `k` for a metal; above 0. |
 //! | `k` (cook-torrance, ggx) | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name | none: a dielectric | Imaginary part of the index of refraction, with `eta`. |
@@ -187,6 +187,8 @@ pub enum Shadowing {
     Correlated,
     /// Cook and Torrance's V-cavities.
     VCavity,
+    /// `(N·L)(N·E)`, which leaves `D F / 4`: programs that model no hiding.
+    Implicit,
 }
 
 /// The Fresnel reflectance of microfacets.

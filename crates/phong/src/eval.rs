@@ -327,7 +327,7 @@ impl Query {
             }
             Self::Lambda { distribution, cos } => distribution.lambda(Lean::from_cos(cos)),
             Self::OrenNayarBrdf { at, rho, sigma, form } => {
-                let model = OrenNayar { k_d: rho, color: Rgb::WHITE, sigma, form };
+                let model = OrenNayar { k_d: rho, sigma, form };
                 let shape = model.shape(at.n, at.l, at.e);
                 FRAC_1_PI * rho * (shape.direct + rho * shape.interreflected)
             }
@@ -399,7 +399,7 @@ impl Lobe {
 }
 
 fn white(l: Dir3) -> Incident {
-    Incident { l, c_d: Rgb::WHITE, c_s: Rgb::WHITE }
+    Incident { l, c_d: Rgb::WHITE, c_s: Rgb::WHITE, color: Rgb::WHITE }
 }
 
 fn at_least_0(name: &'static str, value: f32) -> Result<(), EvalError> {

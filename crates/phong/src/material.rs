@@ -5,8 +5,8 @@ use phong_scene::{self as scene, AmbientRule, Model, Rgb, Tint};
 use crate::light::LightSample;
 use crate::math::Dir3;
 use crate::reflectance::{
-    BlinnPhong, Distribution, Fresnel, Incident, Lambert, Microfacet, OrenNayar, OrenNayarForm,
-    Phong, Reflectance, Shadowing, Switches, Terms, Ward, WardForm,
+    BlinnPhong, Distribution, Incident, Lambert, Microfacet, OrenNayar, OrenNayarForm, Phong,
+    Reflectance, Switches, Terms, Ward,
 };
 
 /// A material ready for light.
@@ -78,6 +78,7 @@ impl Material {
                 Tint::Light => light.specular_color * specular,
                 Tint::Object => color,
             },
+            color,
         }
     }
 
@@ -112,22 +113,12 @@ fn reflectance(material: &phong_scene::Material) -> Reflectance {
                     scene::Distribution::Beckmann => Distribution::Beckmann { m: roughness },
                     scene::Distribution::Ggx => Distribution::Ggx { alpha: roughness },
                 },
-                shadowing: match shadowing {
-                    scene::Shadowing::Separable => Shadowing::Separable,
-                    scene::Shadowing::Correlated => Shadowing::Correlated,
-                    scene::Shadowing::VCavity => Shadowing::VCavity,
-                },
-                fresnel: match fresnel {
-                    scene::Fresnel::None => Fresnel::None,
-                    scene::Fresnel::Schlick { f0 } => Fresnel::Schlick { f0 },
-                    scene::Fresnel::Conductor { eta, k } => Fresnel::Conductor { eta, k },
-                    scene::Fresnel::Dielectric { eta } => Fresnel::Dielectric { eta },
-                },
+                shadowing,
+                fresnel,
             })
         }
         Model::OrenNayar { sigma, full } => Reflectance::OrenNayar(OrenNayar {
             k_d,
-            color: material.color,
             sigma,
             form: if full {
                 OrenNayarForm::Full { interreflection: true }
@@ -135,15 +126,31 @@ fn reflectance(material: &phong_scene::Material) -> Reflectance {
                 OrenNayarForm::Qualitative
             },
         }),
-        Model::Ward { roughness_x, roughness_y, form } => Reflectance::Ward(Ward {
-            k_d,
-            k_s,
-            a_x: roughness_x,
-            a_y: roughness_y,
-            form: match form {
-                scene::WardForm::Ward => WardForm::Ward,
-                scene::WardForm::Gmd => WardForm::Gmd,
-            },
-        }),
+        Model::Ward { roughness_x, roughness_y, form } => {
+            Reflectance::Ward(Ward { k_d, k_s, a_x: roughness_x, a_y: roughness_y, form })
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn light_that_meets_two_facets_is_tinted_by_the_colour_of_the_vertex() {
+        let model = Model::OrenNayar { sigma: 0.3, full: true };
+        let drawn = |material: Rgb, vertex: Rgb| {
+            let written = scene::Material { model, color: material, ..scene::Material::default() };
+            let light = LightSample {
+                l: Dir3::Z,
+                distance: 1.0,
+                color: Rgb::WHITE,
+                specular_color: Rgb::WHITE,
+            };
+            Material::new(&written).shade_light(Dir3::Z, Dir3::X, Dir3::Z, vertex, &light).diffuse
+        };
+        let (red, white) = (Rgb::new(0.9, 0.1, 0.1), Rgb::WHITE);
+        assert_eq!(drawn(white, red), drawn(red, red));
+        assert_ne!(drawn(white, red), drawn(white, white));
     }
 }

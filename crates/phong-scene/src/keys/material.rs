@@ -87,14 +87,15 @@ pub(crate) static MATERIAL: Table = Table {
         .only(FACETS),
         Key::new(
             "shadowing",
-            Kind::Word(&["v-cavity", "separable", "correlated"]),
+            Kind::Word(&["v-cavity", "separable", "correlated", "implicit"]),
             Default::Word("v-cavity"),
-            "How facets hide one another: Cook and Torrance's grooves, or Smith's function.",
+            "How facets hide one another: Cook and Torrance's grooves, Smith's function, or \
+             (N·L)(N·E), which leaves D F / 4.",
         )
         .only(&["cook-torrance"]),
         Key::new(
             "shadowing",
-            Kind::Word(&["correlated", "separable", "v-cavity"]),
+            Kind::Word(&["correlated", "separable", "v-cavity", "implicit"]),
             Default::Word("correlated"),
             "As for cook-torrance.",
         )

@@ -96,7 +96,8 @@ fn specular(lobe: Lobe, exponent: f64, theta: f64, e: Dir3) -> f64 {
             Reflectance::BlinnPhong(BlinnPhong::new(k_d, k_s, alpha, Switches::default()))
         }
     };
-    let incident = Incident { l: light(theta), c_d: Rgb::WHITE, c_s: Rgb::WHITE };
+    let incident =
+        Incident { l: light(theta), c_d: Rgb::WHITE, c_s: Rgb::WHITE, color: Rgb::WHITE };
     f64::from(model.shade_light(Dir3::Y, Dir3::X, e, incident).specular.r)
 }
 

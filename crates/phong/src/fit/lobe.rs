@@ -351,7 +351,7 @@ impl Shone {
         let l = Dir3::from_unit(DVec3::new(-sin, 0.0, cos).as_vec3());
         Self {
             reflectance: lobe.reflectance(),
-            light: Incident { l, c_d: Rgb::BLACK, c_s: Rgb::WHITE },
+            light: Incident { l, c_d: Rgb::BLACK, c_s: Rgb::WHITE, color: Rgb::BLACK },
             mirror: DVec3::new(sin, 0.0, cos),
             aside: DVec3::new(cos, 0.0, -sin),
         }

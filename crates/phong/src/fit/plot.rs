@@ -256,6 +256,7 @@ mod tests {
                 l: crate::math::Dir3::Z,
                 c_d: Rgb::BLACK,
                 c_s: Rgb::WHITE,
+                color: Rgb::BLACK,
             };
             let z = crate::math::Dir3::Z;
             let peak = drawn.shade_light(z, crate::math::Dir3::X, z, light).specular.r;

@@ -44,7 +44,12 @@ impl BlinnPhong {
     }
 
     /// What one light above the horizon adds: `k_d (L·N) C_d` and `k_s (N·H)^α C_s`.
-    pub(super) fn shade_light(self, n: Dir3, e: Dir3, Incident { l, c_d, c_s }: Incident) -> Terms {
+    pub(super) fn shade_light(
+        self,
+        n: Dir3,
+        e: Dir3,
+        Incident { l, c_d, c_s, .. }: Incident,
+    ) -> Terms {
         let Self { k_d, k_s, alpha, falloff, scale } = self;
         let n_dot_l = n.cos(l);
         let n_dot_h = l.halfway(e).map_or(0.0, |h| n.cos(h));

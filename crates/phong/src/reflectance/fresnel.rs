@@ -1,44 +1,19 @@
 //! Fresnel reflectance: the share of light that a smooth boundary mirrors, unpolarised.
 
-use phong_scene::Rgb;
+use phong_scene::{Fresnel, Rgb};
 
-/// How much a microfacet mirrors, and in which colour.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Fresnel {
-    /// All of it.
-    None,
-    /// [`schlick`] per channel.
-    Schlick {
-        /// `F₀`, the reflectance at normal incidence, in [0, 1].
-        f0: Rgb,
-    },
-    /// [`conductor`] per channel.
-    Conductor {
-        /// Real part of the index, > 0.
-        eta: Rgb,
-        /// Imaginary part of the index, ≥ 0.
-        k: Rgb,
-    },
-    /// [`dielectric`].
-    Dielectric {
-        /// `n_t / n_i`, > 0.
-        eta: f32,
-    },
-}
-
-impl Fresnel {
-    /// The reflectance at the angle of incidence whose cosine is `cos`, in [0, 1].
-    pub fn at(self, cos: f32) -> Rgb {
-        match self {
-            Self::None => Rgb::WHITE,
-            Self::Schlick { f0 } => f0.map(|f0| schlick(cos, f0)),
-            Self::Conductor { eta, k } => Rgb::new(
-                conductor(cos, eta.r, k.r),
-                conductor(cos, eta.g, k.g),
-                conductor(cos, eta.b, k.b),
-            ),
-            Self::Dielectric { eta } => Rgb::grey(dielectric(cos, eta)),
-        }
+/// The share of light that facets of this kind mirror, per channel, in [0, 1], at the angle of
+/// incidence whose cosine is `cos`.
+pub fn mirrored(facets: Fresnel, cos: f32) -> Rgb {
+    match facets {
+        Fresnel::None => Rgb::WHITE,
+        Fresnel::Schlick { f0 } => f0.map(|f0| schlick(cos, f0)),
+        Fresnel::Conductor { eta, k } => Rgb::new(
+            conductor(cos, eta.r, k.r),
+            conductor(cos, eta.g, k.g),
+            conductor(cos, eta.b, k.b),
+        ),
+        Fresnel::Dielectric { eta } => Rgb::grey(dielectric(cos, eta)),
     }
 }
 

@@ -17,14 +17,15 @@ mod terms;
 mod ward;
 
 pub use blinn_phong::{BlinnPhong, Falloff};
-pub use fresnel::Fresnel;
 pub use lambert::Lambert;
-pub use microfacet::{Distribution, Microfacet, Shadowing};
+pub use microfacet::{Distribution, Microfacet};
 pub use oren_nayar::{OrenNayar, OrenNayarForm};
 pub use phong::Phong;
 pub use scale::Switches;
 pub use terms::{Incident, Terms};
-pub use ward::{Ward, WardForm};
+pub use ward::Ward;
+
+pub use phong_scene::{Fresnel, Shadowing, WardForm};
 
 use crate::math::Dir3;
 
@@ -89,7 +90,7 @@ mod tests {
 
     /// White light from `l`.
     pub(super) fn white(l: Dir3) -> Incident {
-        Incident { l, c_d: Rgb::WHITE, c_s: Rgb::WHITE }
+        Incident { l, c_d: Rgb::WHITE, c_s: Rgb::WHITE, color: Rgb::WHITE }
     }
 
     /// One of each.
@@ -108,7 +109,6 @@ mod tests {
             }),
             Reflectance::OrenNayar(OrenNayar {
                 k_d: 0.5,
-                color: Rgb::WHITE,
                 sigma: 0.0,
                 form: OrenNayarForm::Qualitative,
             }),
@@ -148,7 +148,8 @@ mod tests {
         for model in models() {
             let l = dir(0.6, 0.0, 0.8);
             let plain = model.shade_light(n, Dir3::X, e, white(l));
-            let tinted = model.shade_light(n, Dir3::X, e, Incident { l, c_d, c_s });
+            let tinted =
+                model.shade_light(n, Dir3::X, e, Incident { l, c_d, c_s, color: Rgb::WHITE });
             assert_eq!(tinted.diffuse, plain.diffuse.r * c_d, "{model:?}");
             assert_eq!(tinted.specular, plain.specular.r * c_s, "{model:?}");
         }
@@ -185,7 +186,7 @@ mod tests {
             }
         }
         for form in [OrenNayarForm::Qualitative, OrenNayarForm::Full { interreflection: true }] {
-            let rough = OrenNayar { k_d: 1.0, color: Rgb::WHITE, sigma: 0.5, form };
+            let rough = OrenNayar { k_d: 1.0, sigma: 0.5, form };
             assert_finite(Reflectance::OrenNayar(rough), &directions);
         }
     }

@@ -16,9 +16,6 @@ use crate::math::{Dir3, acos};
 pub struct OrenNayar {
     /// `k_d`, in [0, 1].
     pub k_d: f32,
-    /// The material's diffuse colour once more: light reflected twice is tinted twice, which
-    /// `C_d` alone cannot tell. Only the full form with interreflection uses it.
-    pub color: Rgb,
     /// Standard deviation of the facets' slope angle, radians, ≥ 0.
     pub sigma: f32,
     /// Which of the paper's forms.
@@ -48,9 +45,16 @@ pub struct RoughDiffuse {
 
 impl OrenNayar {
     /// What one light above the horizon adds: `π f (N·L) C`, all of it diffuse.
-    pub(super) fn shade_light(&self, n: Dir3, e: Dir3, Incident { l, c_d, .. }: Incident) -> Terms {
+    ///
+    /// Light that met two facets is tinted twice, by the colour the surface has there.
+    pub(super) fn shade_light(
+        &self,
+        n: Dir3,
+        e: Dir3,
+        Incident { l, c_d, color, .. }: Incident,
+    ) -> Terms {
         let RoughDiffuse { direct, interreflected } = self.shape(n, l, e);
-        let rho = self.k_d * self.color;
+        let rho = self.k_d * color;
         // The full fit dips below 0 where very rough surfaces are lit and seen at grazing angles.
         let shape = (Rgb::grey(direct) + interreflected * rho).map(|shape| shape.max(0.0));
         Terms { diffuse: self.k_d * n.cos(l) * shape * c_d, ..Terms::default() }
@@ -124,7 +128,7 @@ mod tests {
     use super::*;
 
     fn rough(sigma: f32, form: OrenNayarForm) -> OrenNayar {
-        OrenNayar { k_d: 1.0, color: Rgb::WHITE, sigma, form }
+        OrenNayar { k_d: 1.0, sigma, form }
     }
 
     const FULL: OrenNayarForm = OrenNayarForm::Full { interreflection: true };
@@ -167,9 +171,8 @@ mod tests {
     #[test]
     fn light_that_meets_two_facets_is_tinted_twice() {
         let color = Rgb::new(1.0, 0.5, 0.0);
-        let model = OrenNayar { k_d: 0.8, color, sigma: 0.3, form: FULL };
-        let mut incident = white(Dir3::Z);
-        incident.c_d = color;
+        let model = OrenNayar { k_d: 0.8, sigma: 0.3, form: FULL };
+        let incident = Incident { c_d: color, color, ..white(Dir3::Z) };
         let diffuse = model.shade_light(Dir3::Z, Dir3::Z, incident).diffuse;
         let twice = |c: f32| 0.8 * c * (0.892_857 + 0.069_545_5 * 0.8 * c);
         for (found, c) in diffuse.to_array().into_iter().zip([1.0, 0.5, 0.0]) {

@@ -23,7 +23,12 @@ impl Phong {
     }
 
     /// What one light above the horizon adds: `k_d (L·N) C_d` and `k_s (R·E)^α C_s`.
-    pub(super) fn shade_light(self, n: Dir3, e: Dir3, Incident { l, c_d, c_s }: Incident) -> Terms {
+    pub(super) fn shade_light(
+        self,
+        n: Dir3,
+        e: Dir3,
+        Incident { l, c_d, c_s, .. }: Incident,
+    ) -> Terms {
         let Self { k_d, k_s, alpha, scale } = self;
         let n_dot_l = n.cos(l);
         let r = n.mirror(l);

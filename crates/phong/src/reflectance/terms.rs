@@ -15,6 +15,8 @@ pub struct Incident {
     pub c_d: Rgb,
     /// `C_{m,s}`: the light's specular colour, attenuated, times the material's specular colour.
     pub c_s: Rgb,
+    /// The material's diffuse colour alone: what tints light once more that meets two facets.
+    pub color: Rgb,
 }
 
 /// What a pixel is made of, kept apart to the film. Linear, unclamped.

@@ -153,7 +153,7 @@ fn the_shininess_figure_has_these_half_widths() {
 /// "Specular coefficient in (0.25, 0.5, 0.75), shininess in (3, 9, 200)."
 #[test]
 fn the_specular_coefficient_scales_the_lobe_and_shininess_shapes_it() {
-    let l = Incident { l: tilted(-30.0), c_d: Rgb::WHITE, c_s: Rgb::WHITE };
+    let l = Incident { l: tilted(-30.0), c_d: Rgb::WHITE, c_s: Rgb::WHITE, color: Rgb::WHITE };
     for alpha in [3.0, 9.0, 200.0] {
         for k_s in [0.25, 0.5, 0.75] {
             let model = Reflectance::Phong(Phong::new(0.0, k_s, alpha, Switches::default()));
@@ -249,8 +249,18 @@ fn no_single_exponent_fits_across_the_plane_of_incidence() {
 fn the_sum_worked_by_hand() {
     // L₁ = (0.6, 0, 0.8), L₂ = N = E = z: L·N = 0.8 and 1, R·E = 0.8 and 1.
     let lights = vec![
-        Incident { l: dir(0.6, 0.0, 0.8), c_d: Rgb::new(1.0, 0.5, 0.0), c_s: Rgb::WHITE },
-        Incident { l: Dir3::Z, c_d: Rgb::new(0.0, 0.0, 1.0), c_s: Rgb::grey(0.5) },
+        Incident {
+            l: dir(0.6, 0.0, 0.8),
+            c_d: Rgb::new(1.0, 0.5, 0.0),
+            c_s: Rgb::WHITE,
+            color: Rgb::WHITE,
+        },
+        Incident {
+            l: Dir3::Z,
+            c_d: Rgb::new(0.0, 0.0, 1.0),
+            c_s: Rgb::grey(0.5),
+            color: Rgb::WHITE,
+        },
     ];
     let sum = Query::Sum {
         lobe: Lobe::Phong,

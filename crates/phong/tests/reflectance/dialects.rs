@@ -23,7 +23,7 @@ fn assert_dialect(model: impl Fn(f32) -> Reflectance, formula: impl Fn(Nle, f64)
     let mut dice = Dice::new(77);
     for _ in 0..500 {
         let (at, n) = (dice.directions(), dice.between(1.0, 200.0));
-        let light = Incident { l: at.l, c_d: Rgb::BLACK, c_s: Rgb::WHITE };
+        let light = Incident { l: at.l, c_d: Rgb::BLACK, c_s: Rgb::WHITE, color: Rgb::BLACK };
         let terms = model(n).shade_light(at.n, Dir3::X, at.e, light);
         let (found, wide) = (f64::from(terms.specular.g), f64::from(n));
         let given = Nle::from(at);

@@ -200,7 +200,8 @@ impl<'a> Fields<'a> {
 
     fn one_light(&mut self) -> Result<Vec<Incident>, String> {
         let l = self.vector("L")?;
-        Ok(vec![Incident { l, c_d: self.color("Cd")?, c_s: self.color("Cs")? }])
+        let (c_d, c_s) = (self.color("Cd")?, self.color("Cs")?);
+        Ok(vec![Incident { l, c_d, c_s, color: c_d }])
     }
 
     fn lights(&mut self) -> Result<Vec<Incident>, String> {
@@ -223,11 +224,9 @@ impl<'a> Fields<'a> {
             Ok::<_, String>((format!("lights[{i}].{name}"), value))
         };
         let [l, c_d, c_s] = [part("L")?, part("Cd")?, part("Cs")?];
-        Ok(Incident {
-            l: unit(&l.0, l.1)?,
-            c_d: self.color_of(&c_d.0, c_d.1)?,
-            c_s: self.color_of(&c_s.0, c_s.1)?,
-        })
+        let l = unit(&l.0, l.1)?;
+        let (c_d, c_s) = (self.color_of(&c_d.0, c_d.1)?, self.color_of(&c_s.0, c_s.1)?);
+        Ok(Incident { l, c_d, c_s, color: c_d })
     }
 
     fn oren_nayar(&mut self, form: OrenNayarForm) -> Result<Query, String> {

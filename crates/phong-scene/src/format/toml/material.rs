@@ -102,6 +102,7 @@ fn shadowing(v: &Values) -> Option<Shadowing> {
     Some(match v.word("shadowing")? {
         "separable" => Shadowing::Separable,
         "correlated" => Shadowing::Correlated,
+        "implicit" => Shadowing::Implicit,
         _ => Shadowing::VCavity,
     })
 }

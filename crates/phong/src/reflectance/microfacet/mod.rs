@@ -5,12 +5,12 @@ mod shadowing;
 
 use std::f32::consts::PI;
 
-use phong_scene::Rgb;
+use phong_scene::{Fresnel, Rgb, Shadowing};
 
 pub use distribution::{Distribution, Lean};
-pub use shadowing::Shadowing;
+pub use shadowing::visible;
 
-use super::fresnel::Fresnel;
+use super::fresnel::mirrored;
 use super::{HORIZON, Incident, Terms};
 use crate::math::Dir3;
 
@@ -38,7 +38,7 @@ impl Microfacet {
         &self,
         n: Dir3,
         e: Dir3,
-        Incident { l, c_d, c_s }: Incident,
+        Incident { l, c_d, c_s, .. }: Incident,
     ) -> Terms {
         let n_dot_l = n.cos(l);
         Terms {
@@ -58,8 +58,8 @@ impl Microfacet {
         let Some(h) = l.halfway(e) else { return Rgb::BLACK };
         let (lean_h, e_dot_h) = (Lean::of(n, h), e.cos(h));
         let d = self.distribution.density(lean_h);
-        let g = self.shadowing.visible(self.distribution, [lean_l, lean_e, lean_h], e_dot_h);
-        let f = self.fresnel.at(e_dot_h);
+        let g = visible(self.shadowing, self.distribution, [lean_l, lean_e, lean_h], e_dot_h);
+        let f = mirrored(self.fresnel, e_dot_h);
         d * g / (4.0 * lean_l.cos * lean_e.cos) * f
     }
 }

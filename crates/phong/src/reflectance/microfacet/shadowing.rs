@@ -1,33 +1,28 @@
 //! How many facets are hidden, from the light or from the eye, by others.
 
+use phong_scene::Shadowing;
+
 use super::{Distribution, Lean};
 
-/// The shadowing–masking term G.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shadowing {
-    /// Smith, light and eye independent: `1/((1+Λ(L))(1+Λ(E)))`.
-    Separable,
-    /// Smith, correlated by height: `1/(1+Λ(L)+Λ(E))`.
-    Correlated,
-    /// V-shaped grooves (Cook and Torrance 1982):
-    /// `min(1, 2(N·H)(N·E)/(E·H), 2(N·H)(N·L)/(E·H))`.
-    VCavity,
-    /// `(N·L)(N·E)`, which cancels the BRDF's denominator: what programs do that write `D F/4`,
-    /// such as three.js's `MeshPhongMaterial`.
-    Implicit,
-}
-
-impl Shadowing {
-    /// The share of the facets facing `h` that light reaches and eye sees, in [0, 1].
-    ///
-    /// `l`, `e`, `h` are leans from the normal, all above the horizon; `e_dot_h` = E·H = L·H > 0.
-    pub fn visible(self, facets: Distribution, [l, e, h]: [Lean; 3], e_dot_h: f32) -> f32 {
-        match self {
-            Self::Separable => 1.0 / ((1.0 + facets.lambda(l)) * (1.0 + facets.lambda(e))),
-            Self::Correlated => 1.0 / (1.0 + facets.lambda(l) + facets.lambda(e)),
-            Self::VCavity => (2.0 * h.cos * e.cos.min(l.cos) / e_dot_h).min(1.0),
-            Self::Implicit => l.cos * e.cos,
-        }
+/// G: the share of the facets facing `h` that light reaches and eye sees, in [0, 1].
+///
+/// `l`, `e`, `h` are leans from the normal, all above the horizon; `e_dot_h` = E·H = L·H > 0.
+///
+/// - separable, light and eye independent: `1/((1+Λ(L))(1+Λ(E)))` (Smith 1967)
+/// - correlated, by height: `1/(1+Λ(L)+Λ(E))`
+/// - V-cavities: `min(1, 2(N·H)(N·E)/(E·H), 2(N·H)(N·L)/(E·H))` (Cook and Torrance 1982)
+/// - implicit: `(N·L)(N·E)`, which cancels the BRDF's denominator
+pub fn visible(
+    shadowing: Shadowing,
+    facets: Distribution,
+    [l, e, h]: [Lean; 3],
+    e_dot_h: f32,
+) -> f32 {
+    match shadowing {
+        Shadowing::Separable => 1.0 / ((1.0 + facets.lambda(l)) * (1.0 + facets.lambda(e))),
+        Shadowing::Correlated => 1.0 / (1.0 + facets.lambda(l) + facets.lambda(e)),
+        Shadowing::VCavity => (2.0 * h.cos * e.cos.min(l.cos) / e_dot_h).min(1.0),
+        Shadowing::Implicit => l.cos * e.cos,
     }
 }
 
@@ -41,7 +36,7 @@ mod tests {
         let facets = Distribution::Ggx { alpha: 0.25 };
         let v = Lean { cos: (1.0_f32 / 17.0).sqrt(), sin2: 16.0 / 17.0 };
         let lambda = 0.5 * (2.0_f32.sqrt() - 1.0);
-        let visible = |g: Shadowing| g.visible(facets, [v, v, Lean::from_cos(1.0)], v.cos);
+        let visible = |g| visible(g, facets, [v, v, Lean::from_cos(1.0)], v.cos);
         let separable = 1.0 / ((1.0 + lambda) * (1.0 + lambda));
         assert!((visible(Shadowing::Separable) - separable).abs() < 1e-6);
         assert!((visible(Shadowing::Correlated) - 1.0 / (1.0 + 2.0 * lambda)).abs() < 1e-6);
@@ -51,7 +46,7 @@ mod tests {
     fn grooves_hide_nothing_until_the_geometry_says_so() {
         let facets = Distribution::Ggx { alpha: 0.25 };
         let visible = |l: f32, e: f32, h: f32, e_dot_h: f32| {
-            Shadowing::VCavity.visible(facets, [l, e, h].map(Lean::from_cos), e_dot_h)
+            visible(Shadowing::VCavity, facets, [l, e, h].map(Lean::from_cos), e_dot_h)
         };
         assert_eq!(visible(0.9, 0.9, 1.0, 0.9), 1.0);
         assert!((visible(0.2, 0.9, 0.8, 0.5) - 0.64).abs() < 1e-6); // 2 · 0.8 · 0.2/0.5
@@ -62,6 +57,6 @@ mod tests {
     fn the_implicit_form_cancels_the_denominator() {
         let facets = Distribution::Blinn { n: 30.0 };
         let leans = [0.5, 0.25, 0.9].map(Lean::from_cos);
-        assert_eq!(Shadowing::Implicit.visible(facets, leans, 0.7), 0.125);
+        assert_eq!(visible(Shadowing::Implicit, facets, leans, 0.7), 0.125);
     }
 }
