@@ -59,6 +59,7 @@ pub(crate) enum Command {
     Bench(command::bench::Args),
     Merge(command::merge::Args),
     Studio(command::studio::Args),
+    Keys(command::keys::Args),
     Completions(command::completions::Args),
     Man(command::man::Args),
 }

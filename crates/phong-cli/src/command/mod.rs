@@ -13,6 +13,7 @@ pub(crate) mod figure;
 pub(crate) mod fit;
 pub(crate) mod grade;
 pub(crate) mod info;
+pub(crate) mod keys;
 pub(crate) mod man;
 pub(crate) mod merge;
 pub(crate) mod render;
@@ -37,6 +38,7 @@ pub(crate) fn run(command: Command) -> Result<(), Failure> {
         Command::Bench(args) => bench::run(&args),
         Command::Merge(args) => merge::run(&args),
         Command::Studio(args) => studio::run(&args),
+        Command::Keys(args) => keys::run(&args),
         Command::Completions(args) => completions::run(&args),
         Command::Man(args) => man::run(&args),
     }
