@@ -1,28 +1,36 @@
-//! What other programs mean by "Phong": presets of a material's four switches.
+//! What other programs mean by "Phong": presets of a material's five switches.
 //!
 //! The model fixes the lobe and `shininess` is always the exponent that is applied, so a dialect
 //! says only the rest: whether the highlight is multiplied by N·L, whether the lobe is normalised,
-//! what tints it, and how often ambient light is added. Each row was read in that program's own
-//! source or specification.
+//! what tints it, how often ambient light is added, and where the highlight is seen from. Each row
+//! was read in that program's own source or specification.
 //!
-//! | name | lobe | × N·L | normalised | tint | ambient |
-//! |---|---|---|---|---|---|
-//! | `lecture` | R·E or N·H | no | no | light | once |
-//! | `mtl` | N·H | no | no | light | once |
-//! | `pov-ray` | R·E (`phong`) or N·H (`specular`) | no | no | light | once |
-//! | `tachyon` | N·H, or R·E with `-shade_phong` | no | no | light | once |
-//! | `tachyon-metal` | as `tachyon` | no | no | object | once |
-//! | `vtk` | R·E | no | no | light | once |
-//! | `opengl` | N·H | no | no | light | per light |
-//! | `direct3d9` | N·H | no | no | light | per light |
-//! | `ospray` | N·H | no | yes | light | once |
-//! | `three-js` | N·H | yes | yes | light | once |
-//! | `pymol` | N·H | no | no | light | once |
-//! | `x3d` | N·H | no | no | light | per light |
-//! | `collada` | R·E (`phong`) or N·H (`blinn`) | no | no | light | once |
-//! | `rtc` | R·E | no | no | light | per light |
+//! | name | lobe | × N·L | normalised | tint | ambient | viewer |
+//! |---|---|---|---|---|---|---|
+//! | `lecture` | any | no | no | light | once | local |
+//! | `mtl` | N·H | no | no | light | once | local |
+//! | `pov-ray` | R·E (`phong`) or N·H (`specular`) | no | no | light | once | local |
+//! | `tachyon` | N·H, R·E with `-shade_phong`, N·H fast with `-shade_blinn_fast` | no | no | light | once | local |
+//! | `tachyon-metal` | as `tachyon` | no | no | object | once | local |
+//! | `vtk` | R·E | no | no | light | once | local |
+//! | `opengl` | N·H | no | no | light | both | distant |
+//! | `direct3d9` | N·H | no | no | light | both | local |
+//! | `ospray` | N·H | no | yes | light | once | local |
+//! | `three-js` | N·H | yes | yes | light | once | local |
+//! | `pymol` | N·H | no | no | light | once | distant |
+//! | `x3d` | N·H | no | no | light | per light | local |
+//! | `collada` | R·E (`phong`) or N·H (`blinn`) | no | no | light | once | local |
+//! | `rtc` | R·E | no | no | light | per light | local |
+//!
+//! POV-Ray's keywords are switches by themselves: `metallic` is `tint = "metallic"`, `albedo` is
+//! `normalize = true`. OpenGL's viewer is distant unless `GL_LIGHT_MODEL_LOCAL_VIEWER` says
+//! otherwise, PyMOL's unless `ray_spec_local` does.
+//!
+//! three.js multiplies its lobe by Schlick's F, so that in `three-js` a `blinn-phong` material *is*
+//! one of facets: Blinn's distribution of exponent `shininess`, `shadowing = "implicit"`, and `f0` =
+//! `k_s` × `specular_color`. It becomes that as it is read, and its switches cannot be set.
 
-use crate::{AmbientRule, Dialect, Model, Tint};
+use crate::{AmbientRule, Dialect, Distribution, Model, Shadowing, Tint, Viewer};
 
 /// The dialects' names in the scene text, in the order of [`Dialect::ALL`].
 pub(crate) const NAMES: [&str; 14] = {
@@ -35,7 +43,7 @@ pub(crate) const NAMES: [&str; 14] = {
     names
 };
 
-/// The four switches that a dialect presets.
+/// The five switches that a dialect presets.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Switches {
     /// Whether the specular term is multiplied by N·L.
@@ -46,6 +54,8 @@ pub struct Switches {
     pub tint: Tint,
     /// How often the ambient term is added.
     pub ambient_rule: AmbientRule,
+    /// Where highlights are seen from.
+    pub viewer: Viewer,
 }
 
 impl Dialect {
@@ -108,8 +118,13 @@ impl Dialect {
             normalize: matches!(self, Self::Ospray | Self::ThreeJs),
             tint: if self == Self::TachyonMetal { Tint::Object } else { Tint::Light },
             ambient_rule: match self {
-                Self::OpenGl | Self::Direct3d9 | Self::X3d | Self::Rtc => AmbientRule::PerLight,
+                Self::OpenGl | Self::Direct3d9 => AmbientRule::Both,
+                Self::X3d | Self::Rtc => AmbientRule::PerLight,
                 _ => AmbientRule::Once,
+            },
+            viewer: match self {
+                Self::OpenGl | Self::Pymol => Viewer::Distant,
+                _ => Viewer::Local,
             },
         }
     }
@@ -131,6 +146,12 @@ impl Dialect {
                     | Self::Rtc
             ),
             Model::BlinnPhong => !matches!(self, Self::Vtk | Self::Rtc),
+            Model::BlinnFast => matches!(self, Self::Tachyon | Self::TachyonMetal),
+            Model::Microfacet {
+                distribution: Distribution::Blinn,
+                shadowing: Shadowing::Implicit,
+                ..
+            } => self == Self::ThreeJs,
             Model::Microfacet { .. } | Model::OrenNayar { .. } | Model::Ward { .. } => false,
         }
     }
@@ -171,13 +192,20 @@ mod tests {
             let start = format!("//! | `{}` |", dialect.name());
             let row = source.lines().find(|line| line.starts_with(&start)).expect("a row");
             let cells: Vec<_> = row.trim_start_matches("//! ").split('|').map(str::trim).collect();
-            let Switches { times_cosine, normalize, tint, ambient_rule } = dialect.switches();
+            let Switches { times_cosine, normalize, tint, ambient_rule, viewer } =
+                dialect.switches();
             let yes = |b| if b { "yes" } else { "no" };
             assert_eq!(cells[3], yes(times_cosine), "{row}");
             assert_eq!(cells[4], yes(normalize), "{row}");
             assert_eq!(cells[5], if tint == Tint::Object { "object" } else { "light" }, "{row}");
-            let once = ambient_rule == AmbientRule::Once;
-            assert_eq!(cells[6], if once { "once" } else { "per light" }, "{row}");
+            let ambient = match ambient_rule {
+                AmbientRule::Once => "once",
+                AmbientRule::PerLight => "per light",
+                AmbientRule::Both => "both",
+            };
+            assert_eq!(cells[6], ambient, "{row}");
+            let distant = viewer == Viewer::Distant;
+            assert_eq!(cells[7], if distant { "distant" } else { "local" }, "{row}");
         }
     }
 }

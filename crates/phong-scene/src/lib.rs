@@ -35,7 +35,7 @@ pub use light::{Light, LightKind};
 pub use limits::Limits;
 pub use material::{
     AmbientRule, Dialect, Distribution, Fresnel, Material, MaterialId, Model, Shadowing, Tint,
-    WardForm,
+    Viewer, WardForm,
 };
 pub use mesh::{Mesh, NO_INDEX, Points};
 pub use scene::{Background, FilterKind, Group, GroupId, Image, Object, Reading, Scene};

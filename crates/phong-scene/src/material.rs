@@ -17,20 +17,20 @@
 //! k_s = 1
 //! ```
 //!
-//! `model` fixes the lobe. A `dialect` presets the four switches after it, each of which may also be
+//! `model` fixes the lobe. A `dialect` presets the five switches after it, each of which may also be
 //! set by itself; one that contradicts the model is an error. A material called `default` is that of
 //! shapes that name none.
 //!
 //! | key | value | default | meaning |
 //! |---|---|---|---|
-//! | `model` | `phong`, `lambert`, `blinn-phong`, `cook-torrance`, `ggx`, `oren-nayar` or `ward` | `"phong"` | The lobe. |
+//! | `model` | `phong`, `lambert`, `blinn-phong`, `blinn-fast`, `cook-torrance`, `ggx`, `oren-nayar` or `ward` | `"phong"` | The lobe. |
 //! | `color` | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name | `0.8` | Diffuse colour; the colours of vertices and points replace it. |
 //! | `ambient_color` | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name | `color` | Ambient colour. |
-//! | `specular_color` (phong, blinn-phong, cook-torrance, ggx, ward) | a colour (a number, `[r, g, b]`, "#rrggbb", a CSS name) or "object" | `1` | Colour of the highlight; `"object"`: `color`, as metal has it. |
+//! | `specular_color` (phong, blinn-phong, blinn-fast, cook-torrance, ggx, ward) | a colour (a number, `[r, g, b]`, "#rrggbb", a CSS name) or "object" | `1` | Colour of the highlight; `"object"`: `color`, as metal has it. |
 //! | `k_a` | a number 0 or above | `0.1` | Weight of the ambient term. |
 //! | `k_d` | a number 0 or above | `0.7` | Weight of the diffuse term. |
-//! | `k_s` (phong, blinn-phong, cook-torrance, ggx, ward) | a number 0 or above | `0.3` | Weight of the specular term. |
-//! | `shininess` (phong, blinn-phong, cook-torrance) | a number 0 or above | `32` | α, always the exponent that is applied; for cook-torrance with Blinn's distribution, above 0. |
+//! | `k_s` (phong, blinn-phong, blinn-fast, cook-torrance, ggx, ward) | a number 0 or above | `0.3` | Weight of the specular term. |
+//! | `shininess` (phong, blinn-phong, blinn-fast, cook-torrance) | a number 0 or above | `32` | α, always the exponent that is applied; for cook-torrance with Blinn's distribution, above 0. |
 //! | `distribution` (cook-torrance) | `beckmann`, `blinn` or `ggx` | `"beckmann"` | How the facets' normals are distributed. |
 //! | `roughness` (cook-torrance, ggx) | a number above 0 up to 10 | `0.3` | Beckmann's m or GGX's α, as they stand in the formulas (not squared); Blinn's distribution takes `shininess` instead. |
 //! | `shadowing` (cook-torrance) | `v-cavity`, `separable`, `correlated` or `implicit` | `"v-cavity"` | How facets hide one another: Cook and Torrance's grooves, Smith's function, or (N·L)(N·E), which leaves D F / 4. |
@@ -47,11 +47,12 @@
 //! | `transmission` | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name | `0` | Weight of the refracted ray. |
 //! | `ior` | a number above 0 up to 100 | `1.5` | Index of refraction of the inside relative to the outside. |
 //! | `fresnel` | `true` or `false` | true where `transmission` is not 0 | Whether the exact Fresnel factor F shares light between mirror (× F) and refraction (× (1 − F)). |
-//! | `dialect` | `lecture`, `mtl`, `pov-ray`, `tachyon`, `tachyon-metal`, `vtk`, `opengl`, `direct3d9`, `ospray`, `three-js`, `pymol`, `x3d`, `collada` or `rtc` | `"lecture"` | Whose "Phong" is meant: a preset of the four switches below. |
-//! | `times_cosine` (phong, blinn-phong) | `true` or `false` | the dialect's | Whether the specular term is multiplied by N·L. |
-//! | `normalize` (phong, blinn-phong) | `true` or `false` | the dialect's | Whether the lobe is scaled so that its energy does not depend on the exponent. |
-//! | `tint` (phong, blinn-phong) | `light` or `object` | the dialect's | What colours the highlight: light times material, or the object alone. |
-//! | `ambient_rule` | `once` or `per-light` | the dialect's | How often the ambient term is added. |
+//! | `dialect` | `lecture`, `mtl`, `pov-ray`, `tachyon`, `tachyon-metal`, `vtk`, `opengl`, `direct3d9`, `ospray`, `three-js`, `pymol`, `x3d`, `collada` or `rtc` | `"lecture"` | Whose "Phong" is meant: a preset of the five switches below. |
+//! | `times_cosine` (phong, blinn-phong, blinn-fast) | `true` or `false` | the dialect's | Whether the specular term is multiplied by N·L. |
+//! | `normalize` (phong, blinn-phong, blinn-fast) | `true` or `false` | the dialect's | Whether the lobe is scaled so that its energy does not depend on the exponent. |
+//! | `tint` (phong, blinn-phong, blinn-fast) | `light`, `object` or `metallic` | the dialect's | What colours the highlight: light times material, the object alone, or light times material times, but for grazing light, the object (POV-Ray's `metallic`). |
+//! | `ambient_rule` | `once`, `per-light` or `both` | the dialect's | How often the ambient term is added: once under the ambient light, once for every light times the light's colour, or both. |
+//! | `viewer` (phong, blinn-phong, blinn-fast) | `local` or `distant` | the dialect's | Where highlights are seen from: the eye, or from infinitely far along the camera's axis, which gives each distant light one halfway vector. |
 
 use crate::{Place, Rgb};
 
@@ -89,7 +90,7 @@ pub struct Material {
     /// Whether exact dielectric Fresnel shares light between mirror and refraction.
     /// Default: where `transmission` is not black.
     pub fresnel: bool,
-    /// The preset that the four switches below came from.
+    /// The preset that the five switches below came from.
     pub dialect: Dialect,
     /// Whether the specular term is multiplied by N·L.
     pub times_cosine: bool,
@@ -99,6 +100,8 @@ pub struct Material {
     pub tint: Tint,
     /// How often the ambient term is added.
     pub ambient_rule: AmbientRule,
+    /// Where highlights are seen from.
+    pub viewer: Viewer,
     /// Where it was written.
     pub place: Place,
 }
@@ -124,6 +127,7 @@ impl Default for Material {
             normalize: false,
             tint: Tint::Light,
             ambient_rule: AmbientRule::Once,
+            viewer: Viewer::Local,
             place: Place::default(),
         }
     }
@@ -138,6 +142,8 @@ pub enum Model {
     Phong,
     /// `(N·H)^α`.
     BlinnPhong,
+    /// `x / (α − αx + x)` with `x = N·H`: Schlick's cheap stand-in for the power, Tachyon's "fast".
+    BlinnFast,
     /// Torrance–Sparrow microfacets over a Lambert base.
     Microfacet {
         /// The distribution of facet normals.
@@ -224,7 +230,7 @@ pub enum WardForm {
     Gmd,
 }
 
-/// A preset of the four switches: how one program means "Phong".
+/// A preset of the five switches: how one program means "Phong".
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Dialect {
     /// The lecture's equation.
@@ -266,6 +272,9 @@ pub enum Tint {
     Light,
     /// `C_{m,s}` = the object's colour alone, whatever the light's (Tachyon's metal).
     Object,
+    /// As `Light`, times the object's colour, but less so the more the light grazes: POV-Ray's
+    /// `metallic`.
+    Metallic,
 }
 
 /// How often the ambient term is added.
@@ -276,4 +285,17 @@ pub enum AmbientRule {
     Once,
     /// Once for every light, times that light's colour and attenuation, unshadowed.
     PerLight,
+    /// `k_a` times the material's ambient colour, times the ambient light and the lights' colours,
+    /// attenuated, in one sum: as where the scene and every light have ambient light of their own.
+    Both,
+}
+
+/// Where highlights are seen from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Viewer {
+    /// From where the ray came: E.
+    #[default]
+    Local,
+    /// From infinitely far away, along the camera's axis: E is the same everywhere.
+    Distant,
 }

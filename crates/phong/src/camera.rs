@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3, Vec3};
 use phong_bvh::Ray;
 use phong_scene::CameraKind;
 
-use crate::math::wide;
+use crate::math::{Dir3, wide};
 
 /// A camera set up in f64, in the compiled scene's space.
 #[derive(Clone, Debug)]
@@ -42,6 +42,11 @@ impl Camera {
             aperture: camera.aperture,
             focus: camera.focus.unwrap_or(view.length()),
         }
+    }
+
+    /// To a viewer infinitely far along the camera's axis.
+    pub fn backward(&self) -> Dir3 {
+        Dir3::from_unit(-self.forward.as_vec3())
     }
 
     /// Whether the place on the lens matters.

@@ -95,13 +95,14 @@ impl CompiledScene {
         let leaves = flatten::flatten(objects, &groups);
         drop(groups);
         let geometry::Compiled { geometry, parts, objects } = geometry::compile(leaves, center);
+        let camera = Camera::new(&camera, center);
         Ok(Self {
-            camera: Camera::new(&camera, center),
+            materials: materials.iter().map(|m| Material::new(m, camera.backward())).collect(),
+            camera,
             center,
             ambient,
             lights: lights.iter().map(|light| Light::new(light, center)).collect(),
             written_lights: lights,
-            materials: materials.iter().map(Material::new).collect(),
             written_materials: materials,
             bvh: Bvh::build(geometry, options.build)?,
             parts,

@@ -177,7 +177,7 @@ impl Integrator<'_> {
             witness.lit(&LightTold {
                 light: number,
                 sample,
-                incident: sample.map(|s| self.material(at).incident(at.color, &s)),
+                incident: sample.map(|s| self.material(at).incident(at.n, at.color, &s)),
                 above,
                 shadow: None,
                 visible: false,
@@ -201,7 +201,7 @@ impl Integrator<'_> {
             witness.lit(&LightTold {
                 light: number,
                 sample: Some(sample),
-                incident: Some(material.incident(at.color, &sample)),
+                incident: Some(material.incident(at.n, at.color, &sample)),
                 above: true,
                 shadow: shadow_rays.get(j).copied(),
                 visible,

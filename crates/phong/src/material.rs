@@ -1,12 +1,12 @@
 //! A material ready for light: the reflectance, and the colours that go with it.
 
-use phong_scene::{self as scene, AmbientRule, Model, Rgb, Tint};
+use phong_scene::{self as scene, AmbientRule, Model, Rgb, Tint, Viewer};
 
 use crate::light::LightSample;
 use crate::math::Dir3;
 use crate::reflectance::{
-    BlinnPhong, Distribution, Incident, Lambert, Microfacet, OrenNayar, OrenNayarForm, Phong,
-    Reflectance, Switches, Terms, Ward,
+    BlinnPhong, Distribution, Falloff, Incident, Lambert, Microfacet, OrenNayar, OrenNayarForm,
+    Phong, Reflectance, Switches, Terms, Ward, fresnel,
 };
 
 /// A material ready for light.
@@ -21,6 +21,8 @@ pub struct Material {
     k_a: f32,
     tint: Tint,
     ambient_rule: AmbientRule,
+    /// Where highlights are seen from, if not from the ray's own eye.
+    distant_eye: Option<Dir3>,
     /// Weight of the mirror ray, before Fresnel.
     pub reflection: Rgb,
     /// Weight of the refracted ray, before Fresnel.
@@ -32,8 +34,9 @@ pub struct Material {
 }
 
 impl Material {
-    /// The material of a scene.
-    pub fn new(material: &phong_scene::Material) -> Self {
+    /// The material of a scene whose camera is infinitely far in direction `viewer`, for materials
+    /// that see highlights from there.
+    pub fn new(material: &phong_scene::Material, viewer: Dir3) -> Self {
         Self {
             reflectance: reflectance(material),
             color: material.color,
@@ -42,6 +45,7 @@ impl Material {
             k_a: material.k_a,
             tint: material.tint,
             ambient_rule: material.ambient_rule,
+            distant_eye: (material.viewer == Viewer::Distant).then_some(viewer),
             reflection: material.reflection,
             transmission: material.transmission,
             ior: material.ior,
@@ -53,23 +57,31 @@ impl Material {
     /// where the ambient term is added per light.
     pub fn ambient(&self, color: Rgb, ambient: Rgb) -> Rgb {
         match self.ambient_rule {
-            AmbientRule::Once => self.k_a * (ambient * self.ambient_color.unwrap_or(color)),
+            AmbientRule::Once | AmbientRule::Both => {
+                self.k_a * (ambient * self.ambient_color.unwrap_or(color))
+            }
             AmbientRule::PerLight => Rgb::BLACK,
         }
     }
 
-    /// What one light adds to the ambient term: nothing, unless the ambient rule is per light.
+    /// What one light adds to the ambient term: nothing where that is added once.
     pub fn ambient_of_light(&self, color: Rgb, ambient: Rgb, light: &LightSample) -> Rgb {
         match self.ambient_rule {
             AmbientRule::Once => Rgb::BLACK,
             AmbientRule::PerLight => {
                 self.k_a * (ambient * self.ambient_color.unwrap_or(color) * light.color)
             }
+            AmbientRule::Both => self.k_a * (self.ambient_color.unwrap_or(color) * light.color),
         }
     }
 
-    /// The light tinted by the material: `C_{m,d}` and `C_{m,s}`.
-    pub fn incident(&self, color: Rgb, light: &LightSample) -> Incident {
+    /// E as highlights are seen, for rays whose E is `e`: that, unless the viewer is distant.
+    pub fn eye(&self, e: Dir3) -> Dir3 {
+        self.distant_eye.unwrap_or(e)
+    }
+
+    /// The light tinted by the material: `C_{m,d}` and `C_{m,s}`, where the normal is `n`.
+    pub fn incident(&self, n: Dir3, color: Rgb, light: &LightSample) -> Incident {
         let specular = self.specular_color.unwrap_or(color);
         Incident {
             l: light.l,
@@ -77,6 +89,11 @@ impl Material {
             c_s: match self.tint {
                 Tint::Light => light.specular_color * specular,
                 Tint::Object => color,
+                Tint::Metallic => {
+                    let share = 1.0 - fresnel::pov_ray(n.cos(light.l));
+                    let metal = Rgb::WHITE + share * (color - Rgb::WHITE);
+                    light.specular_color * specular * metal
+                }
             },
             color,
         }
@@ -91,7 +108,7 @@ impl Material {
         color: Rgb,
         light: &LightSample,
     ) -> Terms {
-        self.reflectance.shade_light(n, tangent, e, self.incident(color, light))
+        self.reflectance.shade_light(n, tangent, self.eye(e), self.incident(n, color, light))
     }
 }
 
@@ -104,6 +121,9 @@ fn reflectance(material: &phong_scene::Material) -> Reflectance {
         Model::BlinnPhong => {
             Reflectance::BlinnPhong(BlinnPhong::new(k_d, k_s, shininess, switches))
         }
+        Model::BlinnFast => Reflectance::BlinnPhong(
+            BlinnPhong::new(k_d, k_s, shininess, switches).with_falloff(Falloff::Rational),
+        ),
         Model::Microfacet { distribution, roughness, shadowing, fresnel } => {
             Reflectance::Microfacet(Microfacet {
                 k_d,
@@ -147,7 +167,8 @@ mod tests {
                 color: Rgb::WHITE,
                 specular_color: Rgb::WHITE,
             };
-            Material::new(&written).shade_light(Dir3::Z, Dir3::X, Dir3::Z, vertex, &light).diffuse
+            let material = Material::new(&written, Dir3::Z);
+            material.shade_light(Dir3::Z, Dir3::X, Dir3::Z, vertex, &light).diffuse
         };
         let (red, white) = (Rgb::new(0.9, 0.1, 0.1), Rgb::WHITE);
         assert_eq!(drawn(white, red), drawn(red, red));

@@ -3,9 +3,9 @@
 use super::{Default, Key, Kind, Range, Table};
 
 /// The models with a power lobe.
-const LOBES: &[&str] = &["phong", "blinn-phong"];
+const LOBES: &[&str] = &["phong", "blinn-phong", "blinn-fast"];
 /// The models with a highlight of any sort.
-const GLOSSY: &[&str] = &["phong", "blinn-phong", "cook-torrance", "ggx", "ward"];
+const GLOSSY: &[&str] = &["phong", "blinn-phong", "blinn-fast", "cook-torrance", "ggx", "ward"];
 /// The models of microfacets.
 const FACETS: &[&str] = &["cook-torrance", "ggx"];
 
@@ -21,6 +21,7 @@ pub(crate) static MATERIAL: Table = Table {
                 "phong",
                 "lambert",
                 "blinn-phong",
+                "blinn-fast",
                 "cook-torrance",
                 "ggx",
                 "oren-nayar",
@@ -69,7 +70,7 @@ pub(crate) static MATERIAL: Table = Table {
             "α, always the exponent that is applied; for cook-torrance with Blinn's \
              distribution, above 0.",
         )
-        .only(&["phong", "blinn-phong", "cook-torrance"]),
+        .only(&["phong", "blinn-phong", "blinn-fast", "cook-torrance"]),
         Key::new(
             "distribution",
             Kind::Word(&["beckmann", "blinn", "ggx"]),
@@ -177,7 +178,7 @@ pub(crate) static MATERIAL: Table = Table {
             "dialect",
             Kind::Word(&crate::dialect::NAMES),
             Default::Word("lecture"),
-            "Whose \"Phong\" is meant: a preset of the four switches below.",
+            "Whose \"Phong\" is meant: a preset of the five switches below.",
         ),
         Key::new(
             "times_cosine",
@@ -195,16 +196,26 @@ pub(crate) static MATERIAL: Table = Table {
         .only(LOBES),
         Key::new(
             "tint",
-            Kind::Word(&["light", "object"]),
+            Kind::Word(&["light", "object", "metallic"]),
             Default::Said("the dialect's"),
-            "What colours the highlight: light times material, or the object alone.",
+            "What colours the highlight: light times material, the object alone, or light times \
+             material times, but for grazing light, the object (POV-Ray's `metallic`).",
         )
         .only(LOBES),
         Key::new(
             "ambient_rule",
-            Kind::Word(&["once", "per-light"]),
+            Kind::Word(&["once", "per-light", "both"]),
             Default::Said("the dialect's"),
-            "How often the ambient term is added.",
+            "How often the ambient term is added: once under the ambient light, once for every \
+             light times the light's colour, or both.",
         ),
+        Key::new(
+            "viewer",
+            Kind::Word(&["local", "distant"]),
+            Default::Said("the dialect's"),
+            "Where highlights are seen from: the eye, or from infinitely far along the camera's \
+             axis, which gives each distant light one halfway vector.",
+        )
+        .only(LOBES),
     ]],
 };

@@ -90,6 +90,7 @@ cases! {
     one_table_and_several_are_not_the_same
     shapes_that_are_none_are_told
     the_only_version_is_one
+    three_js_leaves_no_choice_of_its_switches
     up_must_not_be_antiparallel_to_the_view_along_z
     up_must_not_be_parallel_to_the_view
     what_is_not_built_yet_says_so

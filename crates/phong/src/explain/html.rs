@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
 use super::json::{dir, list, number, rgb};
-use super::text::{described, hidden, named};
+use super::text::{described, factors, hidden, named};
 use super::{End, Explanation, Lit, Onward, RayTold, Surface, explain};
 use crate::compile::CompiledScene;
 use crate::reflectance::Terms;
@@ -85,16 +85,9 @@ impl Shared<'_> {
         let material = |m: &phong_scene::Material| {
             let lobe = match m.model {
                 Model::Phong => Some("R·E"),
-                Model::BlinnPhong => Some("N·H"),
+                Model::BlinnPhong | Model::BlinnFast => Some("N·H"),
                 _ => None,
             };
-            let mut factors = String::new();
-            if m.normalize {
-                factors.push_str(" × normalisation");
-            }
-            if m.times_cosine {
-                factors.push_str(" × N·L");
-            }
             json!({
                 "name": m.name,
                 "model": described(m),
@@ -103,7 +96,8 @@ impl Shared<'_> {
                 "k_s": number(m.k_s),
                 "shininess": number(m.shininess),
                 "lobe": lobe,
-                "factors": factors,
+                "fast": m.model == Model::BlinnFast,
+                "factors": factors(m),
             })
         };
         // Numbered from 1, so that 0 is nothing.

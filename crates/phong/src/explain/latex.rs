@@ -126,6 +126,7 @@ fn light(out: &mut String, s: &Surface, lit: &Lit) {
     let (base, cosine) = match m.model {
         Model::Phong => ("(R \\cdot E)^\\alpha", lit.r_dot_e),
         Model::BlinnPhong => ("(N \\cdot H)^\\alpha", lit.n_dot_h),
+        Model::BlinnFast => ("\\frac{N \\cdot H}{\\alpha - (\\alpha - 1)(N \\cdot H)}", f32::NAN),
         _ => ("\\pi f (N \\cdot L)", f32::NAN),
     };
     let power = if cosine.is_nan() {

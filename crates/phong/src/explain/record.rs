@@ -119,9 +119,10 @@ impl Witness for Recorder<'_> {
         let scene = self.scene;
         let written = &scene.written_lights()[told.light];
         let l = told.sample.map(|sample| sample.l);
-        let r = l.map(|l| at.n.mirror(l));
-        let h = l.and_then(|l| l.halfway(at.e));
         let material = &scene.materials()[at.material as usize];
+        let e = material.eye(at.e);
+        let r = l.map(|l| at.n.mirror(l));
+        let h = l.and_then(|l| l.halfway(e));
         let ambient = told.sample.map_or(Rgb::BLACK, |sample| {
             material.ambient_of_light(at.color, scene.ambient(), &sample)
         });
@@ -135,7 +136,7 @@ impl Witness for Recorder<'_> {
             h,
             distance: told.sample.map_or(0.0, |sample| sample.distance),
             n_dot_l: l.map_or(0.0, |l| l.dot(at.n)),
-            r_dot_e: r.map_or(0.0, |r| r.dot(at.e)),
+            r_dot_e: r.map_or(0.0, |r| r.dot(e)),
             n_dot_h: h.map_or(0.0, |h| at.n.dot(h)),
             color: told.sample.map_or(Rgb::BLACK, |sample| sample.color),
             c_d: told.incident.map_or(Rgb::BLACK, |incident| incident.c_d),

@@ -3,11 +3,12 @@
 use std::fmt::{self, Display, Formatter, Write};
 
 use glam::DVec3;
-use phong_scene::{Model, Rgb};
+use phong_scene::{Model, Rgb, Viewer};
 
 use super::{Encoded, End, Explanation, Lit, Onward, RayTold, Sample, Surface};
 use crate::math::{Dir3, lobe};
 use crate::reflectance::Terms;
+use crate::reflectance::blinn_phong::rational_lobe;
 
 /// Half a level of 255, where the curve is steepest.
 const NOTICED: f32 = 0.5 / 255.0 / 12.92;
@@ -283,17 +284,22 @@ fn specular_equation(s: &Surface, lit: &Lit) -> String {
     let (cosine, name) = match m.model {
         Model::Phong => (lit.r_dot_e, "R·E"),
         Model::BlinnPhong => (lit.n_dot_h, "N·H"),
+        Model::BlinnFast => {
+            let (x, alpha) = (lit.n_dot_h, m.shininess);
+            return format!(
+                "k_s x/(α − αx + x) C_s{} = {} × {} × {}{}, x = N·H = {x}, α = {alpha}",
+                factors(m),
+                m.k_s,
+                Digits(rational_lobe(x, alpha)),
+                Color(lit.c_s),
+                factors(m),
+            );
+        }
         _ => return format!("k_s π f (N·L) C_s, k_s = {}, C_s = {}", m.k_s, Color(lit.c_s)),
     };
     let alpha = m.shininess;
     let power = lobe(cosine.max(0.0), alpha);
-    let mut factors = String::new();
-    if m.normalize {
-        factors.push_str(" × normalisation");
-    }
-    if m.times_cosine {
-        let _ = write!(factors, " × N·L");
-    }
+    let factors = factors(m);
     format!(
         "k_s ({name})^{alpha} C_s{factors} = {} × {} × {}{factors}",
         m.k_s,
@@ -302,13 +308,34 @@ fn specular_equation(s: &Surface, lit: &Lit) -> String {
     )
 }
 
+/// What multiplies the lobe besides, by the material's switches.
+pub(super) fn factors(m: &phong_scene::Material) -> &'static str {
+    match (m.normalize, m.times_cosine) {
+        (false, false) => "",
+        (true, false) => " × normalisation",
+        (false, true) => " × N·L",
+        (true, true) => " × normalisation × N·L",
+    }
+}
+
 /// A material's model and numbers in a few words.
 pub(super) fn described(m: &phong_scene::Material) -> String {
     match m.model {
         Model::Lambert => format!("Lambert, k_a {}, k_d {}", m.k_a, m.k_d),
-        Model::Phong | Model::BlinnPhong => {
-            let name = if m.model == Model::Phong { "Phong" } else { "Blinn–Phong" };
-            format!("{name}, k_a {}, k_d {}, k_s {}, α {}", m.k_a, m.k_d, m.k_s, m.shininess)
+        Model::Phong | Model::BlinnPhong | Model::BlinnFast => {
+            let name = match m.model {
+                Model::Phong => "Phong",
+                Model::BlinnFast => "Blinn, fast",
+                _ => "Blinn–Phong",
+            };
+            let viewer = match m.viewer {
+                Viewer::Local => "",
+                Viewer::Distant => ", seen from far along the camera's axis",
+            };
+            format!(
+                "{name}, k_a {}, k_d {}, k_s {}, α {}{viewer}",
+                m.k_a, m.k_d, m.k_s, m.shininess
+            )
         }
         Model::Microfacet { distribution, roughness, shadowing, fresnel } => format!(
             "microfacets ({distribution:?} {roughness}, {shadowing:?} shadowing, {fresnel:?}), \

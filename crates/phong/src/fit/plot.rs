@@ -251,7 +251,8 @@ mod tests {
     fn the_material_drawn_is_the_lobe_that_was_fitted() {
         for model in Model::ALL {
             let lobe = Lobe::new(model, model.example()).unwrap();
-            let drawn = crate::material::Material::new(&material(lobe)).reflectance;
+            let drawn =
+                crate::material::Material::new(&material(lobe), crate::math::Dir3::Z).reflectance;
             let light = crate::reflectance::Incident {
                 l: crate::math::Dir3::Z,
                 c_d: Rgb::BLACK,

@@ -199,12 +199,15 @@ fn one_light(
     let material = &scene.materials()[surface.material as usize];
     let written = &scene.written_materials()[surface.material as usize];
     let n = if wrong.inside_out { -surface.ng } else { surface.n };
-    if !matches!(written.model, Model::Lambert | Model::Phong | Model::BlinnPhong) {
+    if !matches!(
+        written.model,
+        Model::Lambert | Model::Phong | Model::BlinnPhong | Model::BlinnFast
+    ) {
         let e = if wrong.mirrored { -surface.e } else { surface.e };
         let terms = material.shade_light(n, surface.tangent, e, surface.color, &sample);
         return (terms.diffuse, terms.specular);
     }
-    let incident = material.incident(surface.color, &sample);
+    let incident = material.incident(n, surface.color, &sample);
     let length = if wrong.long_l && light.distance.is_finite() { light.distance } else { 1.0 };
     let n_dot_l = n.dot(light.l) * length;
     let cosine = if wrong.unclamped_diffuse { n_dot_l } else { n_dot_l.max(0.0) };
@@ -215,8 +218,13 @@ fn one_light(
     }
     let tint = if wrong.tinted { surface.color } else { Rgb::WHITE };
     let own = if written.model == Model::Phong { Lobe::Phong } else { Lobe::Blinn };
-    let base = base(n, light.l, surface.e, length, wrong.lobe.unwrap_or(own), wrong);
-    let power = raised(base, written.shininess * wrong.exponent, wrong.unclamped_specular);
+    let e = material.eye(surface.e);
+    let base = base(n, light.l, e, length, wrong.lobe.unwrap_or(own), wrong);
+    let alpha = written.shininess * wrong.exponent;
+    let power = match (written.model, wrong.lobe) {
+        (Model::BlinnFast, None) => blinn_phong::rational_lobe(base, alpha),
+        _ => raised(base, alpha, wrong.unclamped_specular),
+    };
     let mut scale = written.k_s;
     if written.times_cosine || wrong.times_cosine {
         scale *= n_dot_l.max(0.0);

@@ -1,6 +1,10 @@
 //! Fresnel reflectance: the share of light that a smooth boundary mirrors, unpolarised.
 
+use std::f32::consts::FRAC_2_PI;
+
 use phong_scene::{Fresnel, Rgb};
+
+use crate::math::acos;
 
 /// The share of light that facets of this kind mirror, per channel, in [0, 1], at the angle of
 /// incidence whose cosine is `cos`.
@@ -22,6 +26,15 @@ pub fn schlick(cos: f32, f0: f32) -> f32 {
     let x = 1.0 - cos;
     let x2 = x * x;
     f0 + (1.0 - f0) * (x2 * x2 * x)
+}
+
+/// POV-Ray's fit to a metal's reflectance, which its `metallic` highlights go by:
+/// `0.014567225/(x − 1.12)² − 0.011612903` in [0, 1], `x` the angle of incidence in right angles.
+///
+/// 0 face on, 1 at grazing angles.
+pub fn pov_ray(cos: f32) -> f32 {
+    let x = FRAC_2_PI * acos(cos.clamp(0.0, 1.0)) - 1.12;
+    (0.014_567_225 / (x * x) - 0.011_612_903).clamp(0.0, 1.0)
 }
 
 /// The exact reflectance between two dielectrics; `eta = n_t / n_i`, inside over outside as the
@@ -120,6 +133,14 @@ mod tests {
                 assert!((a - b).abs() < 2e-6, "eta {eta}, cos {cos}: {a} and {b}");
             }
         }
+    }
+
+    #[test]
+    fn pov_rays_fit_runs_from_0_to_1() {
+        assert!(pov_ray(1.0).abs() < 1e-6);
+        assert!((pov_ray(0.0) - 1.0).abs() < 1e-6);
+        // 60° is x = 2/3: 0.014567225/0.45333² − 0.011612903 = 0.05927
+        assert!((pov_ray(0.5) - 0.059_269).abs() < 1e-5);
     }
 
     #[test]

@@ -8,3 +8,4 @@ mod dialects;
 mod directions;
 mod energy;
 mod oracle;
+mod written;

@@ -3,7 +3,8 @@
 use super::notes::Notes;
 use super::table::Values;
 use crate::{
-    AmbientRule, Dialect, Distribution, Fresnel, Material, Model, Rgb, Shadowing, Tint, WardForm,
+    AmbientRule, Dialect, Distribution, Fresnel, Material, Model, Rgb, Shadowing, Tint, Viewer,
+    WardForm,
 };
 
 /// A material; what is wrong with it has been said.
@@ -11,6 +12,7 @@ pub(super) fn material(v: &Values, name: &str, notes: &mut Notes) -> Option<Mate
     let model = match v.word("model")? {
         "lambert" => Model::Lambert,
         "blinn-phong" => Model::BlinnPhong,
+        "blinn-fast" => Model::BlinnFast,
         "cook-torrance" => cook_torrance(v, notes)?,
         "ggx" => Model::Microfacet {
             distribution: Distribution::Ggx,
@@ -36,7 +38,7 @@ pub(super) fn material(v: &Values, name: &str, notes: &mut Notes) -> Option<Mate
     let preset = dialect.switches();
     let plain = Material::default();
     let transmission = v.color("transmission")?;
-    Some(Material {
+    let material = Material {
         name: name.to_owned(),
         model,
         color: v.color("color")?,
@@ -59,16 +61,48 @@ pub(super) fn material(v: &Values, name: &str, notes: &mut Notes) -> Option<Mate
         normalize: v.flag("normalize").unwrap_or(preset.normalize),
         tint: match v.word("tint") {
             Some("object") => Tint::Object,
+            Some("metallic") => Tint::Metallic,
             Some(_) => Tint::Light,
             None => preset.tint,
         },
         ambient_rule: match v.word("ambient_rule") {
             Some("per-light") => AmbientRule::PerLight,
+            Some("both") => AmbientRule::Both,
             Some(_) => AmbientRule::Once,
             None => preset.ambient_rule,
         },
+        viewer: match v.word("viewer") {
+            Some("distant") => Viewer::Distant,
+            Some(_) => Viewer::Local,
+            None => preset.viewer,
+        },
         place: notes.place(v.spot),
-    })
+    };
+    if material.dialect == Dialect::ThreeJs && material.model == Model::BlinnPhong {
+        three_js(v, material, notes)
+    } else {
+        Some(material)
+    }
+}
+
+/// three.js's highlight, `F ¼ (α/2 + 1)/π (N·H)^α`, is that of facets; so is then the material.
+fn three_js(v: &Values, material: Material, notes: &mut Notes) -> Option<Material> {
+    for switch in ["times_cosine", "normalize", "tint", "viewer"] {
+        if v.has(switch) {
+            let message = format!("the dialect three-js leaves no choice of `{switch}`");
+            notes.error(v.spot_of(switch), message).help =
+                Some("its highlight is (α + 2)/8 F (N·H)^α (N·L); leave the key out".to_owned());
+            return None;
+        }
+    }
+    let f0 = material.k_s * material.specular_color.unwrap_or(material.color);
+    let model = Model::Microfacet {
+        distribution: Distribution::Blinn,
+        roughness: material.shininess,
+        shadowing: Shadowing::Implicit,
+        fresnel: Fresnel::Schlick { f0 },
+    };
+    Some(Material { model, k_s: 1.0, specular_color: Some(Rgb::WHITE), ..material })
 }
 
 /// Cook and Torrance's model: the exponent goes with Blinn's distribution, the roughness with
@@ -148,11 +182,17 @@ fn dialect(v: &Values, model: &Model, notes: &mut Notes) -> Option<Dialect> {
         return Some(dialect);
     }
     let (name, word) = (dialect.name(), v.word("model")?);
-    let fits = match (dialect.allows(&Model::Phong), dialect.allows(&Model::BlinnPhong)) {
-        (true, true) => "`model = \"phong\"` or `model = \"blinn-phong\"`",
-        (true, false) => "`model = \"phong\"`",
-        _ => "`model = \"blinn-phong\"`",
-    };
+    let lobes = [
+        (Model::Phong, "phong"),
+        (Model::BlinnPhong, "blinn-phong"),
+        (Model::BlinnFast, "blinn-fast"),
+    ];
+    let fits: Vec<String> = lobes
+        .iter()
+        .filter(|(model, _)| dialect.allows(model))
+        .map(|(_, word)| format!("`model = \"{word}\"`"))
+        .collect();
+    let fits = fits.join(" or ");
     let message = format!("the dialect `{name}` contradicts the model, {word}");
     notes.error(v.spot_of("dialect"), message).help =
         Some(format!("the model fixes the lobe; {name}'s is that of {fits}"));
