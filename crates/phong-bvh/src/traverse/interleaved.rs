@@ -61,7 +61,7 @@ impl<C: Content> Kernel for ClosestOfMany<'_, C> {
                 let best = Best::outside(hits[index].t, hits[index].prim);
                 let mut slot = Slot::<S, C::Leaves<S>>::new(simd, &rays[index], best, root, index);
                 while slot.walk.step(simd, world, &mut stacks[0], &mut ()) {}
-                hits[index] = slot.walk.best().0;
+                improve(&mut hits[index], slot.walk.best());
             }
             return;
         }
@@ -84,7 +84,7 @@ impl<C: Content> Kernel for ClosestOfMany<'_, C> {
                     prefetch(world.rows, slot.walk.at().row());
                     continue;
                 }
-                hits[slot.index] = slot.walk.best().0;
+                improve(&mut hits[slot.index], slot.walk.best());
                 if coming < rays.len() {
                     let best = Best::outside(hits[coming].t, hits[coming].prim);
                     *slot = Slot::new(simd, &rays[coming], best, root, coming);
@@ -95,6 +95,15 @@ impl<C: Content> Kernel for ClosestOfMany<'_, C> {
                 }
             }
         }
+    }
+}
+
+/// Takes the hit a walk ends with, unless it is the one it began with: a walk is told a hit's distance
+/// and number alone, and a group that gave up has found weights as well.
+#[inline(always)]
+fn improve(hit: &mut Hit, best: Best) {
+    if best.0.prim != hit.prim {
+        *hit = best.0;
     }
 }
 
