@@ -188,6 +188,22 @@ impl Output {
     }
 }
 
+/// Refuses to write over anything that is read.
+pub(crate) fn keep_inputs_safe<'o, P: AsRef<Path>>(
+    outputs: impl IntoIterator<Item = &'o Output>,
+    inputs: impl IntoIterator<Item = P>,
+) -> Result<(), Failure> {
+    let outputs: Vec<_> = outputs.into_iter().collect();
+    for input in inputs {
+        let input = input.as_ref();
+        if outputs.iter().any(|output| output.is(input)) {
+            let message = format!("this would write over the input {}", input.display());
+            return Err(Failure::usage(message).with_help("give another file to write"));
+        }
+    }
+    Ok(())
+}
+
 /// What file formats are written to.
 pub(crate) trait WriteSeek: Write + Seek {}
 impl<T: Write + Seek> WriteSeek for T {}

@@ -27,6 +27,7 @@ pub use bounds::Bounds;
 pub use camera::{Camera, CameraKind};
 pub use color::{ColorError, Rgb, srgb_decode, srgb_encode};
 pub use diagnostic::{Diagnostic, Label, Place, Severity, Span};
+pub use format::export::{Account, Export, ExportOptions, File};
 pub use format::ply::PlyEncoding;
 pub use format::{Format, read};
 pub use frame::{Side, View};

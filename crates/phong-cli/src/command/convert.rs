@@ -1,15 +1,164 @@
 //! `phong convert`: from one scene format to another.
 
-use crate::args::Anything;
+use std::ffi::OsStr;
+use std::io::{BufWriter, Write as _};
+use std::path::{Path, PathBuf};
+
+use phong_scene::{
+    Account, Diagnostic, Export, ExportOptions, File, Format, PlyEncoding, Severity,
+};
+use serde_json::json;
+
+use super::check;
+use crate::args::{InputArgs, ViewArgs, format};
 use crate::failure::Failure;
+use crate::output::{Output, keep_inputs_safe};
+use crate::progress::Meter;
+use crate::{input, report};
+
+const EXAMPLES: &str = "\
+Examples:
+  phong convert dragon.ply dragon.toml --view front    # a scene to go on with: camera, lights
+  phong convert scene.toml scene.obj                   # and scene.mtl, with what MTL can hold
+  phong convert model.obj model.ply --strict           # refused if anything would be lost
+  phong convert scene.toml - --to ply > scene.ply
+
+What OUT cannot hold is a warning with its place; what is written in another form is told with
+the formula. Meshes and points of a .toml lie beside it, in OUT's stem.mesh-1.ply and so on.";
 
 /// From one format to another, with a report of what was mapped and what was dropped
 #[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
     #[command(flatten)]
-    _anything: Anything,
+    input: InputArgs,
+
+    /// The file to write (.toml .obj .ply); - is standard output, with --to
+    #[arg(value_name = "OUT")]
+    output: PathBuf,
+
+    /// What OUT is, whatever its name says: toml, obj or ply
+    #[arg(long, value_name = "NAME", value_parser = format)]
+    to: Option<Format>,
+
+    /// PLY files as text instead of binary
+    #[arg(long)]
+    ascii: bool,
+
+    #[command(flatten)]
+    view: ViewArgs,
+
+    /// The report as one JSON object on standard output
+    #[arg(long)]
+    json: bool,
+
+    /// No talk but errors
+    #[arg(short, long)]
+    quiet: bool,
 }
 
-pub(crate) fn run(_args: &Args) -> Result<(), Failure> {
-    Err(Failure::not_yet("phong convert"))
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let stdout = args.output == Path::new("-");
+    if stdout && args.json {
+        return Err(Failure::usage("--json and - both want standard output"));
+    }
+    let format = output_format(args)?;
+    // What cannot be written is known before anything is read.
+    let mut outputs = vec![Output::create(&args.output)?];
+    keep_inputs_safe(&outputs, [&args.input.input])?;
+
+    let meter = Meter::new(args.quiet, "reading");
+    let mut input = input::open(&args.input, args.quiet)?;
+    input::look(&mut input.scene, input.bare, &args.view)?;
+    meter.stage("converting");
+    let ply = if args.ascii { PlyEncoding::Ascii } else { PlyEncoding::Binary };
+    let options = ExportOptions { format, ply, bare: input.bare };
+    let name = args.output.file_name().unwrap_or(OsStr::new("-")).to_string_lossy();
+    let inputs = input.files().to_vec();
+    let Export { files, account } =
+        input.scene.export(&options, &name).map_err(|error| Failure::Input(vec![*error]))?;
+    if args.input.strict && !account.dropped.is_empty() {
+        let strict = |d| Diagnostic { severity: Severity::Error, ..d };
+        return Err(Failure::Input(account.dropped.into_iter().map(strict).collect()));
+    }
+    if stdout && files.len() > 1 {
+        return Err(Failure::usage("several files do not fit into standard output")
+            .with_help("give the name of a file to write the others beside"));
+    }
+    let beside = |file: &File| args.output.with_file_name(&file.name);
+    for file in files.iter().skip(1) {
+        outputs.push(Output::create(&beside(file))?);
+    }
+    keep_inputs_safe(&outputs, &inputs)?;
+    meter.stage("writing");
+    for (file, output) in files.iter().zip(&mut outputs) {
+        output.write(|out| {
+            let mut out = BufWriter::with_capacity(1 << 18, out);
+            file.write(&mut out)?;
+            out.flush()
+        })?;
+    }
+    Output::commit(outputs)?;
+    meter.finish();
+
+    let paths: Vec<_> = files.iter().skip(1).map(beside).collect();
+    let paths: Vec<_> = std::iter::once(&args.output).chain(&paths).collect();
+    // Memory goes back to the system with the process, all at once.
+    std::mem::forget(files);
+    if args.json {
+        return report::json(&json!({
+            "input": args.input.input,
+            "output": args.output.to_string_lossy(),
+            "format": format.to_string(),
+            "files": paths.iter().map(|path| path.to_string_lossy()).collect::<Vec<_>>(),
+            "carried": account.carried,
+            "mapped": account.mapped,
+            "dropped": account.dropped.iter().map(check::json).collect::<Vec<_>>(),
+            "warnings": input.warnings.iter().map(check::json).collect::<Vec<_>>(),
+        }));
+    }
+    if !args.quiet {
+        tell(&paths, &account);
+    }
+    Ok(())
+}
+
+/// What to write, by `--to` or by OUT's name.
+fn output_format(args: &Args) -> Result<Format, Failure> {
+    let format = args.to.or_else(|| Format::of_path(&args.output.to_string_lossy()));
+    let help = "end OUT in .toml, .obj or .ply, or give --to";
+    match format {
+        Some(format @ (Format::Toml | Format::Obj | Format::Ply)) => Ok(format),
+        Some(other) => {
+            Err(Failure::usage(format!("{other} files are not written yet")).with_help(help))
+        }
+        None => {
+            let what = format!("the name {} does not say what to write", args.output.display());
+            Err(Failure::usage(what).with_help(help))
+        }
+    }
+}
+
+/// The report, for people.
+fn tell(paths: &[&PathBuf], account: &Account) {
+    let Account { carried, mapped, dropped } = account;
+    for path in paths {
+        report::say(&format!("wrote {}", path.display()));
+    }
+    let carried = carried.iter().map(|(kind, n)| match (*kind, n) {
+        (kind, 1) => format!("1 {kind}"),
+        ("box" | "torus", n) => format!("{n} {kind}es"),
+        ("mesh", n) => format!("{n} meshes"),
+        ("points", n) => format!("{n} clouds of points"),
+        (kind, n) => format!("{n} {kind}s"),
+    });
+    let carried = carried.collect::<Vec<_>>().join(", ");
+    report::say(&format!(
+        "carried over: {}",
+        if carried.is_empty() { "nothing" } else { &carried }
+    ));
+    for how in mapped {
+        report::say(&format!("mapped: {how}"));
+    }
+    report::diagnostics(dropped);
 }

@@ -9,6 +9,7 @@ use phong::part::{Join, Part};
 use crate::args::EncodingArgs;
 use crate::failure::Failure;
 use crate::memory;
+use crate::output::keep_inputs_safe;
 use crate::plan::Outputs;
 
 const EXAMPLES: &str = "\
@@ -51,11 +52,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     encoding.bits = bits.map_or(encoding.bits, Into::into);
     encoding.exposure = exposure.unwrap_or(encoding.exposure);
     let mut outputs = Outputs::picture(&args.output, *output_format, &settings.layers)?;
-    let own = |part: &&PathBuf| outputs.iter().any(|output| output.is(part));
-    if let Some(part) = args.parts.iter().find(own) {
-        let message = format!("this would write over the part {}", part.display());
-        return Err(Failure::usage(message));
-    }
+    keep_inputs_safe(outputs.iter(), &args.parts)?;
     outputs.write(&film, &settings)?;
     outputs.commit()?;
     std::mem::forget(film);

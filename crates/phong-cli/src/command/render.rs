@@ -15,7 +15,8 @@ use crate::compile::compile;
 use crate::failure::Failure;
 use crate::input;
 use crate::memory;
-use crate::plan::{Outputs, Plan};
+use crate::output::keep_inputs_safe;
+use crate::plan::Plan;
 use crate::progress::{Meter, rate, short};
 use crate::report;
 
@@ -131,12 +132,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
     // What cannot be written is known before anything is read, let alone rendered.
     let mut outputs = plan.outputs(args)?;
-    keep_input_safe(&outputs, &[PathBuf::from(&args.input.input)])?;
+    keep_inputs_safe(outputs.iter(), [&args.input.input])?;
 
     let mut meter = Meter::new(quiet, "reading");
     let mut input = input::open(&args.input, quiet)?;
     let options = plan.settle(args, &mut input)?;
-    keep_input_safe(&outputs, input.files())?;
+    keep_inputs_safe(outputs.iter(), input.files())?;
     clock.lap("read");
 
     meter.stage("building");
@@ -203,17 +204,6 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         ));
     }
     Ok(())
-}
-
-/// Nothing that is read may be written over.
-fn keep_input_safe(outputs: &Outputs, inputs: &[PathBuf]) -> Result<(), Failure> {
-    match inputs.iter().find(|input| outputs.iter().any(|output| output.is(input))) {
-        Some(input) => {
-            let message = format!("this would write over the input {}", input.display());
-            Err(Failure::usage(message).with_help("give another file with -o"))
-        }
-        None => Ok(()),
-    }
 }
 
 /// Times of the stages, one after another.

@@ -1,5 +1,6 @@
 //! The formats scenes and models come in, and the door to all of them: [`read`].
 
+pub(crate) mod export;
 pub(crate) mod model;
 pub(crate) mod mtl;
 pub(crate) mod obj;

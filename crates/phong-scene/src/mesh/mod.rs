@@ -2,6 +2,7 @@
 //!
 //! The renderer takes these arrays by value; nothing copies them.
 
+mod part;
 mod polygon;
 mod smooth;
 mod tidy;

@@ -6,6 +6,7 @@
 
 mod cases;
 mod hostile;
+mod roundtrip;
 mod schema;
 mod told;
 

@@ -20,6 +20,7 @@ mod syntax;
 mod table;
 mod text;
 mod value;
+pub(crate) mod write;
 
 use crate::{Diagnostic, Limits, Place, Reading, Source, Span};
 

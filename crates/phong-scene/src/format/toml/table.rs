@@ -198,7 +198,7 @@ impl Values {
 }
 
 /// What a key's default is as a value; `None` where the reader works it out.
-fn default(key: &Key) -> Option<Value> {
+pub(super) fn default(key: &Key) -> Option<Value> {
     match (key.default, key.kind) {
         (Default::Required | Default::Said(_), _) => None,
         (Default::Flag(flag), _) => Some(Value::Flag(flag)),

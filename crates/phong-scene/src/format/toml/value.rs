@@ -11,8 +11,8 @@ use crate::keys::{self, Key, Kind, LARGEST, Range};
 use crate::wording::{closest, quoted};
 use crate::{Background, Rgb};
 
-/// A value, read.
-#[derive(Clone, Debug)]
+/// A value, read or to be written.
+#[derive(Clone, Debug, PartialEq)]
 pub(super) enum Value {
     Flag(bool),
     Integer(u64),

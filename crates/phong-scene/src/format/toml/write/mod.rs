@@ -1,0 +1,335 @@
+//! A scene as text, written by the tables of keys that the reader reads it by.
+//!
+//! Keys whose default is meant are left out, numbers have the fewest digits that read back to the
+//! same bits, and meshes and points become PLY files beside the text. The same scene gives the
+//! same bytes.
+
+mod concepts;
+mod text;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
+
+use glam::{DAffine3, DVec3};
+
+use super::table::default;
+use super::value::Value;
+use crate::format::export::{Account, Content, File};
+use crate::keys::{self, Kind, LARGEST, Table};
+use crate::{Diagnostic, Material, MaterialId, Mesh, Object, PlyEncoding, Scene, Shape, Span};
+
+/// The scene as the text of `file` and the files that it names, in the order of the text.
+///
+/// # Errors
+/// A position or direction that the text has no number for.
+pub(crate) fn write_toml(
+    scene: Scene,
+    file: &str,
+    ply: PlyEncoding,
+    account: &mut Account,
+) -> Result<Vec<File>, Box<Diagnostic>> {
+    let Scene { image, camera, ambient, lights, materials, objects, groups } = scene;
+    let stem = file.strip_suffix(".toml").unwrap_or(file).to_owned();
+    let group_names = groups.iter().map(|group| group.name.clone()).collect();
+    let mut out = Writer {
+        text: "version = 1\n".to_owned(),
+        stem,
+        materials: Materials::new(materials, account),
+        group_names,
+        counts: BTreeMap::new(),
+        files: Vec::new(),
+        ply,
+        account,
+        trouble: None,
+    };
+    for (key, table) in keys::SCENE.keys().filter_map(|key| match key.kind {
+        Kind::Table(table) => Some((key, table)),
+        _ => None,
+    }) {
+        let header = format!("[{}]", key.name);
+        match table.name {
+            "image" => out.setting(&header, table, None, |key| concepts::image(&image, key)),
+            "camera" => {
+                let kind = Some(concepts::camera_kind(&camera));
+                out.setting(&header, table, kind, |key| concepts::camera(&camera, key));
+            }
+            _ => out.setting(&header, table, None, |_| Some(Value::Color(ambient))),
+        }
+    }
+    for (i, light) in lights.iter().enumerate() {
+        let kind = Some(concepts::light_kind(light));
+        out.table("[[light]]", &keys::LIGHT, kind, |key| concepts::light(light, i + 1, key));
+    }
+    out.account.carry("light", lights.len());
+    let groups: Vec<_> = groups
+        .into_iter()
+        .map(|group| (group.name, split_all(group.objects, out.account)))
+        .collect();
+    let objects = split_all(objects, out.account);
+    let in_groups = groups.iter().flat_map(|(_, objects)| objects);
+    out.materials.say_used(in_groups.chain(&objects));
+    out.all_materials();
+    for (name, objects) in groups {
+        let name = text::name(&name);
+        out.text.extend(["\n[groups.", &name, "]\n"]);
+        out.account.carry("group", 1);
+        out.objects(&format!("groups.{name}."), objects);
+    }
+    out.objects("", objects);
+    let Writer { text, mut files, trouble, .. } = out;
+    files.insert(0, File { name: file.to_owned(), content: Content::Text(text) });
+    trouble.map_or(Ok(files), |trouble| Err(Box::new(trouble)))
+}
+
+struct Writer<'a> {
+    text: String,
+    /// What the names of files begin with.
+    stem: String,
+    materials: Materials,
+    group_names: Vec<String>,
+    /// How many shapes of each kind are written, as the reader counts them.
+    counts: BTreeMap<&'static str, usize>,
+    files: Vec<File>,
+    ply: PlyEncoding,
+    account: &'a mut Account,
+    /// The first number that cannot be written.
+    trouble: Option<Diagnostic>,
+}
+
+impl Writer<'_> {
+    /// A table that is left out if all of it is as by default.
+    fn setting(
+        &mut self,
+        header: &str,
+        table: &'static Table,
+        word: Option<&str>,
+        say: impl Fn(&str) -> Option<Value>,
+    ) {
+        let before = self.text.len();
+        self.table(header, table, word, say);
+        if self.text[before..].trim() == header {
+            self.text.truncate(before);
+        }
+    }
+
+    /// A header, and every key of the table to which `say` has something that is not its default.
+    fn table(
+        &mut self,
+        header: &str,
+        table: &'static Table,
+        word: Option<&str>,
+        say: impl Fn(&str) -> Option<Value>,
+    ) {
+        self.text.extend(["\n", header, "\n"]);
+        for key in table.keys().filter(|key| key.applies(word)) {
+            let Some(mut value) = say(key.name) else { continue };
+            self.fit(header, key, &mut value);
+            if default(key).as_ref() != Some(&value) {
+                let value = text::value(&value, key.kind);
+                // Writing to a string does not fail.
+                let _ = writeln!(self.text, "{} = {value}", key.name);
+            }
+        }
+    }
+
+    /// Brings a value into its key's range, which foreign formats may have left, and says so.
+    fn fit(&mut self, header: &str, key: &keys::Key, value: &mut Value) {
+        let most = if matches!(key.kind, Kind::Reflectance) { 1.0 } else { LARGEST };
+        let beyond = |v: &DVec3| v.abs().max_element() > LARGEST;
+        match (value, key.kind) {
+            (Value::Number(n), Kind::Number(range)) if !range.holds(*n) => {
+                let nearest = n.clamp(range.min, range.max);
+                let (was, is) = (text::number(*n), text::number(nearest));
+                self.account.map(format!("{header}: `{}` {was} becomes {is}, the most", key.name));
+                *n = nearest;
+            }
+            (Value::Color(color), _) if f64::from(color.max_channel()) > most => {
+                self.account.map(format!("{header}: `{}` is cut to {most:e}", key.name));
+                *color = color.map(|channel| channel.min(most as f32));
+            }
+            (Value::Vector(v), _) if beyond(v) => self.too_large(header, key.name),
+            (Value::Vectors(vs), _) if vs.iter().any(beyond) => self.too_large(header, key.name),
+            (Value::Matrix(m), _)
+                if [m.matrix3.x_axis, m.matrix3.y_axis, m.matrix3.z_axis, m.translation]
+                    .iter()
+                    .any(beyond) =>
+            {
+                self.too_large(header, key.name);
+            }
+            _ => {}
+        }
+    }
+
+    fn too_large(&mut self, header: &str, key: &str) {
+        let message = format!("{header}: `{key}` is too large: scenes hold up to {LARGEST:e}");
+        self.trouble.get_or_insert_with(|| Diagnostic::error(message, None));
+    }
+
+    fn all_materials(&mut self) {
+        let materials = std::mem::take(&mut self.materials.all);
+        for (i, material) in materials.iter().enumerate() {
+            if self.materials.is_implied(i, materials.len(), material) {
+                continue;
+            }
+            let header = format!("[materials.{}]", text::name(&self.materials.names[i]));
+            let model = Some(concepts::material_model(material));
+            self.table(&header, &keys::MATERIAL, model, |key| concepts::material(material, key));
+            self.account.carry("material", 1);
+        }
+    }
+
+    /// The objects of the scene, or of a group whose headers begin with `prefix`.
+    fn objects(&mut self, prefix: &str, objects: Vec<Object>) {
+        let known = keys::GROUP.keys().filter_map(|key| match key.kind {
+            Kind::Tables(table) => Some((key.name, table)),
+            _ => None,
+        });
+        let tables: BTreeMap<_, _> = known.collect();
+        for mut object in objects {
+            let kind = concepts::shape_kind(&object.shape);
+            let Some(table) = tables.get(kind) else { continue };
+            let number = self.counts.get(kind).map_or(1, |count| count + 1);
+            let file = format!("{}.{kind}-{number}.ply", self.stem);
+            if !is_seen(&object, self.account) {
+                continue;
+            }
+            let content = sidecar(&mut object, self.ply);
+            self.counts.insert(kind, number);
+            self.account.carry(kind, 1);
+            let material = self.materials.name_of(object.material).map(str::to_owned);
+            let group = match object.shape {
+                Shape::Instance(group) => self.group_names.get(group.0 as usize).cloned(),
+                _ => None,
+            };
+            let has_file = content.is_some();
+            self.table(&format!("[[{prefix}{kind}]]"), table, None, |key| match key {
+                "file" if has_file => Some(Value::Text(file.clone())),
+                "group" => group.clone().map(Value::Text),
+                "material" => material.clone().map(Value::Text),
+                "name" => concepts::name(&object.name, &format!("{kind} {number}")),
+                "scale" | "rotate" | "translate" | "matrix" => {
+                    concepts::placed(&object.transform, key)
+                }
+                _ => concepts::shape(&object.shape, key),
+            });
+            self.files.extend(content.map(|content| File { name: file.clone(), content }));
+        }
+    }
+}
+
+/// Every object, those of several materials cut into one for each: a PLY file has none.
+fn split_all(objects: Vec<Object>, account: &mut Account) -> Vec<Object> {
+    objects.into_iter().flat_map(|object| split(object, account)).collect()
+}
+
+fn split(mut object: Object, account: &mut Account) -> Vec<Object> {
+    let Shape::Mesh(mesh) = &mut object.shape else { return vec![object] };
+    let faces = std::mem::take(&mut mesh.face_materials);
+    let used: BTreeSet<u32> = faces.iter().copied().collect();
+    if let [only] = used.iter().copied().collect::<Vec<_>>()[..] {
+        object.material = MaterialId(only);
+    }
+    if used.len() <= 1 {
+        return vec![object];
+    }
+    let Object { name, shape: Shape::Mesh(mesh), transform, place, .. } = &object else {
+        return vec![object];
+    };
+    account.map(format!("{name} of {} materials becomes as many meshes", used.len()));
+    let part = |material: u32| Object {
+        name: name.clone(),
+        shape: Shape::Mesh(Box::new(mesh.part(|face| faces[face] == material))),
+        material: MaterialId(material),
+        transform: *transform,
+        place: place.clone(),
+    };
+    used.into_iter().map(part).collect()
+}
+
+/// Whether there is anything to see; if not, that is said.
+fn is_seen(object: &Object, account: &mut Account) -> bool {
+    let empty = match &object.shape {
+        Shape::Mesh(mesh) => mesh.indices.is_empty(),
+        Shape::Points(points) => points.spheres.is_empty(),
+        _ => false,
+    };
+    if empty {
+        let message = format!("{} is empty and left out", object.name);
+        let span = Span { place: object.place.clone(), ..Span::default() };
+        account.drop(Diagnostic::warning(message, span));
+    }
+    !empty
+}
+
+/// What goes into a file beside the text, if anything does.
+///
+/// The origin of data far from 0 becomes part of the placement, so that the file holds the very
+/// numbers and not their sums.
+fn sidecar(object: &mut Object, ply: PlyEncoding) -> Option<Content> {
+    let (content, origin) = match &mut object.shape {
+        Shape::Mesh(mesh) => {
+            // The text still says whether it has normals.
+            let normals = mesh.normals.iter().take(1).copied().collect();
+            let mut mesh = std::mem::replace(&mut **mesh, Mesh { normals, ..Mesh::default() });
+            let origin = std::mem::take(&mut mesh.origin);
+            (Content::Ply(mesh, ply), origin)
+        }
+        Shape::Points(points) => {
+            let mut points = std::mem::take(&mut **points);
+            let origin = std::mem::take(&mut points.origin);
+            (Content::Points(points, ply), origin)
+        }
+        _ => return None,
+    };
+    if origin != DVec3::ZERO {
+        object.transform *= DAffine3::from_translation(origin);
+    }
+    Some(content)
+}
+
+/// The materials and their names in the text.
+struct Materials {
+    all: Vec<Material>,
+    names: Vec<String>,
+    /// Which of them objects are of.
+    used: BTreeSet<u32>,
+}
+
+impl Materials {
+    /// Gives every material a name of its own: model files may bring the same one twice, or none.
+    fn new(all: Vec<Material>, account: &mut Account) -> Self {
+        let mut taken = BTreeSet::new();
+        let mut names = Vec::with_capacity(all.len());
+        for material in &all {
+            let base = if material.name.is_empty() { "unnamed" } else { &material.name };
+            let numbered = (2..).map(|n| format!("{base} {n}"));
+            let free =
+                std::iter::once(base.to_owned()).chain(numbered).find(|n| !taken.contains(n));
+            let name = free.unwrap_or_default();
+            if name != material.name {
+                account.map(format!("a second material `{}` is called `{name}`", material.name));
+            }
+            taken.insert(name.clone());
+            names.push(name);
+        }
+        Self { all, names, used: BTreeSet::new() }
+    }
+
+    fn say_used<'o>(&mut self, objects: impl Iterator<Item = &'o Object>) {
+        let real = objects.filter(|object| !matches!(object.shape, Shape::Instance(_)));
+        self.used = real.map(|object| object.material.0).collect();
+    }
+
+    /// Whether the reader makes this material by itself: the last, called default, nothing but
+    /// defaults, for shapes that name none.
+    fn is_implied(&self, number: usize, count: usize, material: &Material) -> bool {
+        let plain = Material { place: material.place.clone(), ..Material::default() };
+        number + 1 == count && *material == plain && self.used.contains(&(number as u32))
+    }
+
+    /// The name to write; `None`: shapes that name none are of it.
+    fn name_of(&self, material: MaterialId) -> Option<&str> {
+        let name = self.names.get(material.0 as usize).map(String::as_str);
+        name.filter(|&name| name != "default")
+    }
+}

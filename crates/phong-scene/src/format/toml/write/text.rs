@@ -1,0 +1,155 @@
+//! Values as they are written: the shortest text that reads back to the same bits.
+
+use std::fmt::Write as _;
+
+use glam::{DVec2, DVec3};
+
+use crate::format::toml::value::Value;
+use crate::keys::{BACKGROUND, Kind};
+use crate::{Background, Rgb, srgb_encode};
+
+/// A value as text; its kind tells how short it may be.
+pub(super) fn value(value: &Value, kind: Kind) -> String {
+    match value {
+        Value::Flag(flag) => flag.to_string(),
+        Value::Integer(n) => n.to_string(),
+        Value::Number(n) => number(*n),
+        Value::Vector(v) if matches!(kind, Kind::Scale) && *v == DVec3::splat(v.x) => number(v.x),
+        Value::Vector(v) => numbers(&v.to_array()),
+        Value::Vectors(vs) => list(vs.iter().map(|v| numbers(&v.to_array()))),
+        Value::Uvs(uvs) => list(uvs.iter().map(|uv: &DVec2| numbers(&uv.to_array()))),
+        Value::Rotations(rotations) => list(rotations.iter().map(|r| numbers(&r.to_array()))),
+        Value::Matrix(m) => {
+            let (x, y, z, w) =
+                (m.matrix3.x_axis, m.matrix3.y_axis, m.matrix3.z_axis, m.translation);
+            let row = |i: usize| numbers(&[x[i], y[i], z[i], w[i]]);
+            list([row(0), row(1), row(2), numbers(&[0.0, 0.0, 0.0, 1.0])])
+        }
+        Value::Size([width, height]) => format!("[{width}, {height}]"),
+        Value::Color(color) | Value::Background(Background::Color(color)) => self::color(*color),
+        Value::Background(Background::Transparent) => quoted("transparent"),
+        Value::Background(Background::Gradient { top, bottom }) => {
+            let ends = BACKGROUND.keys().zip([top, bottom]);
+            let ends = ends.map(|(key, end)| format!("{} = {}", key.name, color(*end)));
+            format!("{{ {} }}", ends.collect::<Vec<_>>().join(", "))
+        }
+        Value::Word(word) => quoted(word),
+        Value::Text(text) => quoted(text),
+    }
+}
+
+/// The shortest decimal of a number, with an exponent where zeros would be many.
+pub(super) fn number(n: f64) -> String {
+    let debug = format!("{n:?}");
+    match debug.strip_suffix(".0") {
+        // As a whole number it would lose its sign.
+        Some(whole) if whole != "-0" => whole.to_owned(),
+        _ => debug,
+    }
+}
+
+/// An f32 as the number of fewest digits that the reader rounds to it.
+pub(super) fn short(x: f32) -> f64 {
+    let text = x.to_string().parse();
+    text.ok().filter(|&n: &f64| (n as f32).to_bits() == x.to_bits()).unwrap_or_else(|| x.into())
+}
+
+/// Degrees of few digits that the reader turns into these very radians.
+pub(super) fn degrees(radians: f32) -> f64 {
+    let exact = f64::from(radians).to_degrees();
+    let same = |degrees: &f64| degrees.to_radians() as f32 == radians;
+    let rounded = (0..17).filter_map(|digits| format!("{exact:.digits$}").parse().ok());
+    rounded.into_iter().find(same).unwrap_or(exact)
+}
+
+fn numbers(values: &[f64]) -> String {
+    list(values.iter().map(|n| number(*n)))
+}
+
+fn list(items: impl IntoIterator<Item = String>) -> String {
+    format!("[{}]", items.into_iter().collect::<Vec<_>>().join(", "))
+}
+
+/// A colour: as it would be picked, `"#rrggbb"`, where that is it exactly and its linear values
+/// are no short numbers.
+fn color(color: Rgb) -> String {
+    let bytes = color.to_array().map(|c| (srgb_encode(f64::from(c)) * 255.0).round() as u8);
+    let linear = match color.to_array().map(short) {
+        [r, g, b] if r == g && g == b => number(r),
+        channels => numbers(&channels),
+    };
+    if linear.len() <= "[0.25, 0.25, 0.25]".len() || Rgb::from_srgb8(bytes) != color {
+        return linear;
+    }
+    let [r, g, b] = bytes;
+    format!("\"#{r:02x}{g:02x}{b:02x}\"")
+}
+
+/// A part of a header: bare where that may be, else in quotes.
+pub(super) fn name(name: &str) -> String {
+    let bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    if !name.is_empty() && name.chars().all(bare) { name.to_owned() } else { quoted(name) }
+}
+
+/// A basic string.
+fn quoted(text: &str) -> String {
+    let mut quoted = String::with_capacity(text.len() + 2);
+    quoted.push('"');
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => quoted.extend(['\\', c]),
+            '\n' => quoted.push_str("\\n"),
+            '\t' => quoted.push_str("\\t"),
+            // Writing to a string does not fail.
+            c if c.is_control() => drop(write!(quoted, "\\u{:04X}", u32::from(c))),
+            c => quoted.push(c),
+        }
+    }
+    quoted.push('"');
+    quoted
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_as_short_as_they_may_be() {
+        let cases =
+            [(1.0, "1"), (-0.0, "-0.0"), (0.1, "0.1"), (1e18, "1e18"), (-2.5e-9, "-2.5e-9")];
+        for (value, text) in cases {
+            assert_eq!(number(value), text);
+        }
+        assert_eq!(number(short(0.1_f32)), "0.1");
+        assert_eq!(number(short(f32::MAX)), "3.4028235e38");
+        assert_eq!(number(degrees(20_f64.to_radians() as f32)), "20");
+    }
+
+    #[test]
+    fn a_colour_is_written_as_picked_where_that_is_exact_and_shorter() {
+        let picked = Rgb::from_srgb8([0xc8, 0x40, 0x2f]);
+        assert_eq!(color(picked), "\"#c8402f\"");
+        let off = Rgb { r: picked.r.next_up(), ..picked };
+        assert!(color(off).starts_with("[0.577580"), "{}", color(off));
+        assert_eq!(color(Rgb::new(1.0, 0.5, 0.0)), "[1, 0.5, 0]");
+        assert_eq!(color(Rgb::grey(2.0)), "2");
+    }
+
+    #[test]
+    fn every_f32_is_what_its_short_form_is_rounded_to() {
+        // A stride that is prime to 2^32 visits all exponents and many mantissas.
+        for i in 0..200_000_u32 {
+            let x = f32::from_bits(i.wrapping_mul(2_654_435_761));
+            if x.is_finite() {
+                assert_eq!((short(x) as f32).to_bits(), x.to_bits(), "{x:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn names_that_are_not_bare_stand_in_quotes() {
+        assert_eq!(name("red-2"), "red-2");
+        assert_eq!(name(""), "\"\"");
+        assert_eq!(name("a \"b\"\\\u{7f}"), "\"a \\\"b\\\"\\\\\\u007F\"");
+    }
+}
