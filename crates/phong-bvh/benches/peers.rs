@@ -31,7 +31,7 @@
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a bench prints what it measured")]
 
 use std::{
-    env, fs,
+    env,
     path::{Path, PathBuf},
     process::ExitCode,
 };
@@ -116,7 +116,7 @@ fn main() -> ExitCode {
     };
     let target = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../target/peers");
     let folder = env::var_os("PHONG_PEERS").map_or(target, PathBuf::from);
-    let embree = library(&folder).and_then(|path| {
+    let embree = embree::find(&folder).and_then(|path| {
         Embree::open(&path).inspect_err(|error| println!("{}: {error}", path.display())).ok()
     });
     if embree.is_none() {
@@ -133,20 +133,6 @@ fn main() -> ExitCode {
         }
     }
     ExitCode::SUCCESS
-}
-
-/// The Embree library: as told, or in the virtual environment `setup.sh` made.
-fn library(folder: &Path) -> Option<PathBuf> {
-    if let Some(path) = env::var_os("PHONG_EMBREE") {
-        return Some(path.into());
-    }
-    let inside = |folder: PathBuf, start: &str| {
-        let entries = fs::read_dir(folder).ok()?;
-        let fits = |name: &str| name.starts_with(start);
-        entries.flatten().find(|e| e.file_name().to_str().is_some_and(fits)).map(|e| e.path())
-    };
-    let packages = inside(folder.join("venv/lib"), "python")?.join("site-packages");
-    inside(packages.join("embreex.libs"), "libembree4")
 }
 
 fn measure(name: &str, geometry: Geometry, embree: Option<&Embree>, options: &Options) {

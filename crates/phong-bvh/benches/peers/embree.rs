@@ -1,8 +1,10 @@
 //! Embree 4, opened at run time: only what this bench asks of it.
 
 use std::{
+    env,
     ffi::{CStr, c_char, c_void},
-    path::Path,
+    fs,
+    path::{Path, PathBuf},
     ptr,
     sync::atomic::{AtomicI64, Ordering},
 };
@@ -112,6 +114,20 @@ pub(crate) enum Flavour {
 pub(crate) enum Width {
     One,
     Eight { coherent: bool },
+}
+
+/// The Embree library: as told, or in the virtual environment `setup.sh` made.
+pub(crate) fn find(folder: &Path) -> Option<PathBuf> {
+    if let Some(path) = env::var_os("PHONG_EMBREE") {
+        return Some(path.into());
+    }
+    let inside = |folder: PathBuf, start: &str| {
+        let entries = fs::read_dir(folder).ok()?;
+        let fits = |name: &str| name.starts_with(start);
+        entries.flatten().find(|e| e.file_name().to_str().is_some_and(fits)).map(|e| e.path())
+    };
+    let packages = inside(folder.join("venv/lib"), "python")?.join("site-packages");
+    inside(packages.join("embreex.libs"), "libembree4")
 }
 
 /// The library, and a device for one thread.

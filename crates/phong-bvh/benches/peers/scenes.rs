@@ -70,7 +70,7 @@ fn mesh(path: &Path) -> io::Result<Geometry> {
 }
 
 /// A square of `side`² heights, ten octaves of value noise: 2 (side − 1)² triangles.
-fn terrain(side: u32) -> Geometry {
+pub(crate) fn terrain(side: u32) -> Geometry {
     let mut height = vec![0.0_f32; (side * side) as usize];
     for octave in 1..=10_u32 {
         let cells = 1_u32 << octave;
@@ -138,7 +138,7 @@ fn sticks(count: u32) -> Geometry {
 }
 
 /// Small spheres all over a cube.
-fn uniform(count: u32) -> Geometry {
+pub(crate) fn uniform(count: u32) -> Geometry {
     let mut random = Random(1);
     let mut sphere = |_| Sphere { center: random.cube(), radius: 0.004 * (0.5 + random.unit()) };
     Geometry::Spheres((0..count).map(&mut sphere).collect())

@@ -20,7 +20,8 @@ pub(super) const EMPTY: [f32; 8] = [f32::NEG_INFINITY; 8];
 impl Boxed {
     const UNUSED: u32 = u32::MAX;
 
-    fn new(bounds: Aabb, local: usize, geometry: usize) -> Self {
+    /// Of primitive `local` of a geometry; grown by what its test may round.
+    pub(super) fn new(bounds: Aabb, local: usize, geometry: usize) -> Self {
         let Aabb { lo, hi } = bounds.padded();
         let [local, geometry] = [local, geometry].map(|index| f32::from_bits(index as u32));
         Self([-lo.x, -lo.y, -lo.z, local, hi.x, hi.y, hi.z, geometry])

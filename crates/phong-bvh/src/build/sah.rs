@@ -1,4 +1,4 @@
-//! Where to cut a set of boxes in two: the surface area heuristic over bins.
+//! Where to cut a run of boxes in two: the surface area heuristic over bins.
 //!
 //! A ray that meets the parent meets a child with a probability of the ratio of their surfaces, so a
 //! cut costs `A_left ⌈n_left / 8⌉ + A_right ⌈n_right / 8⌉`: blocks of eight are tested whole.
@@ -7,9 +7,9 @@
 
 use fearless_simd::{Simd, f32x4, f32x8, i32x4, prelude::*};
 
-use super::boxes::{Boxed, EMPTY, half_area};
+use super::boxes::{Boxed, EMPTY};
 
-/// A run of boxes: its place in the list, its bounds and the bounds of its doubled centres.
+/// A run of boxes: how many, their bounds and the bounds of their doubled centres.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Run {
     /// How many.
@@ -20,15 +20,24 @@ pub(super) struct Run {
     pub(super) centers: [f32; 8],
 }
 
-/// Doubled centre twice over, once negated: what a maximum needs to bound centres.
+/// A box's doubled centre.
 #[inline(always)]
-fn center<S: Simd>(lanes: f32x8<S>) -> (f32x4<S>, f32x8<S>) {
+pub(super) fn center<S: Simd>(lanes: f32x8<S>) -> f32x4<S> {
     let (minus_lo, hi) = lanes.split();
-    let center: f32x4<S> = hi - minus_lo;
-    (center, (minus_lo - hi).combine(center))
+    hi - minus_lo
+}
+
+/// A box's doubled centre twice over, once negated: what a maximum needs to bound centres.
+#[inline(always)]
+pub(super) fn center_bounds<S: Simd>(lanes: f32x8<S>) -> f32x8<S> {
+    let (minus_lo, hi) = lanes.split();
+    (minus_lo - hi).combine(hi - minus_lo)
 }
 
 impl Run {
+    /// No boxes.
+    pub(super) const NONE: Self = Self { len: 0, bounds: EMPTY, centers: EMPTY };
+
     /// The bounds of `boxes`.
     #[inline(always)]
     pub(super) fn of<S: Simd>(simd: S, boxes: &[Boxed]) -> Self {
@@ -37,34 +46,35 @@ impl Run {
         for b in boxes {
             let lanes = b.lanes(simd);
             bounds = bounds.max(lanes);
-            centers = centers.max(center(lanes).1);
+            centers = centers.max(center_bounds(lanes));
         }
         Self { len: boxes.len(), bounds: bounds.to_array(), centers: centers.to_array() }
     }
 
-    /// The bounds of two runs.
+    /// Both runs as one.
     pub(super) fn union(&self, other: &Self) -> Self {
-        let max = |a: &[f32; 8], b: &[f32; 8]| std::array::from_fn(|i| a[i].max(b[i]));
         Self {
             len: self.len + other.len,
-            bounds: max(&self.bounds, &other.bounds),
-            centers: max(&self.centers, &other.centers),
+            bounds: union(&self.bounds, &other.bounds),
+            centers: union(&self.centers, &other.centers),
         }
-    }
-
-    /// Half its surface.
-    pub(super) fn half_area(&self) -> f32 {
-        half_area(&self.bounds)
     }
 }
 
+/// The bounds of two boxes given as `[−lo, _, hi, _]`.
+pub(super) fn union(a: &[f32; 8], b: &[f32; 8]) -> [f32; 8] {
+    std::array::from_fn(|lane| a[lane].max(b[lane]))
+}
+
+/// The most bins along an axis.
 const MOST: usize = 32;
 
 /// The bins along the three axes.
 #[derive(Clone, Debug)]
 pub(super) struct Bins {
-    bounds: [[[f32; 8]; MOST]; 3],
-    counts: [[u32; MOST]; 3],
+    bounds: [[[f32; 8]; 3]; MOST],
+    /// How many boxes are in the bins of the three axes, and nothing.
+    counts: [[i32; 4]; MOST],
     grid: Grid,
 }
 
@@ -73,74 +83,84 @@ pub(super) struct Bins {
 struct Grid {
     bins: usize,
     first: [f32; 4],
+    /// Bins a unit of doubled centre; 0 where all centres are one.
     scale: [f32; 4],
 }
 
 impl Grid {
+    #[inline(always)]
     fn new(run: &Run, most: usize) -> Self {
         let bins = (4 + run.len / 16).min(most);
-        let lo: [f32; 4] = std::array::from_fn(|i| if i < 3 { -run.centers[i] } else { 0.0 });
-        let scale = std::array::from_fn(|i| {
-            let extent = if i < 3 { run.centers[4 + i] - lo[i] } else { 0.0 };
-            let scale = bins as f32 * 0.999_99 / extent;
-            if extent > 0.0 && scale.is_finite() { scale } else { 0.0 }
-        });
-        Self { bins, first: lo, scale }
-    }
-
-    #[inline(always)]
-    fn bin<S: Simd>(&self, simd: S, lanes: f32x8<S>) -> [i32; 4] {
-        let first = f32x4::load_array(simd, self.first);
-        let scale = f32x4::load_array(simd, self.scale);
-        let bin: i32x4<S> = ((center(lanes).0 - first) * scale).to_int();
-        let last = i32x4::splat(simd, self.bins as i32 - 1);
-        bin.max(i32x4::splat(simd, 0)).min(last).to_array()
+        let (mut first, mut scale) = ([0.0; 4], [0.0; 4]);
+        for axis in 0..3 {
+            first[axis] = -run.centers[axis];
+            let extent = run.centers[4 + axis] - first[axis];
+            let bins = bins as f32 * 0.999_99 / extent;
+            scale[axis] = if extent > 0.0 && bins.is_finite() { bins } else { 0.0 };
+        }
+        Self { bins, first, scale }
     }
 }
 
-/// A cut: boxes in bins before `bin` along `axis` go left.
+/// A cut: boxes whose centre is in a bin before `bin` along `axis` go left.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cut {
-    axis: usize,
-    bin: usize,
+    /// The axis, 0 to 2.
+    pub(super) axis: usize,
+    /// The first doubled centre of the bins along the axis.
+    pub(super) first: f32,
+    /// Bins a unit of doubled centre.
+    pub(super) scale: f32,
+    /// The first bin on the right.
+    pub(super) bin: f32,
+    /// The bounds on both sides.
+    pub(super) bounds: [[f32; 8]; 2],
 }
 
 impl Bins {
     /// No bins yet.
     pub(super) const fn new() -> Self {
         let grid = Grid { bins: 0, first: [0.0; 4], scale: [0.0; 4] };
-        Self { bounds: [[EMPTY; MOST]; 3], counts: [[0; MOST]; 3], grid }
+        Self { bounds: [[EMPTY; 3]; MOST], counts: [[0; 4]; MOST], grid }
     }
 
-    /// Sorts `boxes` into bins.
+    /// Sorts `boxes` of `run` into at most `most` bins an axis.
     #[inline(always)]
     pub(super) fn sort<S: Simd>(&mut self, simd: S, boxes: &[Boxed], run: &Run, most: usize) {
         let grid = Grid::new(run, most.min(MOST));
         self.grid = grid;
-        for axis in 0..3 {
-            self.bounds[axis][..grid.bins].fill(EMPTY);
-            self.counts[axis][..grid.bins].fill(0);
-        }
+        self.bounds[..grid.bins].fill([EMPTY; 3]);
+        self.counts[..grid.bins].fill([0; 4]);
+        let first = f32x4::load_array(simd, grid.first);
+        let scale = f32x4::load_array(simd, grid.scale);
         for b in boxes {
             let lanes = b.lanes(simd);
-            let axes = self.bounds.iter_mut().zip(&mut self.counts);
-            for (index, (bounds, counts)) in grid.bin(simd, lanes).into_iter().zip(axes) {
-                let bin = index as usize & (MOST - 1);
-                f32x8::load_array_ref(simd, &bounds[bin]).max(lanes).store_array(&mut bounds[bin]);
-                counts[bin] += 1;
-            }
+            // Below `bins` by the choice of the scale. Where it is 0 there is one bin, or centres
+            // beyond all numbers, which become some number the mask makes a bin.
+            let bins: i32x4<S> = ((center(lanes) - first) * scale).to_int();
+            let [x, y, z, _] = bins.to_array();
+            self.put(simd, lanes, 0, x);
+            self.put(simd, lanes, 1, y);
+            self.put(simd, lanes, 2, z);
         }
+    }
+
+    /// Puts a box into a bin of an axis.
+    #[inline(always)]
+    fn put<S: Simd>(&mut self, simd: S, lanes: f32x8<S>, axis: usize, bin: i32) {
+        let bin = bin as usize & (MOST - 1);
+        let slot = &mut self.bounds[bin][axis];
+        f32x8::load_array_ref(simd, slot).max(lanes).store_array(slot);
+        self.counts[bin][axis] += 1;
     }
 
     /// Both together; they must have been sorted by the same run.
     pub(super) fn merge(mut self, other: &Self) -> Self {
-        for axis in 0..3 {
-            for bin in 0..self.grid.bins {
-                let (a, b) = (&mut self.bounds[axis][bin], &other.bounds[axis][bin]);
-                for (a, b) in a.iter_mut().zip(b) {
-                    *a = a.max(*b);
-                }
-                self.counts[axis][bin] += other.counts[axis][bin];
+        for bin in 0..self.grid.bins {
+            for axis in 0..3 {
+                let (a, b) = (&mut self.bounds[bin][axis], &other.bounds[bin][axis]);
+                *a = union(a, b);
+                self.counts[bin][axis] += other.counts[bin][axis];
             }
         }
         self
@@ -150,64 +170,139 @@ impl Bins {
     #[inline(always)]
     pub(super) fn cheapest<S: Simd>(&self, simd: S) -> Option<Cut> {
         let bins = self.grid.bins;
-        let mut best = (f32::INFINITY, None);
-        for axis in 0..3 {
-            if self.grid.scale[axis] == 0.0 {
-                continue;
-            }
-            let (bounds, counts) = (&self.bounds[axis], &self.counts[axis]);
-            let mut right = [0.0; MOST];
-            let (mut hull, mut count) = (f32x8::load_array(simd, EMPTY), 0);
-            for bin in (1..bins).rev() {
-                hull = hull.max(f32x8::load_array_ref(simd, &bounds[bin]));
-                count += counts[bin];
-                right[bin] = cost(hull, count);
-            }
-            let total = count + counts[0];
-            let (mut hull, mut count) = (f32x8::load_array(simd, EMPTY), 0);
-            for bin in 1..bins {
-                hull = hull.max(f32x8::load_array_ref(simd, &bounds[bin - 1]));
-                count += counts[bin - 1];
-                let both = cost(hull, count) + right[bin];
-                if both < best.0 && count > 0 && count < total {
-                    best = (both, Some(Cut { axis, bin }));
-                }
+        let mut right = [[0.0; 4]; MOST];
+        let mut side = Side::new(simd);
+        for bin in (1..bins).rev() {
+            side.add(simd, &self.bounds[bin], &self.counts[bin]);
+            side.cost(simd).store_array(&mut right[bin]);
+        }
+        let mut side = Side::new(simd);
+        let mut best = f32x4::splat(simd, f32::INFINITY);
+        let mut place = f32x4::splat(simd, 0.0);
+        for (bin, right) in right.iter().enumerate().take(bins).skip(1) {
+            side.add(simd, &self.bounds[bin - 1], &self.counts[bin - 1]);
+            // Not a number where one side is empty: never less.
+            let both = side.cost(simd) + f32x4::load_array_ref(simd, right);
+            let better = both.simd_lt(best);
+            best = better.select(both, best);
+            place = better.select(f32x4::splat(simd, bin as f32), place);
+        }
+        let (best, place) = (best.to_array(), place.to_array());
+        let mut axis = 0;
+        for other in 1..3 {
+            if best[other] < best[axis] {
+                axis = other;
             }
         }
-        best.1
-    }
-
-    /// Brings the boxes left of `cut` to the front; the bounds of both sides.
-    #[inline(always)]
-    pub(super) fn apply<S: Simd>(&self, simd: S, boxes: &mut [Boxed], cut: Cut) -> [Run; 2] {
-        let empty = f32x8::load_array(simd, EMPTY);
-        let (mut left, mut right) = ([empty; 2], [empty; 2]);
-        let (mut front, mut back) = (0, boxes.len());
-        // Each pass looks at one box: it stays at the front, or changes places with the last one
-        // not yet looked at.
-        while front < back {
-            let lanes = boxes[front].lanes(simd);
-            let goes_left = (self.grid.bin(simd, lanes)[cut.axis] as usize) < cut.bin;
-            let centers = center(lanes).1;
-            if goes_left {
-                left = [left[0].max(lanes), left[1].max(centers)];
-                front += 1;
-            } else {
-                right = [right[0].max(lanes), right[1].max(centers)];
-                back -= 1;
-                boxes.swap(front, back);
-            }
+        if best[axis] == f32::INFINITY {
+            return None;
         }
-        let run = |[bounds, centers]: [f32x8<S>; 2], len| Run {
-            len,
-            bounds: bounds.to_array(),
-            centers: centers.to_array(),
-        };
-        [run(left, front), run(right, boxes.len() - front)]
+        let mut bounds = [f32x8::load_array(simd, EMPTY); 2];
+        for bin in 0..bins {
+            let side = usize::from(bin >= place[axis] as usize);
+            bounds[side] = bounds[side].max(f32x8::load_array_ref(simd, &self.bounds[bin][axis]));
+        }
+        Some(Cut {
+            axis,
+            first: self.grid.first[axis],
+            scale: self.grid.scale[axis],
+            bin: place[axis],
+            bounds: [bounds[0].to_array(), bounds[1].to_array()],
+        })
     }
 }
 
-#[inline(always)]
-fn cost<S: Simd>(hull: f32x8<S>, count: u32) -> f32 {
-    half_area(&hull.to_array()) * count.div_ceil(8) as f32
+/// What lies on one side of a cut along each of the three axes.
+struct Side<S: Simd> {
+    hulls: [f32x8<S>; 3],
+    counts: i32x4<S>,
+}
+
+impl<S: Simd> Side<S> {
+    #[inline(always)]
+    fn new(simd: S) -> Self {
+        Self { hulls: [f32x8::load_array(simd, EMPTY); 3], counts: i32x4::splat(simd, 0) }
+    }
+
+    #[inline(always)]
+    fn add(&mut self, simd: S, bounds: &[[f32; 8]; 3], counts: &[i32; 4]) {
+        for (hull, bounds) in self.hulls.iter_mut().zip(bounds) {
+            *hull = hull.max(f32x8::load_array_ref(simd, bounds));
+        }
+        self.counts += i32x4::load_array_ref(simd, counts);
+    }
+
+    /// Half the surface times the number of blocks, for each axis. Infinite boxes times no block,
+    /// not a number, where nothing is on this side.
+    #[inline(always)]
+    fn cost(&self, simd: S) -> f32x4<S> {
+        let size = |hull: f32x8<S>| {
+            let (minus_lo, hi) = hull.split();
+            minus_lo + hi
+        };
+        let (a, b, c) = (size(self.hulls[0]), size(self.hulls[1]), size(self.hulls[2]));
+        // Sizes of three boxes by axis.
+        let (ac, b0) = (a.zip_low(c), b.zip_low(b));
+        let (x, y) = (ac.zip_low(b0), ac.zip_high(b0));
+        let z = a.zip_high(c).zip_low(b.zip_high(b));
+        let blocks: f32x4<S> = ((self.counts + i32x4::splat(simd, 7)) >> 3).to_float();
+        (x * y + y * z + z * x) * blocks
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use fearless_simd::Fallback;
+    use glam::Vec3;
+
+    use super::*;
+    use crate::Aabb;
+
+    fn cheapest(boxes: &[Boxed], most: usize) -> Option<Cut> {
+        let simd = Fallback::new();
+        let mut bins = Bins::new();
+        bins.sort(simd, boxes, &Run::of(simd, boxes), most);
+        bins.cheapest(simd)
+    }
+
+    fn boxed(lo: Vec3, size: f32) -> Boxed {
+        Boxed::new(Aabb { lo, hi: lo + size }, 0, 0)
+    }
+
+    #[test]
+    fn two_heaps_are_cut_apart_and_each_side_has_its_bounds() {
+        let heap = |z: f32| (0..20).map(move |i| boxed(Vec3::new(i as f32 * 0.1, 0.0, z), 1.0));
+        let boxes: Vec<Boxed> = heap(0.0).chain(heap(50.0)).collect();
+        let cut = cheapest(&boxes, 16).unwrap();
+        let simd = Fallback::new();
+        let [low, high] = [&boxes[..20], &boxes[20..]].map(|heap| Run::of(simd, heap).bounds);
+        assert_eq!(cut.axis, 2);
+        for axis in [0, 1, 2, 4, 5, 6] {
+            assert_eq!([cut.bounds[0][axis], cut.bounds[1][axis]], [low[axis], high[axis]]);
+        }
+    }
+
+    #[test]
+    fn there_is_no_cut_where_all_centres_are_one() {
+        let boxes: Vec<Boxed> =
+            (0..40).map(|i| boxed(Vec3::splat(-0.5 * i as f32), i as f32)).collect();
+        assert!(cheapest(&boxes, 16).is_none());
+    }
+
+    #[test]
+    fn merged_bins_are_those_of_all_boxes() {
+        let simd = Fallback::new();
+        let place = |i: usize| Vec3::new((i * 7 % 31) as f32, (i * 5 % 17) as f32, i as f32 * 0.1);
+        let boxes: Vec<Boxed> = (0..300).map(|i| boxed(place(i), 1.0 + (i % 3) as f32)).collect();
+        let run = Run::of(simd, &boxes);
+        let of = |boxes: &[Boxed]| {
+            let mut bins = Bins::new();
+            bins.sort(simd, boxes, &run, 16);
+            bins
+        };
+        let (all, merged) = (of(&boxes), of(&boxes[..100]).merge(&of(&boxes[100..])));
+        assert_eq!(all.counts, merged.counts);
+        let [a, b] = [all, merged].map(|bins| bins.cheapest(simd).unwrap());
+        assert_eq!((a.axis, a.bin), (b.axis, b.bin));
+    }
 }
