@@ -9,7 +9,7 @@ use clap::builder::styling::AnsiColor;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 pub(crate) use values::{
-    Crop, PictureSize, ShareOf, Vec3Arg, aov, background, crop, format, share, size, vector,
+    Crop, PictureSize, ShareOf, Vec3Arg, aov, background, bytes, crop, format, share, size, vector,
 };
 
 use crate::command;

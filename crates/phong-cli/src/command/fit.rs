@@ -79,7 +79,7 @@ fn find(from: &str, to: &str) -> Result<Fit, FitError> {
 }
 
 /// Says what is wrong with a model, and which one was probably meant.
-fn trouble(error: &FitError) -> Failure {
+pub(super) fn trouble(error: &FitError) -> Failure {
     let failure = Failure::usage(error.to_string());
     let FitError::UnknownModel { name } = error else { return failure };
     let near = |model: &Model| strsim::damerau_levenshtein(name, model.name());

@@ -18,6 +18,7 @@ mod formula;
 mod lobe;
 pub mod plot;
 mod search;
+mod surface;
 #[cfg(test)]
 mod tests;
 
@@ -25,6 +26,7 @@ use thiserror::Error;
 
 pub use formula::{Formula, InUse};
 pub use lobe::{Lobe, Model, Slice};
+pub use surface::{Remodelled, Target, remodel};
 
 /// Angles of incidence that the residual is told at, degrees.
 pub const ANGLES: [f64; 4] = [0.0, 30.0, 60.0, 75.0];
@@ -94,6 +96,12 @@ pub enum FitError {
     NotANumber {
         /// What was given.
         text: String,
+    },
+    /// A σ of Oren–Nayar that is no angle of a slope.
+    #[error("sigma of `oren-nayar` is in degrees, from 0 to 90, not {sigma}")]
+    Sigma {
+        /// What was given.
+        sigma: f64,
     },
     /// A number outside what f32 pictures can show.
     #[error("{} {number} of `{model}` is not between {} and {}", model.quantity(), model.range()[0], model.range()[1])]

@@ -5,12 +5,13 @@ use std::io::Cursor;
 
 use glam::{DAffine3, DVec3};
 use phong_scene::{
-    self as scene, Camera, CameraKind, Image, Light, LightKind, Material, MaterialId, Object,
-    Place, Rgb, Scene, Shape,
+    Camera, CameraKind, Image, Light, LightKind, Material, MaterialId, Object, Place, Rgb, Scene,
+    Shape,
 };
 use rayon::prelude::*;
 
-use super::lobe::{Base, Shone};
+use super::lobe::Shone;
+use super::surface::written;
 use super::{Fit, Lobe, Slice};
 use crate::compile::{CompileOptions, CompiledScene};
 use crate::explain::html::base64;
@@ -199,31 +200,11 @@ fn ball_on_floor(lobe: Lobe) -> Scene {
 
 /// The lobe over a dark Lambert, scaled so that its peak is the same for every lobe, face on.
 fn material(lobe: Lobe) -> Material {
-    let facets = |distribution, shadowing, roughness: f64| scene::Model::Microfacet {
-        distribution,
-        roughness: roughness as f32,
-        shadowing,
-        fresnel: scene::Fresnel::None,
-    };
-    let (model, shininess) = match lobe.model.base(lobe.number) {
-        Base::Phong(n) => (scene::Model::Phong, n),
-        Base::Blinn(n) => (scene::Model::BlinnPhong, n),
-        Base::CookTorrance(m) => {
-            (facets(scene::Distribution::Beckmann, scene::Shadowing::VCavity, m), 0.0)
-        }
-        Base::Beckmann(m) => {
-            (facets(scene::Distribution::Beckmann, scene::Shadowing::Correlated, m), 0.0)
-        }
-        Base::Ggx(a) => (facets(scene::Distribution::Ggx, scene::Shadowing::Correlated, a), 0.0),
-        Base::Ward(a) => {
-            let (a, form) = (a as f32, scene::WardForm::Gmd);
-            (scene::Model::Ward { roughness_x: a, roughness_y: a, form }, 0.0)
-        }
-    };
+    let (model, shininess) = written(lobe);
     let peak = lobe.at(0.0, Slice::InPlane, 0.0);
     Material {
         model,
-        shininess: shininess as f32,
+        shininess,
         color: Rgb::new(0.1, 0.16, 0.25),
         k_a: 0.2,
         k_d: 0.6,

@@ -1,13 +1,14 @@
-//! A picture that was read from a file.
+//! A picture of named channels, read from a file or made of a film.
 
 use thiserror::Error;
 
 use super::pfm;
+use crate::film::{Film, LayerKind};
 
 /// Values (pixels × channels) of the largest picture that is read: 4 GiB as floats.
 pub(super) const MAX_VALUES: u64 = 1 << 30;
 
-/// A picture read from a file, one plane a channel.
+/// A picture, one plane a channel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
     /// Width and height in pixels.
@@ -77,6 +78,25 @@ impl Picture {
             [0x76, 0x2f, 0x31, 0x01, ..] => super::exr::read(bytes),
             _ => Err(ReadError::Unknown),
         }
+    }
+
+    /// The picture that a film holds, in linear values: `R G B`, and `A` where any pixel is
+    /// not wholly covered.
+    pub fn of_film(film: &Film) -> Self {
+        let layer = |kind: LayerKind, names: &[&str]| {
+            let Some(layer) = film.layer(kind) else { return Vec::new() };
+            let plane = |(c, name): (usize, &&str)| {
+                let values = layer.values.iter().skip(c).step_by(names.len()).copied().collect();
+                Plane { name: (*name).to_owned(), values }
+            };
+            names.iter().enumerate().map(plane).collect()
+        };
+        let mut planes = layer(LayerKind::Picture, &["R", "G", "B"]);
+        let alpha = film.layer(LayerKind::Alpha);
+        if alpha.is_some_and(|alpha| alpha.values.iter().any(|&a| a != 1.0)) {
+            planes.extend(layer(LayerKind::Alpha, &["A"]));
+        }
+        Self { size: [film.width(), film.height()], planes, transfer: Transfer::Linear }
     }
 
     /// The plane of that name.
