@@ -129,7 +129,10 @@ fn as_text(path: &Path, graded: &Grade) -> String {
     }
     match &graded.cause {
         Some(cause) => line(format!("cause: {cause} (confidence {:.2})", graded.confidence)),
-        None => line("no known mistake explains it".to_owned()),
+        None => line(
+            "no known mistake explains it: is it a picture of this scene, seen from its camera?"
+                .to_owned(),
+        ),
     }
     for one in &graded.candidates {
         line(format!("- {}: {}", one.cause, one.says));

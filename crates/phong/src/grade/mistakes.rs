@@ -27,6 +27,8 @@ pub(super) enum Kind {
     Layout(Layout),
     /// Lit points in shadow, at random.
     Acne,
+    /// Values that are no numbers.
+    NotNumbers,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,6 +57,12 @@ const fn scene(cause: &'static str, says: &'static str, change: fn(&mut Scene)) 
 
 /// Every mistake that `grade` knows. Where two explain a picture equally well the earlier is named.
 pub const MISTAKES: &[Mistake] = &[
+    Mistake {
+        cause: "not-a-number",
+        says: "values are NaN: 0/0 (a vector of length 0 was normalised), or a fractional power or \
+               the root of a number below 0",
+        kind: Kind::NotNumbers,
+    },
     Mistake {
         cause: "gamma-missing",
         says: "linear values were written as they are; encode them with the sRGB curve last",

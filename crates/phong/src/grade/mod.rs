@@ -21,7 +21,7 @@ use crate::render::RenderOptions;
 use mistakes::{Curve, Kind, Layout};
 pub use mistakes::{MISTAKES, Mistake};
 pub use picture::Residual;
-use picture::{Theirs, encode};
+use picture::{NotNumbers, Theirs, encode};
 use points::{Point, gather};
 use shade::{Wrong, shade};
 
@@ -101,9 +101,11 @@ pub fn grade(scene: &Scene, picture: &Picture) -> Result<Grade, GradeError> {
     let right = Prepared::new(scene.clone())?;
     let residual = right.residual(&theirs, &Fault::default());
     let terms = terms::fit(&right, &theirs);
+    let broken = theirs.not_numbers().map(|broken| broken.candidate(ours[0], residual));
     if residual.rms <= PASS_RMS && residual.over <= PASS_SHARE {
-        let (cause, candidates) = (None, Vec::new());
-        return Ok(Grade { pass: true, cause, confidence: 1.0, candidates, residual, terms });
+        let cause = broken.as_ref().map(|broken| broken.cause.clone());
+        let (pass, candidates) = (broken.is_none(), Vec::from_iter(broken));
+        return Ok(Grade { pass, cause, confidence: 1.0, candidates, residual, terms });
     }
     let mut tried = singles(scene, &right, &theirs)?;
     tried.sort_by_key(Tried::rank);
@@ -114,12 +116,15 @@ pub fn grade(scene: &Scene, picture: &Picture) -> Result<Grade, GradeError> {
     }
     tried.retain(|one| one.residual.rms < 0.95 * residual.rms);
     tried.truncate(5);
-    let candidates: Vec<Candidate> = tried.iter().map(|tried| tried.candidate(residual)).collect();
+    let mut candidates: Vec<Candidate> =
+        tried.iter().map(|tried| tried.candidate(residual)).collect();
     let best = candidates.first();
     let confidence = best.map_or(0.0, |best| 1.0 - best.residual.rms / residual.rms);
-    let cause = best
-        .filter(|best| best.residual.rms <= EXPLAINS * residual.rms)
-        .map(|best| best.cause.clone());
+    let explained = best.filter(|best| best.residual.rms <= EXPLAINS * residual.rms);
+    let causes: Vec<&str> =
+        broken.iter().chain(explained).map(|candidate| candidate.cause.as_str()).collect();
+    let cause = (!causes.is_empty()).then(|| causes.join(" + "));
+    candidates.splice(0..0, broken);
     Ok(Grade { pass: false, cause, confidence, candidates, residual, terms })
 }
 
@@ -153,7 +158,7 @@ impl Fault {
             Kind::Sum(change) => change(&mut self.wrong),
             Kind::Curve(curve) => self.curve = curve,
             Kind::Layout(layout) => self.layout = Some(layout),
-            Kind::Scene(_) | Kind::Acne => return None,
+            Kind::Scene(_) | Kind::Acne | Kind::NotNumbers => return None,
         }
         Some(self)
     }
@@ -194,6 +199,23 @@ impl Tried {
     }
 }
 
+impl NotNumbers {
+    /// Named for what it is; `residual` is that of the other pixels.
+    fn candidate(self, width: u32, residual: Residual) -> Candidate {
+        let Self { count, first } = self;
+        let (x, y) = (first as u32 % width, first as u32 / width);
+        let mistake = MISTAKES.iter().find(|mistake| matches!(mistake.kind, Kind::NotNumbers));
+        let told = |f: fn(&Mistake) -> &'static str| mistake.map_or("", f).to_owned();
+        let pixels = if count == 1 { "pixel is" } else { "pixels are" };
+        Candidate {
+            cause: told(|mistake| mistake.cause),
+            says: told(|mistake| mistake.says),
+            evidence: format!("{count} {pixels} no number, the first at ({x}, {y})"),
+            residual,
+        }
+    }
+}
+
 /// Every mistake, tried alone.
 fn singles(scene: &Scene, right: &Prepared, theirs: &Theirs) -> Result<Vec<Tried>, GradeError> {
     let mut tried = Vec::with_capacity(MISTAKES.len());
@@ -215,6 +237,8 @@ fn singles(scene: &Scene, right: &Prepared, theirs: &Theirs) -> Result<Vec<Tried
                 }
                 None => continue,
             },
+            // Seen without trying.
+            Kind::NotNumbers => continue,
             Kind::Sum(_) | Kind::Curve(_) | Kind::Layout(_) => {
                 let Some(fault) = Fault::default().with(mistake) else { continue };
                 right.residual(theirs, &fault)

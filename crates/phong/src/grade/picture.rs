@@ -17,7 +17,8 @@ pub struct Residual {
     pub worst: f64,
     /// Where.
     pub worst_at: [u32; 2],
-    /// Share of the pixels that differ by more than [`Residual::NOTICED`] in some channel.
+    /// Share of the pixels that differ in some channel by more than [`Residual::NOTICED`], and more
+    /// than the smoothing of a narrow highlight explains.
     pub over: f64,
     /// Pixels compared.
     pub pixels: usize,
@@ -26,11 +27,21 @@ pub struct Residual {
 impl Residual {
     /// More than rounding to 8 bits, twice, can explain.
     pub const NOTICED: f64 = 2.5 / 255.0;
+    /// Of how much a value stands out from the mean of its neighbours, samples spread over its pixel
+    /// may take this share.
+    const SMOOTHED: f64 = 0.5;
 }
 
-/// Their picture, encoded.
+/// Their picture, encoded. NaN stays NaN, and is compared with nothing.
 pub(super) struct Theirs {
     values: Vec<[f32; 3]>,
+}
+
+/// Pixels with a value that is no number.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct NotNumbers {
+    pub(super) count: usize,
+    pub(super) first: usize,
 }
 
 impl Theirs {
@@ -47,6 +58,13 @@ impl Theirs {
             .map(|v| if alpha.is_some_and(|a| a[i] == 0.0) { 0.0 } else { v })
         };
         Some(Self { values: (0..r.len()).map(at).collect() })
+    }
+
+    /// The pixels with a value that is no number; `None`: there are none.
+    pub(super) fn not_numbers(&self) -> Option<NotNumbers> {
+        let is_nan = |value: &[f32; 3]| value.iter().any(|v| v.is_nan());
+        let first = self.values.iter().position(is_nan)?;
+        Some(NotNumbers { count: self.values.iter().filter(|v| is_nan(v)).count(), first })
     }
 
     /// The value that belongs at a pixel if the picture is laid out wrongly.
@@ -89,18 +107,26 @@ pub(super) fn encode(color: Rgb, curve: Curve) -> [f32; 3] {
 pub(super) fn residual(
     [width, _]: [u32; 2],
     inner: &[bool],
-    ours: impl Fn(usize) -> [f32; 3] + Sync,
+    ours: impl Fn(usize) -> [f32; 3] + Send + Sync,
     theirs: impl Fn(usize) -> [f32; 3] + Sync,
 ) -> Residual {
+    let ours: Vec<[f32; 3]> = (0..inner.len()).into_par_iter().map(ours).collect();
     let row = |y: usize| {
         let mut out = Residual::default();
         let from = y * width as usize;
         for i in (from..from + width as usize).filter(|&i| inner[i]) {
-            let (a, b) = (ours(i), theirs(i));
+            let (a, b) = (ours[i], theirs(i));
+            if b.iter().any(|v| v.is_nan()) {
+                continue;
+            }
             let off: [f64; 3] = std::array::from_fn(|c| f64::from(a[c]) - f64::from(b[c]));
             out.rms += off.iter().map(|d| d * d).sum::<f64>();
             let worst = off.iter().fold(0.0, |worst: f64, d| worst.max(d.abs()));
-            out.over += f64::from(u8::from(worst > Residual::NOTICED));
+            let noticed = worst > Residual::NOTICED
+                && worst
+                    > Residual::NOTICED
+                        + Residual::SMOOTHED * standing_out(&ours, i, width as usize);
+            out.over += f64::from(u8::from(noticed));
             out.pixels += 1;
             if worst > out.worst {
                 out.worst = worst;
@@ -128,7 +154,28 @@ pub(super) fn residual(
     all
 }
 
-/// Which pixels are not at an edge: the eight around meet the same object and see the same lights.
+/// By how much a value stands out from the mean of the eight around it, in the channel where that
+/// is most; 0 at the picture's border.
+fn standing_out(ours: &[[f32; 3]], i: usize, width: usize) -> f64 {
+    let (x, y, height) = (i % width, i / width, ours.len() / width);
+    if x == 0 || y == 0 || x + 1 == width || y + 1 == height {
+        return 0.0;
+    }
+    let most = |most: f64, c: usize| {
+        let block = (y - 1..=y + 1).flat_map(|v| (x - 1..=x + 1).map(move |u| v * width + u));
+        let sum: f64 = block.map(|j| f64::from(ours[j][c])).sum();
+        let own = f64::from(ours[i][c]);
+        most.max((own - (sum - own) / 8.0).abs())
+    };
+    (0..3).fold(0.0, most)
+}
+
+/// What mirrors and glass bring to neighbours may differ by this, in linear values; by more it is
+/// an edge that is seen in them.
+const JUMP: f32 = 0.02;
+
+/// Which pixels are not at an edge: the eight around meet the same object, see the same lights, and
+/// are brought nearly the same by mirrors and glass.
 pub(super) fn inner(points: &[Point], [width, height]: [u32; 2]) -> Vec<bool> {
     let (w, h) = (width as usize, height as usize);
     let alike = |a: &Option<Surface>, b: &Option<Surface>| match (a, b) {
@@ -144,11 +191,15 @@ pub(super) fn inner(points: &[Point], [width, height]: [u32; 2]) -> Vec<bool> {
         }
         _ => false,
     };
+    let brought = |i: usize| points[i].reflection + points[i].transmission;
+    let no_jump = |i: usize, j: usize| {
+        (brought(i) - brought(j)).to_array().iter().all(|apart| apart.abs() <= JUMP)
+    };
     let at = |i: usize| {
         let (x, y) = (i % w, i / w);
         let around = |v: usize, most: usize| v.saturating_sub(1)..=(v + 1).min(most - 1);
-        around(y, h)
-            .all(|v| around(x, w).all(|u| alike(&points[i].surface, &points[v * w + u].surface)))
+        let mut neighbours = around(y, h).flat_map(|v| around(x, w).map(move |u| v * w + u));
+        neighbours.all(|j| alike(&points[i].surface, &points[j].surface) && no_jump(i, j))
     };
     (0..points.len()).into_par_iter().map(at).collect()
 }

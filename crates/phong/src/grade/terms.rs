@@ -8,7 +8,7 @@ use super::shade::{Wrong, shade};
 
 const NAMES: [&str; 4] = ["ambient", "diffuse", "specular", "reflection and transmission"];
 
-/// Least squares over the linear values of inner pixels that are not clipped. `None` for a term
+/// Least squares over the linear values of inner pixels that are not clipped, and are numbers. `None` for a term
 /// that the scene does not have, or that cannot be told from the others.
 pub(super) fn fit(right: &Prepared, theirs: &Theirs) -> [(&'static str, Option<f64>); 4] {
     let mut normal = [[0.0; 4]; 4];
@@ -23,7 +23,7 @@ pub(super) fn fit(right: &Prepared, theirs: &Theirs) -> [(&'static str, Option<f
         let drawn = theirs.at(i, right.size, None);
         for channel in 0..3 {
             let level = f64::from(drawn[channel]);
-            if level > 0.995 {
+            if level.is_nan() || level > 0.995 {
                 continue;
             }
             let column = columns.map(|c| f64::from(c[channel]));

@@ -1,0 +1,110 @@
+//! `phong grade` as a program.
+
+mod support;
+
+use std::fs;
+
+use support::{BALLS, Given, given};
+
+/// The balls drawn as they should be, and without shadows.
+fn handed_in() -> Given {
+    let folder = given(&[("a.toml", BALLS)]);
+    folder.done("render a.toml --samples 1 -o right.png --quiet");
+    folder.done("render a.toml --samples 1 --no-shadows -o wrong.png --quiet");
+    folder
+}
+
+#[test]
+fn a_right_picture_passes_with_an_exit_code_of_nought() {
+    let folder = handed_in();
+    let then = folder.done("grade a.toml right.png");
+    let text = String::from_utf8(then.out).unwrap();
+    assert!(text.starts_with("right.png: pass\n"), "{text}");
+    assert!(text.contains("ambient × 1.00, diffuse × 1.00"), "{text}");
+    let told = folder.done("grade a.toml right.png --json").json();
+    assert_eq!((&told["verdict"], &told["cause"]), (&"pass".into(), &serde_json::Value::Null));
+    assert_eq!(told["candidates"], serde_json::json!([]));
+}
+
+#[test]
+fn a_wrong_picture_fails_with_its_cause_and_an_exit_code_of_1() {
+    let folder = handed_in();
+    let then = folder.when("grade a.toml wrong.png");
+    assert_eq!(then.code, Some(1), "{}", then.err);
+    let text = String::from_utf8(then.out).unwrap();
+    assert!(text.contains("cause: shadows-missing (confidence 0.9"), "{text}");
+    assert!(text.contains("- shadows-missing: nothing casts a shadow"), "{text}");
+    let told = folder.when("grade a.toml wrong.png --json").json();
+    assert_eq!((&told["verdict"], &told["cause"]), (&"fail".into(), &"shadows-missing".into()));
+    assert!(told["confidence"].as_f64().unwrap() > 0.9);
+    assert_eq!(told["candidates"][0]["cause"], "shadows-missing");
+    assert!(told["candidates"][0]["evidence"].as_str().unwrap().contains("rms"));
+    assert!(told["terms"]["ambient"].is_f64());
+}
+
+#[test]
+fn a_whole_class_is_graded_in_one_go() {
+    let folder = handed_in();
+    let then = folder.when("grade a.toml right.png wrong.png --json");
+    assert_eq!(then.code, Some(1));
+    let told = then.json();
+    assert_eq!(told["pass"], false);
+    let verdicts: Vec<_> =
+        told["images"].as_array().unwrap().iter().map(|i| &i["verdict"]).collect();
+    assert_eq!(verdicts, ["pass", "fail"]);
+}
+
+#[test]
+fn a_picture_of_something_else_is_said_to_be_unknown() {
+    let folder = handed_in();
+    let other = BALLS.replace("eye = [0, 1, 5]", "eye = [4, 3, -3]");
+    fs::write(folder.path("other.toml"), other).unwrap();
+    folder.done("render other.toml -o other.png --quiet");
+    let then = folder.when("grade a.toml other.png");
+    assert_eq!(then.code, Some(1));
+    let text = String::from_utf8(then.out).unwrap();
+    assert!(text.contains("no known mistake explains it: is it a picture of this scene"), "{text}");
+    assert!(folder.when("grade a.toml other.png --json").json()["cause"].is_null());
+}
+
+#[test]
+fn values_that_are_no_numbers_are_named_with_their_place() {
+    let folder = handed_in();
+    folder.done("render a.toml --samples 1 -o nan.pfm --quiet");
+    let mut file = folder.bytes("nan.pfm");
+    // The last row of the file is the first of the picture.
+    let last = file.len() - 4;
+    file[last..].copy_from_slice(&f32::NAN.to_le_bytes());
+    fs::write(folder.path("nan.pfm"), file).unwrap();
+    let then = folder.when("grade a.toml nan.pfm");
+    assert_eq!(then.code, Some(1), "{}", then.err);
+    let text = String::from_utf8(then.out).unwrap();
+    assert!(text.contains("cause: not-a-number"), "{text}");
+    assert!(text.contains("1 pixel is no number, the first at (39, 0)"), "{text}");
+}
+
+#[test]
+fn what_cannot_be_graded_is_refused_with_the_way_out() {
+    let folder = handed_in();
+    fs::write(folder.path("text.png"), "no picture").unwrap();
+    fs::write(folder.path("broken.toml"), "version = 1\n[camera]\neye = 3\n").unwrap();
+    folder.done("render a.toml --size 20x30 -o small.png --quiet");
+    let refused = |words: &str, told: &[&str]| folder.when(words).is_refused(told);
+    refused("grade a.toml small.png", &["small.png", "20 × 30", "40 × 30"]);
+    refused("grade a.toml text.png", &["text.png", "no PNG, PFM or OpenEXR"]);
+    refused("grade a.toml nowhere.png", &["nowhere.png"]);
+    refused("grade nowhere.toml right.png", &["nowhere.toml"]);
+    refused("grade broken.toml right.png", &["broken.toml:3:7"]);
+    refused("grade a.toml", &["IMAGE"]);
+    assert_eq!(folder.when("grade a.toml right.png small.png").code, Some(2));
+}
+
+#[test]
+fn the_help_lists_every_cause() {
+    let then = given(&[]).done("grade --help");
+    let text = String::from_utf8(then.out).unwrap();
+    for mistake in phong::grade::MISTAKES {
+        assert!(text.contains(mistake.cause), "{}", mistake.cause);
+    }
+    assert!(text.contains("phong grade scene.toml mine.png"), "{text}");
+}
