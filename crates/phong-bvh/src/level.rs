@@ -4,7 +4,7 @@ use fearless_simd::{Fallback, Level as Cpu, Simd};
 
 /// A set of vector instructions. Every level gives the same bits; they differ in speed alone.
 ///
-/// Levels stop at AVX2: a level is offered where it can be tested.
+/// A level is offered where it can be tested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
     /// No vector instructions beyond what the compiler makes of plain code.
@@ -13,13 +13,15 @@ pub enum Level {
     Sse42,
     /// x86 with AVX2: eight lanes.
     Avx2,
+    /// x86 with AVX-512 as of Ice Lake and Zen 4: eight lanes, more registers, masks of their own.
+    Avx512,
     /// 64-bit ARM: four lanes.
     Neon,
 }
 
 impl Level {
     /// Every level, slowest first.
-    pub const ALL: [Self; 4] = [Self::Scalar, Self::Sse42, Self::Avx2, Self::Neon];
+    pub const ALL: [Self; 5] = [Self::Scalar, Self::Sse42, Self::Avx2, Self::Avx512, Self::Neon];
 
     /// The fastest level of this machine.
     pub fn detect() -> Self {
@@ -41,6 +43,8 @@ pub(crate) enum Token {
     Sse42(fearless_simd::x86::Sse4_2),
     #[cfg(target_arch = "x86_64")]
     Avx2(fearless_simd::x86::Avx2),
+    #[cfg(target_arch = "x86_64")]
+    Avx512(fearless_simd::x86::Avx512),
     #[cfg(target_arch = "aarch64")]
     Neon(fearless_simd::aarch64::Neon),
 }
@@ -57,6 +61,8 @@ impl Token {
             Level::Sse42 => Cpu::new().as_sse4_2().map(Self::Sse42),
             #[cfg(target_arch = "x86_64")]
             Level::Avx2 => Cpu::new().as_avx2().map(Self::Avx2),
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx512 => Cpu::new().as_avx512().map(Self::Avx512),
             #[cfg(target_arch = "aarch64")]
             Level::Neon => Cpu::new().as_neon().map(Self::Neon),
             _ => None,
@@ -79,6 +85,8 @@ impl Token {
             Self::Sse42(simd) => at(simd, kernel),
             #[cfg(target_arch = "x86_64")]
             Self::Avx2(simd) => at(simd, kernel),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512(simd) => at(simd, kernel),
             #[cfg(target_arch = "aarch64")]
             Self::Neon(simd) => at(simd, kernel),
         }
