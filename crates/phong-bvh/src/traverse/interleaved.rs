@@ -16,151 +16,147 @@ use super::{
 use crate::{Hit, Ray, level::Kernel, node8::Ref, simd::prefetch};
 
 /// How many rays are on their way at once.
-pub(super) const RAYS: usize = 4;
+pub(super) const RAYS: usize = 12;
 
 /// A stack for each.
 pub(super) type Stacks = [Stack; RAYS];
 
-/// The closest hit of each ray. On entry hits hold the best outside the tree.
-pub(super) struct ClosestOfMany<'a, C> {
-    pub(super) world: &'a World<'a>,
-    pub(super) root: Ref,
-    pub(super) rays: &'a [Ray],
-    pub(super) hits: &'a mut [Hit],
-    pub(super) stacks: &'a mut Stacks,
-    pub(super) content: PhantomData<C>,
+/// What rays are sent for.
+pub(super) trait Errand {
+    /// The first ray from `from` on that has to be sent.
+    fn next(&self, rays: &[Ray], from: usize) -> Option<usize>;
+
+    /// What is known of a ray before it is sent.
+    fn best(&self, ray: &Ray, index: usize) -> Best;
+
+    /// One step; whether there is another.
+    fn step<S: Simd, L: Leaves<S>>(
+        walk: &mut Walk<S, L>,
+        simd: S,
+        world: &World<'_>,
+        stack: &mut Stack,
+    ) -> bool;
+
+    /// A ray is back.
+    fn back(&mut self, index: usize, best: Best);
 }
 
-/// A ray on its way.
-struct Slot<S: Simd, L> {
-    walk: Walk<S, L>,
-    /// Which ray it is.
-    index: usize,
-}
+/// The closest hits. They come with the best outside the tree.
+pub(super) struct Closest<'a>(pub(super) &'a mut [Hit]);
 
-impl<S: Simd, L: Leaves<S>> Slot<S, L> {
+/// Whether anything is hit. Rays already blocked are not sent.
+pub(super) struct Any<'a>(pub(super) &'a mut [bool]);
+
+impl Errand for Closest<'_> {
     #[inline(always)]
-    fn new(simd: S, ray: &Ray, best: Best, root: Ref, index: usize) -> Self {
-        Self { walk: Walk::new(simd, ray, best, root), index }
+    fn next(&self, rays: &[Ray], from: usize) -> Option<usize> {
+        (from < rays.len()).then_some(from)
     }
 
     #[inline(always)]
-    fn any(simd: S, rays: &[Ray], root: Ref, index: usize) -> Self {
-        Self::new(simd, &rays[index], Best::new(rays[index].t_max), root, index)
+    fn best(&self, _: &Ray, index: usize) -> Best {
+        Best::outside(self.0[index].t, self.0[index].prim)
     }
-}
-
-impl<C: Content> Kernel for ClosestOfMany<'_, C> {
-    type Output = ();
 
     #[inline(always)]
-    fn run<S: Simd>(self, simd: S) {
-        let Self { world, root, rays, hits, stacks, .. } = self;
-        if rays.len() < RAYS {
-            for index in 0..rays.len() {
-                let best = Best::outside(hits[index].t, hits[index].prim);
-                let mut slot = Slot::<S, C::Leaves<S>>::new(simd, &rays[index], best, root, index);
-                while slot.walk.step(simd, world, &mut stacks[0], &mut ()) {}
-                improve(&mut hits[index], slot.walk.best());
-            }
-            return;
-        }
-        let mut slots: [Slot<S, C::Leaves<S>>; RAYS] = [
-            Slot::new(simd, &rays[0], Best::outside(hits[0].t, hits[0].prim), root, 0),
-            Slot::new(simd, &rays[1], Best::outside(hits[1].t, hits[1].prim), root, 1),
-            Slot::new(simd, &rays[2], Best::outside(hits[2].t, hits[2].prim), root, 2),
-            Slot::new(simd, &rays[3], Best::outside(hits[3].t, hits[3].prim), root, 3),
-        ];
-        let mut coming = RAYS;
-        let mut idle = [false; RAYS];
-        let mut active = RAYS;
-        while active > 0 {
-            for i in 0..RAYS {
-                if idle[i] {
-                    continue;
-                }
-                let slot = &mut slots[i];
-                if slot.walk.step(simd, world, &mut stacks[i], &mut ()) {
-                    prefetch(world.rows, slot.walk.at().row());
-                    continue;
-                }
-                improve(&mut hits[slot.index], slot.walk.best());
-                if coming < rays.len() {
-                    let best = Best::outside(hits[coming].t, hits[coming].prim);
-                    *slot = Slot::new(simd, &rays[coming], best, root, coming);
-                    coming += 1;
-                } else {
-                    idle[i] = true;
-                    active -= 1;
-                }
-            }
+    fn step<S: Simd, L: Leaves<S>>(
+        walk: &mut Walk<S, L>,
+        simd: S,
+        world: &World<'_>,
+        stack: &mut Stack,
+    ) -> bool {
+        walk.step(simd, world, stack)
+    }
+
+    #[inline(always)]
+    fn back(&mut self, index: usize, best: Best) {
+        // Not the hit it was sent with: a walk is told its distance and number alone, and a group that
+        // gave up has found weights as well.
+        if best.0.prim != self.0[index].prim {
+            self.0[index] = best.0;
         }
     }
 }
 
-/// Takes the hit a walk ends with, unless it is the one it began with: a walk is told a hit's distance
-/// and number alone, and a group that gave up has found weights as well.
-#[inline(always)]
-fn improve(hit: &mut Hit, best: Best) {
-    if best.0.prim != hit.prim {
-        *hit = best.0;
+impl Errand for Any<'_> {
+    #[inline(always)]
+    fn next(&self, _: &[Ray], from: usize) -> Option<usize> {
+        Some(from + self.0.get(from..)?.iter().position(|&blocked| !blocked)?)
+    }
+
+    #[inline(always)]
+    fn best(&self, ray: &Ray, _: usize) -> Best {
+        Best::new(ray.t_max)
+    }
+
+    #[inline(always)]
+    fn step<S: Simd, L: Leaves<S>>(
+        walk: &mut Walk<S, L>,
+        simd: S,
+        world: &World<'_>,
+        stack: &mut Stack,
+    ) -> bool {
+        walk.step_any(simd, world, stack)
+    }
+
+    #[inline(always)]
+    fn back(&mut self, index: usize, best: Best) {
+        self.0[index] = best.0.is_some();
     }
 }
 
-/// Whether each ray hits anything; rays already blocked are left out.
-pub(super) struct AnyOfMany<'a, C> {
+/// Rays, each on its own.
+pub(super) struct Many<'a, E, C> {
     pub(super) world: &'a World<'a>,
     pub(super) root: Ref,
     pub(super) rays: &'a [Ray],
-    pub(super) blocked: &'a mut [bool],
+    pub(super) errand: E,
     pub(super) stacks: &'a mut Stacks,
     pub(super) content: PhantomData<C>,
 }
 
-impl<C: Content> Kernel for AnyOfMany<'_, C> {
+impl<E: Errand, C: Content> Kernel for Many<'_, E, C> {
     type Output = ();
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Self { world, root, rays, blocked, stacks, .. } = self;
-        // The rays that are not blocked yet.
-        let mut coming = 0;
-        let mut next = |blocked: &[bool]| {
-            coming += blocked.get(coming..)?.iter().position(|&blocked| !blocked)? + 1;
-            Some(coming - 1)
-        };
-        let Some(first) = next(blocked) else { return };
-        let mut slots: [Slot<S, C::Leaves<S>>; RAYS] = [
-            Slot::any(simd, rays, root, first),
-            Slot::any(simd, rays, root, first),
-            Slot::any(simd, rays, root, first),
-            Slot::any(simd, rays, root, first),
-        ];
-        let mut idle = [false; RAYS];
+        let Self { world, root, rays, mut errand, stacks, .. } = self;
+        let Some(first) = errand.next(rays, 0) else { return };
+        let best = errand.best(&rays[first], first);
+        let walk = Walk::<S, C::Leaves<S>>::new(simd, &rays[first], best, root);
+        // All are the first ray until they are another.
+        let mut walks = [walk; RAYS];
+        let mut indices = [first; RAYS];
+        let mut going = [false; RAYS];
+        going[0] = true;
         let mut active = 1;
+        let mut coming = first + 1;
         for i in 1..RAYS {
-            if let Some(index) = next(blocked) {
-                slots[i] = Slot::any(simd, rays, root, index);
+            if let Some(index) = errand.next(rays, coming) {
+                let best = errand.best(&rays[index], index);
+                walks[i] = Walk::new(simd, &rays[index], best, root);
+                (indices[i], going[i]) = (index, true);
+                coming = index + 1;
                 active += 1;
-            } else {
-                idle[i] = true;
             }
         }
         while active > 0 {
             for i in 0..RAYS {
-                if idle[i] {
+                if !going[i] {
                     continue;
                 }
-                let slot = &mut slots[i];
-                let Some(hit) = slot.walk.step_any(simd, world, &mut stacks[i]) else {
-                    prefetch(world.rows, slot.walk.at().row());
+                if E::step(&mut walks[i], simd, world, &mut stacks[i]) {
+                    prefetch(world.rows, walks[i].at().row());
                     continue;
-                };
-                blocked[slot.index] = hit;
-                if let Some(index) = next(blocked) {
-                    *slot = Slot::any(simd, rays, root, index);
+                }
+                errand.back(indices[i], walks[i].best());
+                if let Some(index) = errand.next(rays, coming) {
+                    let best = errand.best(&rays[index], index);
+                    walks[i] = Walk::new(simd, &rays[index], best, root);
+                    indices[i] = index;
+                    coming = index + 1;
                 } else {
-                    idle[i] = true;
+                    going[i] = false;
                     active -= 1;
                 }
             }

@@ -22,7 +22,7 @@ pub(super) trait Content {
 }
 
 /// A ray prepared for the primitives of leaves.
-pub(super) trait Leaves<S: Simd> {
+pub(super) trait Leaves<S: Simd>: Copy {
     /// Prepares a ray.
     fn new(simd: S, ray: &Ray) -> Self;
 
@@ -53,6 +53,7 @@ impl Content for Anything {
 }
 
 /// A ray prepared for triangles.
+#[derive(Clone, Copy)]
 pub(super) struct Triangles<S: Simd> {
     shear: Shear,
     shear8: Shear8<S>,
@@ -107,6 +108,7 @@ impl<S: Simd> Triangles<S> {
 }
 
 /// A ray prepared for spheres.
+#[derive(Clone, Copy)]
 pub(super) struct Spheres<S: Simd> {
     closest8: Closest8<S>,
 }
@@ -139,6 +141,7 @@ impl<S: Simd> Leaves<S> for Spheres<S> {
 }
 
 /// A ray prepared for everything.
+#[derive(Clone, Copy)]
 pub(super) struct Mixed<S: Simd> {
     triangles: Triangles<S>,
     spheres: Spheres<S>,

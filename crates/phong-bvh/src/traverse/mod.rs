@@ -11,7 +11,7 @@ use std::{cell::RefCell, marker::PhantomData, ops::Range};
 
 use self::{
     coherent::{AnyTogether, ClosestTogether, Entries, Entry, is_coherent, same_octant},
-    interleaved::{AnyOfMany, ClosestOfMany, RAYS, Stacks},
+    interleaved::{Any, Closest, Many, RAYS, Stacks},
     leaves::{Anything, Content, OnlySpheres, OnlyTriangles},
 };
 use crate::{
@@ -86,7 +86,7 @@ impl<'a> World<'a> {
     fn closest_in<C: Content>(&self, ray: &Ray, best: &mut Best, meter: &mut impl Meter) {
         let Some(root) = self.root else { return };
         let (world, content) = (self, PhantomData::<C>);
-        STACKS.with_borrow_mut(|[stack, ..]| {
+        LONE.with_borrow_mut(|stack| {
             self.token.run(single::Closest { world, root, ray, best, stack, meter, content });
         });
     }
@@ -103,7 +103,8 @@ impl<'a> World<'a> {
                 });
             if !done {
                 STACKS.with_borrow_mut(|stacks| {
-                    self.token.run(ClosestOfMany { world, root, rays, hits, stacks, content });
+                    let errand = Closest(hits);
+                    self.token.run(Many { world, root, rays, errand, stacks, content });
                 });
             }
         });
@@ -121,7 +122,8 @@ impl<'a> World<'a> {
                 });
             if !done {
                 STACKS.with_borrow_mut(|stacks| {
-                    self.token.run(AnyOfMany { world, root, rays, blocked, stacks, content });
+                    let errand = Any(blocked);
+                    self.token.run(Many { world, root, rays, errand, stacks, content });
                 });
             }
         });
@@ -131,7 +133,7 @@ impl<'a> World<'a> {
     fn any_in<C: Content>(&self, ray: &Ray) -> bool {
         let Some(root) = self.root else { return false };
         let (world, content) = (self, PhantomData::<C>);
-        STACKS.with_borrow_mut(|[stack, ..]| {
+        LONE.with_borrow_mut(|stack| {
             self.token.run(single::Any { world, root, ray, stack, content })
         })
     }
@@ -143,7 +145,8 @@ const STACK: usize = 7 * (64 + 40);
 
 thread_local! {
     /// Stacks of a thread: clearing one for each ray would cost a tenth of its time.
-    static STACKS: RefCell<Stacks> = const { RefCell::new([[0; STACK]; RAYS]) };
+    static LONE: RefCell<single::Stack> = const { RefCell::new([0; STACK]) };
+    static STACKS: RefCell<Stacks> = const { RefCell::new([walk::Stack::EMPTY; RAYS]) };
     static ENTRIES: RefCell<Entries> = const { RefCell::new([Entry::NONE; STACK]) };
 }
 

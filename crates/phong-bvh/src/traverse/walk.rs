@@ -1,14 +1,20 @@
 //! One ray on its way through the tree, a node or a leaf at a time.
+//!
+//! How many children of a node a ray enters is hard to foretell, and a branch foretold wrongly costs
+//! as much as testing the node. So a step goes the same way for any number up to two: all that are
+//! entered are written on the stack side by side, and the ray goes on with the nearer of the two on top
+//! of it. Whether these are new, or left from before, does not matter: both wait for a visit.
 
-use fearless_simd::{Simd, f32x8, prelude::*};
+use fearless_simd::{Simd, f32x8, mask32x8, prelude::*, u32x8};
 
-use super::{Best, Meter, World, leaves::Leaves, slabs::Slabs};
+use super::{Best, World, leaves::Leaves, slabs::Slabs};
 use crate::{
     Ray,
     node8::{NODE, REFS, Ref, Row, rows},
 };
 
 /// A ray, prepared, where it stands, and the best hit so far.
+#[derive(Clone, Copy)]
 pub(super) struct Walk<S: Simd, L> {
     ray: Ray,
     slabs: Slabs<S>,
@@ -16,11 +22,9 @@ pub(super) struct Walk<S: Simd, L> {
     best: Best,
     t_max: f32x8<S>,
     at: Ref,
+    /// Entries on the stack, its ground included.
     depth: usize,
 }
-
-/// Nodes to visit: entry distance in the upper half, [`Ref`] in the lower.
-pub(super) type Stack = [u64; super::STACK];
 
 impl<S: Simd, L: Leaves<S>> Walk<S, L> {
     /// A ray before the root, given the best hit outside the tree.
@@ -33,11 +37,11 @@ impl<S: Simd, L: Leaves<S>> Walk<S, L> {
             best,
             t_max: f32x8::splat(simd, best.0.t),
             at: root,
-            depth: 0,
+            depth: 1,
         }
     }
 
-    /// The best hit so far.
+    /// The best hit so far; after [`Walk::step_any`] it says no more than whether there is one.
     #[inline(always)]
     pub(super) fn best(&self) -> Best {
         self.best
@@ -51,115 +55,135 @@ impl<S: Simd, L: Leaves<S>> Walk<S, L> {
 
     /// Visits one node or leaf on the way to the closest hit; whether there is another.
     #[inline(always)]
-    pub(super) fn step(
-        &mut self,
-        simd: S,
-        world: &World<'_>,
-        stack: &mut Stack,
-        meter: &mut impl Meter,
-    ) -> bool {
+    pub(super) fn step(&mut self, simd: S, world: &World<'_>, stack: &mut Stack) -> bool {
         if self.at.kind().is_some() {
-            meter.primitive();
             self.leaves.offer(simd, world, &self.ray, self.at, &mut self.best);
             self.t_max = f32x8::splat(simd, self.best.0.t);
             return self.pop(stack);
         }
-        meter.node();
         let node: &[Row; NODE] = rows(world.rows, self.at.row());
         let (mask, enter) = self.slabs.meet(simd, node, self.t_max);
-        let mut mask = mask.to_bitmask() as u32;
-        if mask == 0 {
+        let bottom = self.depth;
+        self.depth += stack.push(simd, bottom, node, self.at, mask, enter);
+        if self.depth > bottom + 2 {
+            stack.sort(bottom, self.depth);
+        }
+        let (near, next) = stack.pop_nearer(self.depth);
+        self.depth -= 1;
+        if near > self.best.0.t {
             return self.pop(stack);
         }
-        let parent = self.at.row();
-        let child = |lane: usize| Ref(node[REFS].bits(lane)).from(parent);
-        let lane = next(&mut mask);
-        if mask == 0 {
-            self.at = child(lane);
-            return true;
-        }
-        let enter = enter.to_array();
-        let key =
-            |lane: usize| u64::from(enter[lane & 7].to_bits()) << 32 | u64::from(child(lane).0);
-        let first = key(lane);
-        let second = key(next(&mut mask));
-        if mask == 0 {
-            stack[self.depth] = first.max(second);
-            self.depth += 1;
-            self.at = Ref(first.min(second) as u32);
-            return true;
-        }
-        // Nearest on top.
-        let bottom = self.depth;
-        stack[self.depth] = first.max(second);
-        stack[self.depth + 1] = first.min(second);
-        self.depth += 2;
-        while mask != 0 {
-            let key = key(next(&mut mask));
-            let mut place = self.depth;
-            while place > bottom && stack[place - 1] < key {
-                stack[place] = stack[place - 1];
-                place -= 1;
-            }
-            stack[place] = key;
-            self.depth += 1;
-        }
-        self.depth -= 1;
-        self.at = Ref(stack[self.depth] as u32);
-        true
+        self.at = next;
+        self.depth > 0
     }
 
     /// Goes to the next node that begins no farther than the best hit.
     #[inline(always)]
     fn pop(&mut self, stack: &Stack) -> bool {
-        while self.depth > 0 {
+        self.depth -= 1;
+        // The ground ends this.
+        while stack.near[self.depth] > self.best.0.t {
             self.depth -= 1;
-            let key = stack[self.depth];
-            if f32::from_bits((key >> 32) as u32) <= self.best.0.t {
-                self.at = Ref(key as u32);
-                return true;
-            }
         }
-        false
+        self.at = Ref(stack.refs[self.depth]);
+        self.depth > 0
     }
 
-    /// Visits one node or leaf on the way to any hit; none: there is another.
+    /// Visits one node or leaf on the way to any hit; whether there is another.
     #[inline(always)]
-    pub(super) fn step_any(
-        &mut self,
-        simd: S,
-        world: &World<'_>,
-        stack: &mut Stack,
-    ) -> Option<bool> {
+    pub(super) fn step_any(&mut self, simd: S, world: &World<'_>, stack: &mut Stack) -> bool {
         if self.at.kind().is_none() {
             let node: &[Row; NODE] = rows(world.rows, self.at.row());
-            let mut mask = self.slabs.meet(simd, node, self.t_max).0.to_bitmask() as u32;
-            if mask != 0 {
-                let parent = self.at.row();
-                let child = |lane: usize| Ref(node[REFS].bits(lane)).from(parent);
-                self.at = child(next(&mut mask));
-                while mask != 0 {
-                    stack[self.depth] = u64::from(child(next(&mut mask)).0);
-                    self.depth += 1;
-                }
-                return None;
-            }
+            let mask = self.slabs.meet(simd, node, self.t_max).0;
+            self.depth += stack.push_any(simd, self.depth, node, self.at, mask);
         } else if self.leaves.any(simd, world, &self.ray, self.at) {
-            return Some(true);
-        }
-        if self.depth == 0 {
-            return Some(false);
+            self.best.0.prim = 0;
+            return false;
         }
         self.depth -= 1;
-        self.at = Ref(stack[self.depth] as u32);
-        None
+        self.at = Ref(stack.refs[self.depth]);
+        self.depth > 0
     }
 }
 
-/// The lowest set bit, and clears it.
+/// Room for what a ray can leave behind, one more where a ray turned to a node left before, the ground,
+/// and eight children written at once.
+const ROOM: usize = super::STACK + 16;
+
+/// Nodes and leaves to visit. Under them lies the ground, which ends every search for one that is near
+/// enough, and as bits is farther than all.
+#[derive(Debug)]
+pub(super) struct Stack {
+    near: [f32; ROOM],
+    refs: [u32; ROOM],
+}
+
+impl Stack {
+    /// The ground alone.
+    pub(super) const EMPTY: Self = Self { near: [f32::NEG_INFINITY; ROOM], refs: [0; ROOM] };
+
+    /// Writes the children in `mask` and where they are entered; how many there are.
+    #[inline(always)]
+    fn push<S: Simd>(
+        &mut self,
+        simd: S,
+        depth: usize,
+        node: &[Row; NODE],
+        at: Ref,
+        mask: mask32x8<S>,
+        enter: f32x8<S>,
+    ) -> usize {
+        enter.compress(mask).store_array(eight(&mut self.near, depth));
+        self.push_any(simd, depth, node, at, mask)
+    }
+
+    /// Writes the children in `mask`; how many there are.
+    #[inline(always)]
+    fn push_any<S: Simd>(
+        &mut self,
+        simd: S,
+        depth: usize,
+        node: &[Row; NODE],
+        at: Ref,
+        mask: mask32x8<S>,
+    ) -> usize {
+        let refs = f32x8::load_array_ref(simd, &node[REFS].0).bitcast::<u32x8<S>>();
+        let refs = refs + u32x8::splat(simd, at.row() as u32);
+        refs.compress(mask).store_array(eight(&mut self.refs, depth));
+        mask.to_bitmask().count_ones() as usize
+    }
+
+    /// Takes the nearer of the two on top, and leaves the other.
+    #[inline(always)]
+    fn pop_nearer(&mut self, depth: usize) -> (f32, Ref) {
+        // As bits, distances from 0 up are in order, and the ground is beyond them.
+        let key = |at: usize| u64::from(self.near[at].to_bits()) << 32 | u64::from(self.refs[at]);
+        let below = depth.saturating_sub(2);
+        let (top, second) = (key(depth - 1), key(below));
+        let (nearer, other) = (top.min(second), top.max(second));
+        self.near[below] = f32::from_bits((other >> 32) as u32);
+        self.refs[below] = other as u32;
+        (f32::from_bits((nearer >> 32) as u32), Ref(nearer as u32))
+    }
+
+    /// Puts the nearest of some entries on top.
+    #[inline(always)]
+    fn sort(&mut self, bottom: usize, top: usize) {
+        for from in bottom + 1..top {
+            let (near, child) = (self.near[from], self.refs[from]);
+            let mut place = from;
+            while place > bottom && self.near[place - 1] < near {
+                self.near[place] = self.near[place - 1];
+                self.refs[place] = self.refs[place - 1];
+                place -= 1;
+            }
+            (self.near[place], self.refs[place]) = (near, child);
+        }
+    }
+}
+
+/// Eight places from `from` on.
 #[inline(always)]
-fn next(mask: &mut u32) -> usize {
-    let lane = mask.trailing_zeros() as usize;
-    *mask &= *mask - 1;
-    lane
+fn eight<T>(of: &mut [T; ROOM], from: usize) -> &mut [T; 8] {
+    (&mut of[from..from + 8]).try_into().expect("a range of eight has length eight")
 }
