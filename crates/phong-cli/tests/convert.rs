@@ -66,3 +66,64 @@ fn geometry_lies_beside_the_text_or_nowhere() {
     folder.done("render c.toml -o c.png --crop 400,200,500,280");
     assert_eq!(folder.bytes("a.png"), folder.bytes("c.png"));
 }
+
+#[test]
+fn what_is_lost_is_listed_and_an_error_if_it_must_not_be() {
+    let scene = format!(
+        "{BALLS}[[triangle]]\npoints = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\nmaterial = \"mirror\"\n"
+    );
+    let folder = given(&[("a.toml", &scene)]);
+    folder.when("convert a.toml b.obj --strict").is_refused(&[
+        "error: OBJ holds no camera",
+        "`sphere 1`",
+        "`plane 1`",
+    ]);
+    assert_eq!(folder.names(), ["a.toml"]);
+
+    let then = folder.done("convert a.toml b.obj");
+    for word in ["wrote b.obj", "wrote b.mtl", "1 triangle", "(N·H)^4n = 128", "the mirror"] {
+        assert!(then.err.contains(word), "{word}: {}", then.err);
+    }
+    assert!(then.out.is_empty());
+    let told = folder.done("convert a.toml b.obj --json").json();
+    assert_eq!(told["files"], serde_json::json!(["b.obj", "b.mtl"]));
+    let dropped = told["dropped"].as_array().unwrap();
+    let ball = dropped.iter().find(|d| d["message"].as_str().unwrap().contains("sphere")).unwrap();
+    assert_eq!((&ball["file"], &ball["line"]), (&"a.toml".into(), &14.into()));
+    assert_eq!(folder.done("convert a.toml b.obj -q").err, "");
+    folder.done("convert b.obj c.ply --strict");
+    folder.when("convert a.toml c.ply -q --strict").is_refused(&["PLY holds no lights"]);
+}
+
+#[test]
+fn models_go_round_by_every_format_to_the_same_picture() {
+    let knot = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/knot.obj");
+    let folder = given(&[]);
+    folder.done(&format!("render {} -o a.pfm --size 60x40 --samples 2", knot.display()));
+    folder.done(&format!("convert {} b.ply --strict", knot.display()));
+    folder.done("convert b.ply c.obj --strict");
+    folder.done("convert c.obj d.ply --strict --ascii");
+    for name in ["b.ply", "c.obj", "d.ply"] {
+        folder.done(&format!("render {name} -o b.pfm --size 60x40 --samples 2"));
+        assert!(folder.bytes("a.pfm") == folder.bytes("b.pfm"), "{name}");
+    }
+}
+
+#[test]
+fn odd_models_are_converted_or_refused_like_any_input() {
+    let folder = given(&[
+        ("lost.obj", "mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl x\nf 1 2 3\n"),
+        ("nan.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+        ("empty.obj", ""),
+        ("empty.toml", "version = 1\n[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\n"),
+    ]);
+    let then = folder.done("convert lost.obj lost.toml");
+    assert!(then.err.contains("gone.mtl"), "{}", then.err);
+    folder.when("convert lost.obj b.ply --strict").is_refused(&["gone.mtl"]);
+    folder.when("convert nan.obj b.ply").is_refused(&["nan.obj:1"]);
+    folder.when("convert empty.obj b.ply").is_refused(&["empty.obj"]);
+    folder.when("convert empty.toml b.obj").is_refused(&["nothing would be in the file"]);
+    folder.done("convert empty.toml same.toml");
+    let names = ["empty.obj", "empty.toml", "lost.mesh-1.ply", "lost.obj", "lost.toml"];
+    assert_eq!(folder.names(), [&names[..], &["nan.obj", "same.toml"]].concat());
+}

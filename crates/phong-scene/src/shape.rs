@@ -260,3 +260,23 @@ pub enum Shape {
     /// All objects of a group, placed by the object's transform.
     Instance(GroupId),
 }
+
+impl Shape {
+    /// The name of its table in the scene text: `sphere`, `mesh`, ….
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Sphere { .. } => "sphere",
+            Self::Plane { .. } => "plane",
+            Self::Triangle { .. } => "triangle",
+            Self::Disc { .. } => "disc",
+            Self::Box { .. } => "box",
+            Self::Cylinder { .. } => "cylinder",
+            Self::Cone { .. } => "cone",
+            Self::Torus { .. } => "torus",
+            Self::Mesh(_) => "mesh",
+            Self::Points(_) => "points",
+            Self::Instance(_) => "instance",
+        }
+    }
+}

@@ -14,7 +14,7 @@ use crate::args::{InputArgs, ViewArgs, format};
 use crate::failure::Failure;
 use crate::output::{Output, keep_inputs_safe};
 use crate::progress::Meter;
-use crate::{input, report};
+use crate::{input, memory, report};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -72,7 +72,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     input::look(&mut input.scene, input.bare, &args.view)?;
     meter.stage("converting");
     let ply = if args.ascii { PlyEncoding::Ascii } else { PlyEncoding::Binary };
-    let options = ExportOptions { format, ply, bare: input.bare };
+    let options = ExportOptions {
+        format,
+        ply,
+        bare: input.bare,
+        max_bytes: args.input.max_memory.or_else(memory::total).unwrap_or(u64::MAX),
+    };
     let name = args.output.file_name().unwrap_or(OsStr::new("-")).to_string_lossy();
     let inputs = input.files().to_vec();
     let Export { files, account } =
@@ -147,7 +152,8 @@ fn tell(paths: &[&PathBuf], account: &Account) {
     }
     let carried = carried.iter().map(|(kind, n)| match (*kind, n) {
         (kind, 1) => format!("1 {kind}"),
-        ("box" | "torus", n) => format!("{n} {kind}es"),
+        ("box", n) => format!("{n} boxes"),
+        ("torus", n) => format!("{n} tori"),
         ("mesh", n) => format!("{n} meshes"),
         ("points", n) => format!("{n} clouds of points"),
         (kind, n) => format!("{n} {kind}s"),

@@ -1,11 +1,18 @@
 //! A scene written in a format: files, and an account of what became of it.
 
+mod flat;
+mod merge;
+mod split;
+
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
+pub(crate) use flat::free_name;
+pub(crate) use split::split_all;
+
 use super::Format;
 use super::toml::write::write_toml;
-use crate::{Diagnostic, Mesh, PlyEncoding, Points, Scene};
+use crate::{Diagnostic, Material, Mesh, PlyEncoding, Points, Scene};
 
 /// How a scene is to be written.
 ///
@@ -22,11 +29,13 @@ pub struct ExportOptions {
     /// Whether the scene was a bare model: its camera and lights are automatic, so nothing is
     /// lost where a format has none. Default: no.
     pub bare: bool,
+    /// Bytes of memory that unfolded instances may take. Default: no limit.
+    pub max_bytes: u64,
 }
 
 impl Default for ExportOptions {
     fn default() -> Self {
-        Self { format: Format::Toml, ply: PlyEncoding::default(), bare: false }
+        Self { format: Format::Toml, ply: PlyEncoding::default(), bare: false, max_bytes: u64::MAX }
     }
 }
 
@@ -81,6 +90,15 @@ pub(crate) enum Content {
     Text(String),
     Ply(Mesh, PlyEncoding),
     Points(Points, PlyEncoding),
+    Obj {
+        mesh: Mesh,
+        /// What `face_materials` indexes, under their names in the file.
+        materials: Vec<Material>,
+        /// The first triangle and the name of what the triangles belong to.
+        objects: Vec<(usize, String)>,
+        /// The MTL file beside it.
+        library: Option<String>,
+    },
 }
 
 impl File {
@@ -93,6 +111,12 @@ impl File {
             Content::Text(text) => to.write_all(text.as_bytes()),
             Content::Ply(mesh, encoding) => mesh.write_ply(*encoding, to),
             Content::Points(points, encoding) => points.write_ply(*encoding, to),
+            Content::Obj { mesh, materials, objects, library } => {
+                if let Some(library) = library {
+                    writeln!(to, "mtllib {library}")?;
+                }
+                mesh.write_obj_objects(materials, objects, to)
+            }
         }
     }
 }
@@ -120,8 +144,14 @@ impl Scene {
     /// ```
     pub fn export(self, options: &ExportOptions, name: &str) -> Result<Export, Box<Diagnostic>> {
         let mut account = Account::default();
+        if options.bare && options.format == Format::Toml {
+            account
+                .map("camera, lights and background are those a bare model is shown with".into());
+        }
         let files = match options.format {
             Format::Toml => write_toml(self, name, options.ply, &mut account)?,
+            Format::Obj => flat::write_obj(self, options, name, &mut account)?,
+            Format::Ply => flat::write_ply(self, options, name, &mut account)?,
             other => {
                 let message = format!("{other} files are not written yet");
                 let help = "write .toml, .obj or .ply";

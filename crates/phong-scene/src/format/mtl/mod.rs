@@ -35,8 +35,11 @@
 
 mod draft;
 mod texture;
+mod write;
 
 use std::sync::Arc;
+
+pub(crate) use write::{Difference, write as write_material};
 
 use self::draft::Draft;
 use super::text::{Cursor, Decimal, Findings, Piece, blame, read_text, whole};

@@ -25,6 +25,16 @@ impl Mesh {
     /// # Ok::<(), std::io::Error>(())
     /// ```
     pub fn write_obj(&self, materials: &[Material], to: &mut dyn Write) -> io::Result<()> {
+        self.write_obj_objects(materials, &[], to)
+    }
+
+    /// The same with the names of objects, each before the triangle whose number stands with it.
+    pub(crate) fn write_obj_objects(
+        &self,
+        materials: &[Material],
+        objects: &[(usize, String)],
+        to: &mut dyn Write,
+    ) -> io::Result<()> {
         let to = &mut BufWriter::with_capacity(1 << 16, to);
         for (i, p) in self.positions.iter().enumerate() {
             if self.origin == DVec3::ZERO {
@@ -47,7 +57,11 @@ impl Mesh {
         let uvs = Corners::new(self.uvs.len(), &self.uv_indices, &self.indices);
         let normals = Corners::new(self.normals.len(), &self.normal_indices, &self.indices);
         let mut material = None;
+        let mut objects = objects.iter().peekable();
         for (face, corners) in self.indices.iter().enumerate() {
+            while let Some((_, name)) = objects.next_if(|(first, _)| *first <= face) {
+                writeln!(to, "o {name}")?;
+            }
             let used = self.face_materials.get(face);
             if material != used {
                 material = used;

@@ -216,23 +216,6 @@ fn model(material: &Material, key: &str) -> Option<Value> {
     })
 }
 
-/// The name of a shape's table.
-pub(super) fn shape_kind(shape: &Shape) -> &'static str {
-    match shape {
-        Shape::Sphere { .. } => "sphere",
-        Shape::Plane { .. } => "plane",
-        Shape::Triangle { .. } => "triangle",
-        Shape::Disc { .. } => "disc",
-        Shape::Box { .. } => "box",
-        Shape::Cylinder { .. } => "cylinder",
-        Shape::Cone { .. } => "cone",
-        Shape::Torus { .. } => "torus",
-        Shape::Mesh(_) => "mesh",
-        Shape::Points(_) => "points",
-        Shape::Instance(_) => "instance",
-    }
-}
-
 /// The shape's own keys; those of meshes, points and instances name files and groups.
 pub(super) fn shape(shape: &Shape, key: &str) -> Option<Value> {
     use Shape::{Box, Cone, Cylinder, Disc, Plane, Sphere, Torus, Triangle};

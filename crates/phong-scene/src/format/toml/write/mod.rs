@@ -14,7 +14,7 @@ use glam::{DAffine3, DVec3};
 
 use super::table::default;
 use super::value::Value;
-use crate::format::export::{Account, Content, File};
+use crate::format::export::{Account, Content, File, free_name, split_all};
 use crate::keys::{self, Kind, LARGEST, Table};
 use crate::{Diagnostic, Material, MaterialId, Mesh, Object, PlyEncoding, Scene, Shape, Span};
 
@@ -186,7 +186,7 @@ impl Writer<'_> {
         });
         let tables: BTreeMap<_, _> = known.collect();
         for mut object in objects {
-            let kind = concepts::shape_kind(&object.shape);
+            let kind = object.shape.kind();
             let Some(table) = tables.get(kind) else { continue };
             let number = self.counts.get(kind).map_or(1, |count| count + 1);
             let file = format!("{}.{kind}-{number}.ply", self.stem);
@@ -215,35 +215,6 @@ impl Writer<'_> {
             self.files.extend(content.map(|content| File { name: file.clone(), content }));
         }
     }
-}
-
-/// Every object, those of several materials cut into one for each: a PLY file has none.
-fn split_all(objects: Vec<Object>, account: &mut Account) -> Vec<Object> {
-    objects.into_iter().flat_map(|object| split(object, account)).collect()
-}
-
-fn split(mut object: Object, account: &mut Account) -> Vec<Object> {
-    let Shape::Mesh(mesh) = &mut object.shape else { return vec![object] };
-    let faces = std::mem::take(&mut mesh.face_materials);
-    let used: BTreeSet<u32> = faces.iter().copied().collect();
-    if let [only] = used.iter().copied().collect::<Vec<_>>()[..] {
-        object.material = MaterialId(only);
-    }
-    if used.len() <= 1 {
-        return vec![object];
-    }
-    let Object { name, shape: Shape::Mesh(mesh), transform, place, .. } = &object else {
-        return vec![object];
-    };
-    account.map(format!("{name} of {} materials becomes as many meshes", used.len()));
-    let part = |material: u32| Object {
-        name: name.clone(),
-        shape: Shape::Mesh(Box::new(mesh.part(|face| faces[face] == material))),
-        material: MaterialId(material),
-        transform: *transform,
-        place: place.clone(),
-    };
-    used.into_iter().map(part).collect()
 }
 
 /// Whether there is anything to see; if not, that is said.
@@ -302,14 +273,10 @@ impl Materials {
         let mut names = Vec::with_capacity(all.len());
         for material in &all {
             let base = if material.name.is_empty() { "unnamed" } else { &material.name };
-            let numbered = (2..).map(|n| format!("{base} {n}"));
-            let free =
-                std::iter::once(base.to_owned()).chain(numbered).find(|n| !taken.contains(n));
-            let name = free.unwrap_or_default();
+            let name = free_name(base, &mut taken);
             if name != material.name {
                 account.map(format!("a second material `{}` is called `{name}`", material.name));
             }
-            taken.insert(name.clone());
             names.push(name);
         }
         Self { all, names, used: BTreeSet::new() }
