@@ -2,7 +2,7 @@
 //!
 //! Rooms, lowest storey first; a room imports only rooms below it: `math`; `reflectance`,
 //! `sampling`, `filter`; `material`, `light`, `camera`; `compile`, `interaction`; `integrator`,
-//! `witness`; `film`, `aov`, `render`; `image`, `part`, `explain`, `compare`; `figures`,
+//! `witness`; `film`, `aov`, `render`; `image`, `markup`, `part`, `explain`, `compare`; `figures`,
 //! `eval`, `fit`.
 
 pub mod aov;
@@ -20,6 +20,7 @@ pub mod image;
 pub mod integrator;
 pub mod interaction;
 pub mod light;
+mod markup;
 pub mod material;
 pub mod math;
 pub mod part;

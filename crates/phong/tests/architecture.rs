@@ -29,6 +29,7 @@ const ROOMS: &[&str] = &[
     "render",
     // 7: what leaves the house
     "image",
+    "markup",
     "part",
     "eval",
     "explain",
@@ -73,7 +74,8 @@ fn root() -> PathBuf {
 fn tree() -> Vec<File> {
     const KINDS: &[&str] =
         &["rs", "toml", "py", "pyi", "js", "css", "html", "md", "sh", "pov", "yml", "run"];
-    const ELSEWHERE: &[&str] = &["target", "node_modules", "corpus", "artifacts", "book/book"];
+    const ELSEWHERE: &[&str] =
+        &["target", "node_modules", "corpus", "artifacts", "book/book", "book/src/made"];
     let root = root();
     let (mut files, mut folders) = (Vec::new(), vec![root.clone()]);
     while let Some(folder) = folders.pop() {

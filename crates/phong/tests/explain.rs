@@ -117,7 +117,7 @@ fn an_explanation_in_words_puts_the_numbers_into_the_equation() {
     let (scene, options) = compiled("two-balls.toml");
     let told = explain(&scene, &RenderOptions { samples: 1, ..options }, [9, 6]).unwrap();
     let text = told.text(None, true);
-    for wanted in ["pixel (9, 6) of 20 × 12", "N·L = ", "diffuse  = k_d (N·L) C_d = ", "bytes"] {
+    for wanted in ["pixel (9, 6) of 20 × 12", "N·L = ", "diffuse  = k_d (N·L) C_d\n", "bytes"] {
         assert!(text.contains(wanted), "{wanted:?} is not in\n{text}");
     }
 }

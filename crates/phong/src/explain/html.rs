@@ -4,7 +4,6 @@
 //! asked for. What belongs to many pixels (objects, lights, materials) is written once. The page
 //! computes nothing that it states: it only lays out the numbers.
 
-use std::fmt::Write as _;
 use std::io::Write as _;
 
 use flate2::Compression;
@@ -14,9 +13,10 @@ use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
 use super::json::{dir, list, number, rgb};
-use super::text::{described, factors, hidden, named};
+use super::text::{NOTICED, described, factors, hidden, named};
 use super::{End, Explanation, Lit, Onward, RayTold, Surface, explain};
 use crate::compile::CompiledScene;
+use crate::markup::{base64, data_url, escaped};
 use crate::reflectance::Terms;
 use crate::render::{Cancel, Cancelled, RenderOptions};
 
@@ -67,7 +67,7 @@ pub fn page(
         ("{{size}}", json!(options.size).to_string()),
         ("{{shared}}", in_script(&shared.json().to_string())),
         ("{{rows}}", json!(rows).to_string()),
-        ("{{picture}}", base64(png)),
+        ("{{picture}}", data_url("image/png", png)),
     ] {
         out = out.replace(slot, &text);
     }
@@ -121,7 +121,7 @@ impl Shared<'_> {
             "samples": told
                 .samples
                 .iter()
-                .map(|s| s.ray.as_ref().map(|ray| self.ray(ray)))
+                .map(|s| s.ray.as_ref().map(|ray| self.ray(ray, 1.0)))
                 .collect::<Vec<_>>(),
             "terms": told.terms.to_array().map(term),
             "linear": rgb(told.linear),
@@ -129,14 +129,15 @@ impl Shared<'_> {
         })
     }
 
-    fn ray(&self, told: &RayTold) -> Value {
+    /// A ray that weighs `weight` in its sample.
+    fn ray(&self, told: &RayTold, weight: f32) -> Value {
         match &told.end {
             End::Background(background) => json!({ "hit": 0, "bg": rgb(*background) }),
-            End::Surface(surface) => self.surface(surface),
+            End::Surface(surface) => self.surface(surface, weight),
         }
     }
 
-    fn surface(&self, s: &Surface) -> Value {
+    fn surface(&self, s: &Surface, weight: f32) -> Value {
         let mut out = json!({
             "hit": s.object_number + 1,
             "m": s.material_number,
@@ -155,19 +156,25 @@ impl Shared<'_> {
         }
         for (key, onward) in [("refl", &s.reflection), ("trans", &s.transmission)] {
             if let Some(onward) = onward {
-                out[key] = self.onward(onward);
+                out[key] = self.onward(onward, weight * onward.weight.max_channel());
             }
         }
         out
     }
 
-    fn onward(&self, onward: &Onward) -> Value {
-        json!({
+    /// What brings less than one sees is only summed up: glass would fill the page with it.
+    fn onward(&self, onward: &Onward, weight: f32) -> Value {
+        let mut out = json!({
             "w": rgb(onward.weight),
             "f": onward.fresnel.map(number),
-            "ray": onward.ray.as_ref().map(|ray| self.ray(ray)),
             "c": rgb(onward.weight * onward.light),
-        })
+        });
+        match &onward.ray {
+            Some(_) if weight * onward.light.max_channel() < NOTICED => out["small"] = json!(true),
+            Some(ray) => out["ray"] = self.ray(ray, weight),
+            None => {}
+        }
+        out
     }
 }
 
@@ -209,39 +216,9 @@ fn deflated(text: &str) -> String {
     base64(&bytes.unwrap_or_default())
 }
 
-/// RFC 4648, padded.
-pub(crate) fn base64(bytes: &[u8]) -> String {
-    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut out = String::with_capacity(bytes.len().div_ceil(3) * 4);
-    for chunk in bytes.chunks(3) {
-        let byte = |i: usize| u32::from(chunk.get(i).copied().unwrap_or(0));
-        let bits = byte(0) << 16 | byte(1) << 8 | byte(2);
-        for digit in 0..4 {
-            let there = digit <= chunk.len();
-            let value = DIGITS[(bits >> (18 - 6 * digit) & 63) as usize];
-            out.push(if there { char::from(value) } else { '=' });
-        }
-    }
-    out
-}
-
 /// JSON that stands in a script element: nothing in it may end the element.
 fn in_script(json: &str) -> String {
     json.replace("</", "<\\/").replace("<!--", "<\\!--")
-}
-
-/// Text that means nothing to HTML.
-pub(super) fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' | '<' | '>' | '"' => {
-                let _ = write!(out, "&#{};", u32::from(c));
-            }
-            _ => out.push(c),
-        }
-    }
-    out
 }
 
 #[cfg(test)]
@@ -249,23 +226,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn base64_is_rfc_4648() {
-        for (plain, coded) in [
-            ("", ""),
-            ("f", "Zg=="),
-            ("fo", "Zm8="),
-            ("foo", "Zm9v"),
-            ("foob", "Zm9vYg=="),
-            ("fooba", "Zm9vYmE="),
-            ("foobar", "Zm9vYmFy"),
-        ] {
-            assert_eq!(base64(plain.as_bytes()), coded);
-        }
-    }
-
-    #[test]
-    fn a_title_cannot_break_the_page() {
-        assert_eq!(escaped("a<b> & \"c\""), "a&#60;b&#62; &#38; &#34;c&#34;");
+    fn a_name_cannot_end_the_script() {
         assert_eq!(in_script("{\"n\":\"</script>\"}"), "{\"n\":\"<\\/script>\"}");
     }
 }

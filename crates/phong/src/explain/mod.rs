@@ -7,6 +7,7 @@
 pub mod html;
 mod json;
 mod latex;
+mod numbers;
 mod record;
 mod svg;
 mod text;

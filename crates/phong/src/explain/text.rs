@@ -1,17 +1,17 @@
 //! An explanation for a terminal: the equation with the numbers put in.
 
-use std::fmt::{self, Display, Formatter, Write};
+use std::fmt::{self, Write};
 
-use glam::DVec3;
-use phong_scene::{Model, Rgb, Viewer};
+use phong_scene::{Model, Viewer};
 
+use super::numbers::{Color, Digits, Direction, Position, columns};
 use super::{Encoded, End, Explanation, Lit, Onward, RayTold, Sample, Surface};
-use crate::math::{Dir3, lobe};
+use crate::math::lobe;
 use crate::reflectance::Terms;
 use crate::reflectance::blinn_phong::rational_lobe;
 
 /// Half a level of 255, where the curve is steepest.
-const NOTICED: f32 = 0.5 / 255.0 / 12.92;
+pub(super) const NOTICED: f32 = 0.5 / 255.0 / 12.92;
 
 impl Explanation {
     /// The explanation in lines of text. Of several samples all are listed and `sample` (from 0)
@@ -114,19 +114,19 @@ impl Page {
             s.t
         ));
         self.line(format_args!("material {}: {}", s.material.name, described(&s.material)));
-        self.line(format_args!("p      = {}", Position(s.p)));
-        self.line(format_args!("uv     = ({}, {})", s.uv[0], s.uv[1]));
-        self.line(format_args!("n_g    = {}", Direction(s.ng)));
-        self.line(format_args!("N      = {}", Direction(s.n)));
-        self.line(format_args!("E      = {}", Direction(s.e)));
-        self.line(format_args!("colour = {}", Color(s.color)));
+        self.line(format_args!("uv       ({}, {})", s.uv[0], s.uv[1]));
+        self.table(&[
+            ("colour  ", Color(s.color).to_string()),
+            ("p       ", Position(s.p).to_string()),
+            ("n_g     ", Direction(s.ng).to_string()),
+            ("N       ", Direction(s.n).to_string()),
+            ("E       ", Direction(s.e).to_string()),
+        ]);
         self.blank();
-        self.line(format_args!(
-            "ambient      k_a C_a = {} × {} = {}",
-            s.material.k_a,
-            Color(s.c_a),
-            Color(s.ambient)
-        ));
+        self.equation(
+            "ambient  = k_a C_a",
+            &[format!("{} × {}", s.material.k_a, Color(s.c_a)), Color(s.ambient).to_string()],
+        );
         for light in &s.lights {
             self.blank();
             self.light(s, light);
@@ -153,43 +153,38 @@ impl Page {
         if !lit.ambient.is_black() {
             self.line(format_args!("ambient of this light = {}", Color(lit.ambient)));
         }
-        let Some(why) = hidden(lit) else {
-            self.line(format_args!(
-                "diffuse  = {} = {}",
-                diffuse_equation(s, lit),
-                Color(lit.diffuse)
-            ));
+        if let Some(why) = hidden(lit) {
+            self.line(format_args!("{why}: diffuse and specular are 0"));
+        } else {
+            let (equation, numbers) = diffuse_equation(s, lit);
+            self.equation(&equation, &[numbers, Color(lit.diffuse).to_string()]);
             if has_highlight(m) {
-                self.line(format_args!(
-                    "specular = {} = {}",
-                    specular_equation(s, lit),
-                    Color(lit.specular)
-                ));
+                let (equation, mut numbers) = specular_equation(s, lit);
+                numbers.push(Color(lit.specular).to_string());
+                self.equation(&equation, &numbers);
             }
-            self.indent -= 2;
-            return;
-        };
-        self.line(format_args!("{why}: diffuse and specular are 0"));
+        }
         self.indent -= 2;
     }
 
     fn vectors(&mut self, lit: &Lit) {
         let Some(l) = lit.l else { return };
-        self.line(format_args!("L = {}   N·L = {}", Direction(l), lit.n_dot_l));
-        if let Some(r) = lit.r {
-            self.line(format_args!("R = {}   R·E = {}", Direction(r), lit.r_dot_e));
-        }
-        if let Some(h) = lit.h {
-            self.line(format_args!("H = {}   N·H = {}", Direction(h), lit.n_dot_h));
+        let mut rows = vec![("L", l, "N·L", lit.n_dot_l)];
+        rows.extend(lit.r.map(|r| ("R", r, "R·E", lit.r_dot_e)));
+        rows.extend(lit.h.map(|h| ("H", h, "N·H", lit.n_dot_h)));
+        let written: Vec<String> = rows.iter().map(|row| Direction(row.1).to_string()).collect();
+        for ((name, _, product, cosine), vector) in rows.iter().zip(columns(&written)) {
+            self.line(format_args!("{name}        = {vector}   {product} = {cosine}"));
         }
         match (&lit.blocker, lit.tested) {
             (Some(b), _) => self.line(format_args!(
-                "shadow   {} ({}) stands between, {} away",
+                "shadow   : {} ({}) stands between, {} away",
                 named(&b.object, b.element),
                 b.at,
                 b.t
             )),
-            (None, true) => self.line(format_args!("shadow   nothing stands between")),
+            (None, true) => self.line(format_args!("shadow   : nothing stands between")),
+            (None, false) if lit.visible => self.line(format_args!("shadow   : not looked for")),
             (None, false) => {}
         }
     }
@@ -209,21 +204,39 @@ impl Page {
         }
         self.weight = outer;
         self.indent -= 2;
-        self.line(format_args!(
-            "{name} = {} × {} = {}",
-            Color(onward.weight),
-            Color(onward.light),
-            Color(onward.weight * onward.light)
-        ));
+        self.equation(
+            &format!("{name:<12} = weight × light"),
+            &[
+                format!("{} × {}", Color(onward.weight), Color(onward.light)),
+                Color(onward.weight * onward.light).to_string(),
+            ],
+        );
+    }
+
+    /// An equation, and under its sign of equality what it comes to.
+    fn equation(&mut self, equation: &str, steps: &[String]) {
+        self.line(format_args!("{equation}"));
+        let before = equation.find('=').unwrap_or(0);
+        for step in steps {
+            self.line(format_args!("{:before$}= {step}", ""));
+        }
+    }
+
+    fn table(&mut self, rows: &[(&str, String)]) {
+        let triples: Vec<String> = rows.iter().map(|row| row.1.clone()).collect();
+        for ((name, _), triple) in rows.iter().zip(columns(&triples)) {
+            self.line(format_args!("{name} = {}", triple.trim_end()));
+        }
     }
 
     fn terms(&mut self, terms: Terms) {
-        for (name, term) in Terms::NAMES.iter().zip(terms.to_array()) {
-            if !term.is_black() {
-                self.line(format_args!("{name:<12} {}", Color(term)));
-            }
+        let shown = Terms::NAMES.into_iter().zip(terms.to_array());
+        let mut rows: Vec<_> = shown.filter(|(_, term)| !term.is_black()).collect();
+        rows.push(("sum", terms.total()));
+        let written: Vec<String> = rows.iter().map(|row| Color(row.1).to_string()).collect();
+        for ((name, _), triple) in rows.iter().zip(columns(&written)) {
+            self.line(format_args!("{name:<12} {}", triple.trim_end()));
         }
-        self.line(format_args!("{:<12} {}", "sum", Color(terms.total())));
     }
 
     fn sum(&mut self, e: &Explanation) {
@@ -269,42 +282,45 @@ fn has_highlight(material: &phong_scene::Material) -> bool {
     !matches!(material.model, Model::Lambert | Model::OrenNayar { .. })
 }
 
-fn diffuse_equation(s: &Surface, lit: &Lit) -> String {
-    let k_d = s.material.k_d;
-    match s.material.model {
-        Model::OrenNayar { .. } => {
-            format!("k_d π f (N·L) C_d, k_d = {k_d}, C_d = {}", Color(lit.c_d))
-        }
-        _ => format!("k_d (N·L) C_d = {k_d} × {} × {}", lit.n_dot_l, Color(lit.c_d)),
-    }
+/// The diffuse term in letters and in numbers.
+fn diffuse_equation(s: &Surface, lit: &Lit) -> (String, String) {
+    let (k_d, c_d) = (s.material.k_d, Color(lit.c_d));
+    let oren_nayar = matches!(s.material.model, Model::OrenNayar { .. });
+    let (letters, numbers) = if oren_nayar { ("π f ", "π f × ") } else { ("", "") };
+    (
+        format!("diffuse  = k_d {letters}(N·L) C_d"),
+        format!("{k_d} × {numbers}{} × {c_d}", lit.n_dot_l),
+    )
 }
 
-fn specular_equation(s: &Surface, lit: &Lit) -> String {
+/// The specular term in letters, and step by step in numbers.
+fn specular_equation(s: &Surface, lit: &Lit) -> (String, Vec<String>) {
     let m = &s.material;
+    let (k_s, c_s, factors) = (m.k_s, Color(lit.c_s), factors(m));
     let (cosine, name) = match m.model {
         Model::Phong => (lit.r_dot_e, "R·E"),
         Model::BlinnPhong => (lit.n_dot_h, "N·H"),
         Model::BlinnFast => {
             let (x, alpha) = (lit.n_dot_h, m.shininess);
-            return format!(
-                "k_s x/(α − αx + x) C_s{} = {} × {} × {}{}, x = N·H = {x}, α = {alpha}",
-                factors(m),
-                m.k_s,
-                Digits(rational_lobe(x, alpha)),
-                Color(lit.c_s),
-                factors(m),
-            );
+            let value = Digits(rational_lobe(x, alpha));
+            let letters =
+                format!("specular = k_s x/(α − αx + x) C_s{factors}, x = N·H, α = {alpha}");
+            return (letters, vec![format!("{k_s} × {value} × {c_s}{factors}")]);
         }
-        _ => return format!("k_s π f (N·L) C_s, k_s = {}, C_s = {}", m.k_s, Color(lit.c_s)),
+        _ => {
+            let numbers = format!("{k_s} × π f × {} × {c_s}", lit.n_dot_l);
+            return ("specular = k_s π f (N·L) C_s".to_owned(), vec![numbers]);
+        }
     };
     let alpha = m.shininess;
     let power = lobe(cosine.max(0.0), alpha);
-    let factors = factors(m);
-    format!(
-        "k_s ({name})^{alpha} C_s{factors} = {} × {} × {}{factors}",
-        m.k_s,
-        Digits(power),
-        Color(lit.c_s)
+    let base = if cosine < 0.0 { format!("max(0, {cosine})") } else { cosine.to_string() };
+    (
+        format!("specular = k_s ({name})^{alpha} C_s{factors}"),
+        vec![
+            format!("{k_s} × {base}^{alpha} × {c_s}{factors}"),
+            format!("{k_s} × {} × {c_s}{factors}", Digits(power)),
+        ],
     )
 }
 
@@ -349,52 +365,5 @@ pub(super) fn described(m: &phong_scene::Material) -> String {
             "Ward, roughness {roughness_x} × {roughness_y}, k_a {}, k_d {}, k_s {}",
             m.k_a, m.k_d, m.k_s
         ),
-    }
-}
-
-/// A number with all its digits, in powers of ten where they would begin with many zeros.
-pub(super) struct Digits(pub(super) f32);
-
-impl Display for Digits {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let v = self.0;
-        if v == 0.0 || (1e-4..1e9).contains(&v.abs()) {
-            write!(f, "{v}")
-        } else {
-            write!(f, "{v:e}")
-        }
-    }
-}
-
-/// A point in the world; f32s, moved in f64 only where the scene was far from the origin.
-struct Position(DVec3);
-
-impl Display for Position {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let number = |v: f64| {
-            if f64::from(v as f32) == v { (v as f32).to_string() } else { v.to_string() }
-        };
-        let DVec3 { x, y, z } = self.0;
-        write!(f, "({}, {}, {})", number(x), number(y), number(z))
-    }
-}
-
-/// A colour with all its digits.
-pub(super) struct Color(pub(super) Rgb);
-
-impl Display for Color {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let [r, g, b] = self.0.to_array();
-        write!(f, "({}, {}, {})", Digits(r), Digits(g), Digits(b))
-    }
-}
-
-/// A direction with all its digits.
-pub(super) struct Direction(pub(super) Dir3);
-
-impl Display for Direction {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let [x, y, z] = self.0.to_array();
-        write!(f, "({}, {}, {})", Digits(x), Digits(y), Digits(z))
     }
 }

@@ -154,7 +154,7 @@ fn solid(drawing: &mut Drawing, o: Point, length: f64) {
         drawing.stroke(Path::polyline(points), Stroke::new(ink, style::LINE));
         drawing.label(at(0.5) + 14.0 * (at(0.5) - o).normalize_or_zero(), 18.0, ink, words);
     };
-    arc(drawing, r, e.to_vec(), 0.55, style::TEXT, "*φ*");
+    arc(drawing, r, e.to_vec(), 0.8, style::TEXT, "*φ*");
     arc(drawing, Vec3::Y, h, 0.74, style::HALF, "*β*");
     drawing.line(o, place(1.3 * r), Stroke::new(style::MIRROR, 2.0).dashed());
     let beyond = |tip: Point| tip + 15.0 * (tip - o).normalize_or_zero();

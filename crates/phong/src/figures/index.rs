@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::{Figure, Number, plot, svg, text};
+use crate::markup::escaped;
 
 const STYLE: &str = "\
 body { margin: 2.5rem auto; padding: 0 1.5rem; max-width: 60rem; color: #1f242b;
@@ -30,9 +31,8 @@ pub fn page(figures: &[Figure]) -> String {
          <p>Everything here was drawn, rendered and measured by <code>phong figure all</code>.</p>\n",
         svg::font_faces()
     );
-    let link = |figure: &Figure| {
-        format!("<a href=\"#{}\">{}</a>", figure.name, text::escape(figure.title()))
-    };
+    let link =
+        |figure: &Figure| format!("<a href=\"#{}\">{}</a>", figure.name, escaped(figure.title()));
     let links: Vec<String> = figures.iter().map(link).collect();
     let _ = writeln!(out, "<nav>{}</nav>", links.join(" · "));
     for figure in figures {
@@ -46,17 +46,17 @@ fn section(out: &mut String, figure: &Figure) {
     let _ = write!(
         out,
         "<section id=\"{name}\">\n<h2>{}</h2>\n<p class=\"equation\">{}</p>\n{}<p>{}</p>\n<table>\n",
-        text::escape(plate.title),
+        escaped(plate.title),
         text::html(plate.equation),
         svg::inline(&plate.drawing, plate.title, plate.caption),
-        text::escape(plate.caption),
+        escaped(plate.caption),
     );
     for Number { name, value, unit } in &plate.numbers {
         let unit = if matches!(*unit, "" | "°") { (*unit).to_owned() } else { format!(" {unit}") };
         let _ = writeln!(
             out,
             "<tr><th>{}</th><td>{}{unit}</td></tr>",
-            text::escape(name),
+            escaped(name),
             text::html(&plot::six(*value))
         );
     }

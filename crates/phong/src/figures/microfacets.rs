@@ -121,10 +121,17 @@ fn histogram(drawing: &mut Drawing, experiment: &Experiment, many: &Tally) {
     let peak = experiment.lobe.iter().copied().fold(0.0, f64::max);
     let top = 1.15 * peak;
     let plot = Plot { corners, x: RANGE, y: [0.0, top] };
-    plot.axes(drawing, &ticks(&[-30.0, 0.0, 30.0, 60.0, 90.0, 120.0], "°"), &ticks(&[0.0], ""));
+    let step = [0.05, 0.1, 0.2, 0.5, 1.0].into_iter().find(|step| top / step < 4.0).unwrap_or(2.0);
+    let values: Vec<f64> = (0..=(top / step) as u32)
+        .map(|tick| (100.0 * step * f64::from(tick)).round() / 100.0)
+        .collect();
+    let degrees = ticks(&[-30.0, 0.0, 30.0, 60.0, 90.0, 120.0], "°");
+    plot.axes(drawing, &degrees, &ticks(&values, ""));
     plot.names(drawing, "direction, from the normal", "per steradian", 26.0);
     let horizon = Stroke::new(style::SURFACE, style::THIN).dashed();
     drawing.line(plot.at(90.0, 0.0), plot.at(90.0, top), horizon);
+    let beside = plot.at(92.0, 0.92 * top);
+    drawing.text(beside, Anchor::Start, style::TICK, style::MUTED, "horizon");
     let psi = |band: f64| RANGE[0] + (RANGE[1] - RANGE[0]) * band / BANDS as f64;
     for (band, value) in many.weighted.iter().enumerate() {
         let band = band as f64;

@@ -102,7 +102,7 @@ fn section(drawing: &mut Drawing, c: Point, radius: f64) {
     drawing.dot(c, style::TEXT);
     drawing.label(c + Point::new(-14.0, -12.0), style::LETTER, style::TEXT, "*c*");
     drawing.dot(p, style::TEXT);
-    drawing.label(p + Point::new(-6.0, 22.0), style::LETTER, style::TEXT, "*p*");
+    drawing.label(p + Point::new(-26.0, 4.0), style::LETTER, style::TEXT, "*p*");
 }
 
 #[cfg(test)]

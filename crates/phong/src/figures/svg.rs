@@ -9,6 +9,7 @@ use super::drawing::{Anchor, Bitmap, Drawing, Ink, Mark, Path, Point, Step, Stro
 use super::raster;
 use super::style;
 use super::text::{self, Script};
+use crate::markup::{data_url, escaped};
 
 /// Names of the faces, with common ones behind them.
 const SANS: &str = "'Noto Sans','DejaVu Sans',sans-serif";
@@ -34,11 +35,11 @@ pub(super) fn font_faces() -> String {
     ];
     let mut css = String::new();
     for (family, style, weight, file) in faces {
-        let data = base64(file);
+        let data = data_url("font/ttf", file);
         let _ = writeln!(
             css,
             "@font-face{{font-family:'{family}';font-style:{style};font-weight:{weight};\
-             src:url(data:font/ttf;base64,{data})}}"
+             src:url({data})}}"
         );
     }
     css
@@ -50,8 +51,8 @@ fn element(drawing: &Drawing, title: &str, description: &str, head: &str) -> Str
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {w} {h}\" width=\"{w}\" height=\"{h}\" \
          role=\"img\" font-family=\"{SANS}\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n\
          <title>{}</title>\n<desc>{}</desc>\n{head}",
-        text::escape(title),
-        text::escape(description),
+        escaped(title),
+        escaped(description),
         w = number(width),
         h = number(height),
     );
@@ -124,7 +125,7 @@ fn words(text: &Text) -> String {
     let mut sunk = 0.0;
     for run in runs {
         let drop = run.script.drop() * size;
-        let words = text::escape(&run.words);
+        let words = escaped(&run.words);
         if !run.italic && run.script == Script::Line && drop == sunk {
             out += &words;
             continue;
@@ -147,12 +148,12 @@ fn words(text: &Text) -> String {
 
 fn image(at: Point, size: Point, bitmap: &Bitmap) -> String {
     format!(
-        "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" href=\"data:image/png;base64,{}\"/>\n",
+        "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" href=\"{}\"/>\n",
         number(at.x),
         number(at.y),
         number(size.x),
         number(size.y),
-        base64(&raster::encode(bitmap))
+        data_url("image/png", &raster::encode(bitmap))
     )
 }
 
@@ -163,34 +164,9 @@ fn number(value: f64) -> String {
     if trimmed == "-0" { "0".to_owned() } else { trimmed.to_owned() }
 }
 
-/// Base 64 with padding, RFC 4648.
-fn base64(bytes: &[u8]) -> String {
-    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut out = String::with_capacity(bytes.len().div_ceil(3) * 4);
-    for chunk in bytes.chunks(3) {
-        let byte = |i: usize| u32::from(chunk.get(i).copied().unwrap_or(0));
-        let word = byte(0) << 16 | byte(1) << 8 | byte(2);
-        for digit in 0..4 {
-            let shown = digit <= chunk.len();
-            let index = (word >> (18 - 6 * digit)) & 63;
-            out.push(if shown { char::from(DIGITS[index as usize]) } else { '=' });
-        }
-    }
-    out
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn base64_agrees_with_the_examples_of_rfc_4648() {
-        let pairs =
-            [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foob", "Zm9vYg==")];
-        for (plain, coded) in pairs {
-            assert_eq!(base64(plain.as_bytes()), coded);
-        }
-    }
 
     #[test]
     fn numbers_are_short() {

@@ -5,6 +5,7 @@
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
 use super::drawing::{Anchor, Path, Point, Text};
+use crate::markup::escaped;
 
 /// A stretch of text in one face and at one height.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,7 +73,7 @@ pub(super) fn runs(markup: &str) -> Vec<Run> {
 pub(super) fn html(markup: &str) -> String {
     let mut out = String::new();
     for Run { words, italic, script } in runs(markup) {
-        let words = escape(&words);
+        let words = escaped(&words);
         let words = if italic { format!("<i>{words}</i>") } else { words };
         match script {
             Script::Line => out += &words,
@@ -81,11 +82,6 @@ pub(super) fn html(markup: &str) -> String {
         }
     }
     out
-}
-
-/// Words as they may stand in XML and HTML.
-pub(super) fn escape(words: &str) -> String {
-    words.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// The three faces, as files. Subsets of Noto; see `font/README.md`.

@@ -12,7 +12,7 @@ use crate::light::Light;
 use crate::math::{Dir3, wide};
 
 const TITLE: &str = "To the eye and to the light";
-const EQUATION: &str = "*e* = eye − *p*,   *l* = lamp − *p*";
+const EQUATION: &str = "*e* = (eye − *p*) / ‖eye − *p*‖,   *l* = (lamp − *p*) / ‖lamp − *p*‖";
 
 /// Where on the unit circle the two points are, degrees.
 const POINTS: [f64; 2] = [112.0, 38.0];

@@ -14,9 +14,9 @@ use super::lobe::Shone;
 use super::surface::written;
 use super::{Fit, Lobe, Slice};
 use crate::compile::{CompileOptions, CompiledScene};
-use crate::explain::html::base64;
 use crate::film::{Film, LayerKind};
 use crate::image::{Content, Encoding, Format, write};
+use crate::markup::data_url;
 use crate::render::{Cancel, RenderOptions, render};
 
 /// Pixels of each of the two pictures.
@@ -60,7 +60,7 @@ fn draw(out: &mut String, fit: &Fit) -> std::fmt::Result {
             writeln!(
                 out,
                 "<image x=\"{x}\" y=\"46\" width=\"{}\" height=\"{}\" \
-                 href=\"data:image/png;base64,{png}\"/>",
+                 href=\"{png}\"/>",
                 PICTURE[0], PICTURE[1]
             )?;
         }
@@ -143,7 +143,7 @@ fn plot(
     writeln!(out, "</g>")
 }
 
-/// A ball on a floor, both of this lobe over a dark Lambert, as a PNG in base 64; `None` where
+/// A ball on a floor, both of this lobe over a dark Lambert, as the address of a PNG; `None` where
 /// it cannot be drawn.
 fn picture(lobe: Lobe) -> Option<String> {
     let scene = ball_on_floor(lobe);
@@ -157,7 +157,7 @@ fn png(film: &Film) -> Option<String> {
     let mut bytes = Cursor::new(Vec::new());
     let content = Content::Layer(LayerKind::Picture);
     write(film, content, Format::Png, &Encoding::default(), &mut bytes).ok()?;
-    Some(base64(&bytes.into_inner()))
+    Some(data_url("image/png", &bytes.into_inner()))
 }
 
 fn ball_on_floor(lobe: Lobe) -> Scene {
