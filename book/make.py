@@ -33,8 +33,10 @@ SHELL = {**os.environ, "PATH": f"{ROOT}/target/release{os.pathsep}{os.environ['P
 
 BLOCK = re.compile(r"^```console\n(.*?)^```$", re.M | re.S)
 FILE = re.compile(r"^<!-- file: (\S+) -->\n+```\w*\n(.*?)^```$", re.M | re.S)
-# A command, its continued lines included, and what it says.
-PROMISE = re.compile(r"^\$ ((?:.*\\\n)*.*)\n((?:(?!\$ ).*\n)*)", re.M)
+# A command, with its continued lines or all up to `end`, and what it says.
+PROMISE = re.compile(
+    r"^\$ (.*<< end\n(?:.*\n)*?end|(?:.*\\\n)*.*)\n((?:(?!\$ ).*\n)*)", re.M
+)
 
 
 def run(command, folder=ROOT):
@@ -106,6 +108,21 @@ def gallery():
     (MADE / "scenes.md").write_text(page)
 
 
+def readme():
+    """What the README asks its reader to type works, and its picture is what comes of it.
+
+    The figures are among what comes of it.
+    """
+    work = WORK / "readme"
+    work.mkdir(parents=True)
+    (work / "scenes").symlink_to(SCENES)
+    for command in re.findall(r"^phong .*$", (ROOT / "README.md").read_text(), re.M):
+        run(command, work)
+    run("phong render scenes/terms.toml --quiet", work)
+    run(f"phong compare terms.png {SOURCE}/pictures/terms.png", work)
+    shutil.move(work / "figures", MADE / "figures")
+
+
 class Page(HTMLParser):
     """The names and the links of a page."""
 
@@ -153,11 +170,8 @@ def main():
     for folder in (MADE, WORK, BUILT):
         shutil.rmtree(folder, ignore_errors=True)
     run("cargo build --release -p phong-cli")
-    run(f"phong figure all -d {MADE}/figures")
     gallery()
-    WORK.mkdir(parents=True)
-    run(f"phong render {SCENES}/terms.toml --quiet -o {WORK}/terms.png")
-    run(f"phong compare {WORK}/terms.png {SOURCE}/pictures/terms.png")  # the README's
+    readme()
     promises = sum(chapter(path) for path in sorted(SOURCE.glob("*.md")))
     said = run("mdbook build book")
     if "WARN" in said or "ERROR" in said:
@@ -166,4 +180,5 @@ def main():
     print(f"{promises} commands say what the book says; {links} links on {pages} pages are whole")
 
 
-main()
+if __name__ == "__main__":
+    main()
