@@ -2,13 +2,15 @@
 
 use std::ops::Range;
 
+use fearless_simd::Simd;
 use thiserror::Error;
 
 use crate::{
-    Geometry, Hit, Level, Ray, Surface,
+    Coordinates, Geometry, Hit, Level, Plane, Ray, Surface,
     build::{self, Tree},
-    level::Token,
-    reference, surface,
+    level::{Kernel, Token},
+    reference,
+    surface::{self, Surfaces, Surfaces8},
     traverse::{Best, Meter, World},
 };
 
@@ -104,6 +106,7 @@ impl Bvh {
     }
 
     /// The geometry, in the order it was given.
+    #[inline]
     pub fn geometry(&self) -> &[Geometry] {
         &self.geometry
     }
@@ -117,6 +120,7 @@ impl Bvh {
     ///
     /// # Panics
     /// If there is no such primitive.
+    #[inline]
     pub fn locate(&self, prim: u32) -> (usize, u32) {
         let index = self.first.partition_point(|&f| f <= prim) - 1;
         (index, prim - self.first[index])
@@ -155,6 +159,17 @@ impl Bvh {
         })
     }
 
+    /// Calls `met` with the number of a ray, the distance and the primitive for each ray and each of
+    /// the planes that it meets.
+    fn planes_of_many(&self, rays: &[Ray], mut met: impl FnMut(usize, f32, u32)) {
+        for &index in &self.planes {
+            if let Geometry::Plane(plane) = &self.geometry[index] {
+                let prim = self.first[index];
+                self.token.run(PlaneOfMany { plane, rays, met: |i, t| met(i, t, prim) });
+            }
+        }
+    }
+
     fn world(&self) -> World<'_> {
         World::new(&self.tree, &self.geometry, &self.first, self.token)
     }
@@ -172,8 +187,13 @@ impl Bvh {
     pub fn intersect_bundle(&self, rays: &[Ray], hits: &mut [Hit]) {
         assert_eq!(rays.len(), hits.len(), "one hit for each ray");
         for (ray, hit) in rays.iter().zip(&mut *hits) {
-            *hit = self.outside(ray, &mut ()).0;
+            *hit = Best::new(ray.t_max).0;
         }
+        self.planes_of_many(rays, |i, t, prim| {
+            let mut best = Best(hits[i]);
+            best.offer(t, prim, 0.0, 0.0);
+            hits[i] = best.0;
+        });
         self.world().closest_of_many(rays, hits);
         for hit in hits {
             *hit = Best(*hit).hit();
@@ -186,9 +206,8 @@ impl Bvh {
     /// If `blocked` has not the length of `rays`.
     pub fn occluded_bundle(&self, rays: &[Ray], blocked: &mut [bool]) {
         assert_eq!(rays.len(), blocked.len(), "one answer for each ray");
-        for (ray, blocked) in rays.iter().zip(&mut *blocked) {
-            *blocked = self.blocked_outside(ray);
-        }
+        blocked.fill(false);
+        self.planes_of_many(rays, |i, _, _| blocked[i] = true);
         self.world().any_of_many(rays, blocked);
     }
 
@@ -211,6 +230,29 @@ impl Bvh {
         surface::surface(self, ray, hit)
     }
 
+    /// [`Bvh::surface`] of up to eight rays of a bundle, `of` being their numbers: the same bits.
+    ///
+    /// # Panics
+    /// If one of them has no hit, or there are more than eight.
+    pub fn surface8(&self, rays: &[Ray], hits: &[Hit], of: &[u32]) -> Surfaces8 {
+        assert!(of.len() <= 8, "{} rays are more than eight", of.len());
+        self.token.run(Surfaces { bvh: self, rays, hits, of })
+    }
+
+    /// Where on its surface a hit of `ray` is.
+    ///
+    /// # Panics
+    /// If `hit` is none.
+    pub fn coordinates(&self, ray: &Ray, hit: &Hit) -> Coordinates {
+        surface::coordinates(self, ray, hit)
+    }
+
+    /// Runs other vector code at the level that this hierarchy uses.
+    #[inline]
+    pub fn run<K: Kernel>(&self, kernel: K) -> K::Output {
+        self.token.run(kernel)
+    }
+
     /// What it is made of.
     pub fn stats(&self) -> Stats {
         let primitives = u64::from(self.first[self.geometry.len()]);
@@ -221,5 +263,35 @@ impl Bvh {
     #[cfg(test)]
     pub(crate) fn tree(&self) -> &Tree {
         &self.tree
+    }
+}
+
+/// A plane met by many rays.
+struct PlaneOfMany<'a, F> {
+    plane: &'a Plane,
+    rays: &'a [Ray],
+    met: F,
+}
+
+impl<F: FnMut(usize, f32)> Kernel for PlaneOfMany<'_, F> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let Self { plane, rays, mut met } = self;
+        let (fours, rest) = rays.as_chunks::<4>();
+        for (i, [a, b, c, d]) in fours.iter().enumerate() {
+            let (mut hit, t) = plane.intersect4(simd, [a, b, c, d]);
+            while hit != 0 {
+                let lane = hit.trailing_zeros() as usize;
+                hit &= hit - 1;
+                met(4 * i + lane, t[lane]);
+            }
+        }
+        for (i, ray) in rest.iter().enumerate() {
+            if let Some(t) = plane.intersect(ray) {
+                met(4 * fours.len() + i, t);
+            }
+        }
     }
 }

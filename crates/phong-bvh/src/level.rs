@@ -94,7 +94,7 @@ impl Token {
 }
 
 /// What runs at a level: a closure that is generic over the level.
-pub(crate) trait Kernel {
+pub trait Kernel {
     /// What it returns.
     type Output;
 

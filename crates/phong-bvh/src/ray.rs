@@ -63,9 +63,14 @@ pub struct Surface {
     /// Unit geometric normal, not turned towards the ray: outwards for closed shapes, by the right
     /// hand for triangles.
     pub ng: Vec3,
-    /// Unit tangent along growing `uv.x`, perpendicular to `ng`.
-    pub tangent: Vec3,
+}
+
+/// Where on its surface a hit is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coordinates {
     /// Surface coordinates in [0, 1]²: triangles barycentric, spheres longitude and latitude, round
     /// solids angle and height, flat ones flat. On a plane lengths along two axes, without bounds.
     pub uv: Vec2,
+    /// Unit tangent along growing `uv.x`, perpendicular to the geometric normal.
+    pub tangent: Vec3,
 }

@@ -1,7 +1,8 @@
 //! From a place in the picture to a ray.
 
+use fearless_simd::Simd;
 use glam::{DVec2, DVec3, Vec3};
-use phong_bvh::Ray;
+use phong_bvh::{Bvh, Kernel, Ray};
 use phong_scene::CameraKind;
 
 use crate::math::{Dir3, wide};
@@ -63,11 +64,14 @@ impl Camera {
     /// The ray through a place of a picture of `size` pixels, x to the right and y down, (0, 0)
     /// the upper left corner. `lens` in [0, 1)², (½, ½) its centre. `None` outside the image
     /// circle of a fisheye.
+    #[inline]
     pub fn ray(&self, place: DVec2, size: [u32; 2], lens: [f32; 2]) -> Option<Ray> {
         let (width, height) = (f64::from(size[0]), f64::from(size[1]));
-        // From the picture's middle, in half heights; y up.
-        let (x, y) = ((2.0 * place.x - width) / height, (height - 2.0 * place.y) / height);
+        let [x, y] = from_the_middle(place, width, height);
         let (origin, dir) = match self.kind {
+            CameraKind::Perspective { .. } if self.aperture == 0.0 => {
+                return Some(Ray::new(self.eye.as_vec3(), Vec3::from(self.pinhole(x, y))));
+            }
             CameraKind::Perspective { .. } => {
                 let toward = self.half * (x * self.right + y * self.up) + self.forward;
                 self.through_lens(self.eye, toward, lens)
@@ -79,27 +83,68 @@ impl Camera {
             CameraKind::Fisheye { .. } => {
                 // The circle touches the nearer edges.
                 let circle = (width / height).min(1.0);
-                let (x, y) = (x / circle, y / circle);
-                let r = (x * x + y * y).sqrt();
-                if r > 1.0 {
-                    return None;
-                }
-                let (sin, cos) = wide::sin_cos(r * self.half);
-                let across = if r > 0.0 { sin / r } else { 0.0 };
-                (self.eye, across * (x * self.right + y * self.up) + cos * self.forward)
+                (self.eye, self.fisheye(x / circle, y / circle)?)
             }
             CameraKind::Panorama => {
-                let (sin, cos) = wide::sin_cos((place.x / width - 0.5) * std::f64::consts::TAU);
-                let (rise, level) = wide::sin_cos((0.5 - place.y / height) * std::f64::consts::PI);
-                let around = cos * self.forward + sin * self.right;
-                (self.eye, level * around + rise * self.up)
+                (self.eye, self.panorama(place.x / width - 0.5, 0.5 - place.y / height))
             }
         };
         Some(Ray::new(origin.as_vec3(), dir.normalize_or(self.forward).as_vec3()))
     }
 
+    /// Whether [`Camera::pinhole_rays`] draws its rays.
+    pub(crate) fn is_pinhole(&self) -> bool {
+        matches!(self.kind, CameraKind::Perspective { .. }) && self.aperture == 0.0
+    }
+
+    /// [`Camera::ray`] through many places, of a camera that [is a pinhole](Camera::is_pinhole).
+    pub(crate) fn pinhole_rays(
+        &self,
+        bvh: &Bvh,
+        places: &[DVec2],
+        size: [u32; 2],
+        rays: &mut Vec<Ray>,
+    ) {
+        bvh.run(PinholeRays { camera: self, places, size, rays });
+    }
+
+    /// The direction through a place, half heights off the picture's middle: unit, since no
+    /// direction is shorter than `forward`.
+    #[inline(always)]
+    fn pinhole(&self, x: f64, y: f64) -> [f32; 3] {
+        let Self { right, up, forward, half, .. } = self;
+        let toward = |r: f64, u: f64, f: f64| half * (x * r + y * u) + f;
+        let (x, y, z) = (
+            toward(right.x, up.x, forward.x),
+            toward(right.y, up.y, forward.y),
+            toward(right.z, up.z, forward.z),
+        );
+        let inverse = 1.0 / (x * x + y * y + z * z).sqrt();
+        [(x * inverse) as f32, (y * inverse) as f32, (z * inverse) as f32]
+    }
+
+    /// The direction at a place of the image circle, whose radius is 1; `None` outside.
+    fn fisheye(&self, x: f64, y: f64) -> Option<DVec3> {
+        let r = (x * x + y * y).sqrt();
+        if r > 1.0 {
+            return None;
+        }
+        let (sin, cos) = wide::sin_cos(r * self.half);
+        let across = if r > 0.0 { sin / r } else { 0.0 };
+        Some(across * (x * self.right + y * self.up) + cos * self.forward)
+    }
+
+    /// The direction `x` full turns to the right and `y` half turns up.
+    fn panorama(&self, x: f64, y: f64) -> DVec3 {
+        let (sin, cos) = wide::sin_cos(x * std::f64::consts::TAU);
+        let (rise, level) = wide::sin_cos(y * std::f64::consts::PI);
+        let around = cos * self.forward + sin * self.right;
+        level * around + rise * self.up
+    }
+
     /// Moves a ray's start across the lens so that it still meets the plane of focus where it did.
     /// `toward` has length 1 along forward.
+    #[inline]
     fn through_lens(&self, origin: DVec3, toward: DVec3, lens: [f32; 2]) -> (DVec3, DVec3) {
         if self.aperture == 0.0 {
             return (origin, toward);
@@ -107,6 +152,40 @@ impl Camera {
         let [u, v] = disc(lens);
         let shift = self.aperture * (u * self.right + v * self.up);
         (origin + shift, toward * self.focus - shift)
+    }
+}
+
+/// A place from the picture's middle, in half heights; y up.
+#[inline(always)]
+fn from_the_middle(place: DVec2, width: f64, height: f64) -> [f64; 2] {
+    [(2.0 * place.x - width) / height, (height - 2.0 * place.y) / height]
+}
+
+struct PinholeRays<'a> {
+    camera: &'a Camera,
+    places: &'a [DVec2],
+    size: [u32; 2],
+    rays: &'a mut Vec<Ray>,
+}
+
+impl Kernel for PinholeRays<'_> {
+    type Output = ();
+
+    /// Plain code: what is done here for eight at a time is the compiler's work.
+    #[inline(always)]
+    fn run<S: Simd>(self, _: S) {
+        let Self { camera, places, size, rays } = self;
+        let (width, height) = (f64::from(size[0]), f64::from(size[1]));
+        let eye = camera.eye.as_vec3();
+        for places in places.chunks(8) {
+            let mut dirs = [[0.0; 8]; 3];
+            for (lane, &place) in places.iter().enumerate() {
+                let [x, y] = from_the_middle(place, width, height);
+                [dirs[0][lane], dirs[1][lane], dirs[2][lane]] = camera.pinhole(x, y);
+            }
+            let dir = |lane: usize| Vec3::new(dirs[0][lane], dirs[1][lane], dirs[2][lane]);
+            rays.extend((0..places.len()).map(|lane| Ray::new(eye, dir(lane))));
+        }
     }
 }
 
@@ -160,6 +239,25 @@ mod tests {
         ] {
             assert_eq!(dir(kind, 20.0, 10.0), -Vec3::Z, "{kind:?}");
         }
+    }
+
+    #[test]
+    fn many_pinhole_rays_have_the_bits_of_one() {
+        let camera = Camera::new(
+            &phong_scene::Camera {
+                eye: DVec3::new(1.0, 2.5, 8.1),
+                ..camera(CameraKind::Perspective { fov: 37.0 })
+            },
+            DVec3::new(0.25, 0.0, 0.0),
+        );
+        assert!(camera.is_pinhole());
+        let places: Vec<_> =
+            (0..43).map(|i| DVec2::new(0.93 * f64::from(i), 0.41 * f64::from(i))).collect();
+        let mut many = Vec::new();
+        let bvh = Bvh::build(Vec::new(), phong_bvh::BuildOptions::default()).unwrap();
+        camera.pinhole_rays(&bvh, &places, SIZE, &mut many);
+        let one: Vec<_> = places.iter().map(|&p| camera.ray(p, SIZE, MIDDLE).unwrap()).collect();
+        assert_eq!(many, one);
     }
 
     #[test]

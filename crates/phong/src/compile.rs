@@ -7,7 +7,7 @@ mod flatten;
 mod geometry;
 
 use glam::{DVec3, Vec3};
-use phong_bvh::{BuildError, BuildOptions, Bvh, Geometry, Hit, Ray};
+use phong_bvh::{BuildError, BuildOptions, Bvh, Coordinates, Geometry, Hit, Ray, Surface};
 use phong_scene::{Place, Rgb, Scene};
 use thiserror::Error;
 
@@ -26,6 +26,10 @@ pub struct CompiledScene {
     ambient: Rgb,
     lights: Vec<Light>,
     materials: Vec<Material>,
+    /// Whether rays go on from any material.
+    has_bounces: bool,
+    /// Whether any material takes ambient light from each light.
+    has_ambient_per_light: bool,
     bvh: Bvh,
     /// What the hierarchy's geometries belong to, one for each.
     parts: Vec<Part>,
@@ -96,14 +100,20 @@ impl CompiledScene {
         drop(groups);
         let geometry::Compiled { geometry, parts, objects } = geometry::compile(leaves, center);
         let camera = Camera::new(&camera, center);
+        let written_materials = materials;
+        let viewer = camera.backward();
+        let materials: Vec<_> =
+            written_materials.iter().map(|m| Material::new(m, viewer)).collect();
         Ok(Self {
-            materials: materials.iter().map(|m| Material::new(m, camera.backward())).collect(),
+            has_bounces: materials.iter().any(Material::bounces),
+            has_ambient_per_light: materials.iter().any(Material::takes_ambient_per_light),
             camera,
             center,
             ambient,
             lights: lights.iter().map(|light| Light::new(light, center)).collect(),
             written_lights: lights,
-            written_materials: materials,
+            materials,
+            written_materials,
             bvh: Bvh::build(geometry, options.build)?,
             parts,
             objects,
@@ -111,6 +121,7 @@ impl CompiledScene {
     }
 
     /// The camera.
+    #[inline]
     pub fn camera(&self) -> &Camera {
         &self.camera
     }
@@ -126,11 +137,13 @@ impl CompiledScene {
     }
 
     /// The ambient light.
+    #[inline]
     pub fn ambient(&self) -> Rgb {
         self.ambient
     }
 
     /// The lights, in the order of the text.
+    #[inline]
     pub fn lights(&self) -> &[Light] {
         &self.lights
     }
@@ -141,8 +154,19 @@ impl CompiledScene {
     }
 
     /// The materials, in the scene's order.
+    #[inline]
     pub fn materials(&self) -> &[Material] {
         &self.materials
+    }
+
+    /// Whether mirror or glass rays go on from any of the materials.
+    pub fn has_bounces(&self) -> bool {
+        self.has_bounces
+    }
+
+    /// Whether any of the materials takes ambient light from each light.
+    pub fn has_ambient_per_light(&self) -> bool {
+        self.has_ambient_per_light
     }
 
     /// The materials as they were written, in the same order.
@@ -156,6 +180,7 @@ impl CompiledScene {
     }
 
     /// The hierarchy.
+    #[inline]
     pub fn bvh(&self) -> &Bvh {
         &self.bvh
     }
@@ -167,38 +192,76 @@ impl CompiledScene {
         self.parts[part].is_bulk().then_some(local)
     }
 
+    /// The number of the object that a primitive belongs to, from 0.
+    pub fn object(&self, prim: u32) -> u32 {
+        let (part, local) = self.bvh.locate(prim);
+        self.parts[part].object(local)
+    }
+
     /// Where `ray` met a surface.
     ///
     /// # Panics
     /// If `hit` is none.
     pub fn interaction(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
-        let surface = self.bvh.surface(ray, hit);
+        self.dressed(ray, hit, self.bvh.surface(ray, hit))
+    }
+
+    /// The surface at a hit of `ray`, with what belongs to it besides its geometry.
+    #[inline]
+    pub(crate) fn dressed(&self, ray: &Ray, hit: &Hit, surface: Surface) -> SurfaceInteraction {
         let (index, local) = self.bvh.locate(hit.prim);
         let part = &self.parts[index];
         let e = -Dir3::from_unit(ray.dir);
         let ng = Dir3::from_unit(surface.ng);
-        let corners = match &self.bvh.geometry()[index] {
-            Geometry::Triangles { indices, .. } => Some(indices[local as usize]),
-            _ => None,
-        };
+        let corners = self.corners(index, local);
         let n = corners.and_then(|c| part.normal(local, c, hit)).unwrap_or(ng);
-        let uv = corners.and_then(|c| part.uv(local, c, hit)).unwrap_or(surface.uv);
         let material = part.material(local);
+        let color = part.color(local, corners, hit);
         SurfaceInteraction {
-            t: hit.t,
-            prim: hit.prim,
-            object: part.object(local),
+            hit: *hit,
             material,
             p: surface.p,
             p_error: surface.p_error,
             ng,
             n: n.facing(e),
-            tangent: Dir3::from_unit(surface.tangent),
             e,
-            uv,
-            color: part
-                .color(local, corners, hit)
-                .unwrap_or(self.materials[material as usize].color),
+            color: color.unwrap_or(self.materials[material as usize].color),
+        }
+    }
+
+    /// The materials of up to eight hits on geometry that has neither normals nor colours of its own;
+    /// `None` if any has.
+    #[inline]
+    pub(crate) fn plain_materials(&self, hits: &[Hit], of: &[u32]) -> Option<[u32; 8]> {
+        let mut materials = [0; 8];
+        for (material, &of) in materials.iter_mut().zip(of) {
+            let (index, local) = self.bvh.locate(hits[of as usize].prim);
+            let part = &self.parts[index];
+            if !part.is_plain() {
+                return None;
+            }
+            *material = part.material(local);
+        }
+        Some(materials)
+    }
+
+    /// Where on its surface a hit of `ray` is: a mesh's own texture coordinates, if it has some.
+    ///
+    /// # Panics
+    /// If `hit` is none.
+    pub fn coordinates(&self, ray: &Ray, hit: &Hit) -> Coordinates {
+        let (index, local) = self.bvh.locate(hit.prim);
+        let here = self.bvh.coordinates(ray, hit);
+        let own = self.corners(index, local).and_then(|c| self.parts[index].uv(local, c, hit));
+        Coordinates { uv: own.unwrap_or(here.uv), ..here }
+    }
+
+    /// The corners of a triangle.
+    #[inline]
+    fn corners(&self, geometry: usize, local: u32) -> Option<[u32; 3]> {
+        match &self.bvh.geometry()[geometry] {
+            Geometry::Triangles { indices, .. } => Some(indices[local as usize]),
+            _ => None,
         }
     }
 }

@@ -36,6 +36,7 @@ impl Filter {
     }
 
     /// Draws a sample from a point of the unit square; (½, ½) is the pixel's centre.
+    #[inline]
     pub fn sample(&self, [u, v]: [f32; 2]) -> FilterSample {
         let Some(table) = &self.shape else {
             return FilterSample { offset: [u - 0.5, v - 0.5], weight: 1.0 };

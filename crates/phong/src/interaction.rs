@@ -1,7 +1,7 @@
 //! Where a ray met a surface: all that shading needs to know.
 
-use glam::{Vec2, Vec3};
-use phong_bvh::{Ray, offset_origin};
+use glam::Vec3;
+use phong_bvh::{Hit, Ray, offset_origin};
 use phong_scene::Rgb;
 
 use crate::math::Dir3;
@@ -9,12 +9,8 @@ use crate::math::Dir3;
 /// Where a ray met a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceInteraction {
-    /// Distance along the ray, scene units.
-    pub t: f32,
-    /// Number of the primitive over the whole scene, from 0.
-    pub prim: u32,
-    /// Number of the object, from 0.
-    pub object: u32,
+    /// What was hit, and how far along the ray.
+    pub hit: Hit,
     /// Number of the material, from 0.
     pub material: u32,
     /// The point, in the compiled scene's space (the world moved by its centre).
@@ -25,28 +21,27 @@ pub struct SurfaceInteraction {
     pub ng: Dir3,
     /// Shading normal, on the side the ray comes from: N.
     pub n: Dir3,
-    /// Unit tangent along growing `uv.x`, perpendicular to `ng`.
-    pub tangent: Dir3,
     /// To the eye: against the ray. E.
     pub e: Dir3,
-    /// Surface coordinates.
-    pub uv: Vec2,
     /// The diffuse colour here: the geometry's own, else the material's. Linear.
     pub color: Rgb,
 }
 
 impl SurfaceInteraction {
     /// The geometric normal on the side the ray comes from.
+    #[inline]
     pub fn facing_ng(&self) -> Dir3 {
         self.ng.facing(self.e)
     }
 
     /// Whether the ray comes from outside: the side the geometric normal points to.
+    #[inline]
     pub fn from_outside(&self) -> bool {
         self.ng.dot(self.e) >= 0.0
     }
 
     /// A ray that leaves the surface in direction `dir`, starting beyond the error of `p`.
+    #[inline]
     pub fn spawn(&self, dir: Dir3, t_max: f32) -> Ray {
         let d = dir.to_vec();
         let origin = offset_origin(self.p, self.p_error, self.ng.to_vec(), d);

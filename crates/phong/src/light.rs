@@ -1,9 +1,11 @@
 //! What one light sends to one point.
 
+use fearless_simd::{Simd, f32x8, prelude::*};
 use glam::{DVec3, Vec3};
 use phong_scene::{LightKind, Rgb};
 
 use crate::camera::disc;
+use crate::math::lanes::{Real, dot};
 use crate::math::{Dir3, wide};
 
 /// A light in the compiled scene's space.
@@ -47,6 +49,16 @@ pub struct LightSample {
     pub specular_color: Rgb,
 }
 
+/// How a light reaches a point, or eight: without colours.
+pub(crate) struct Reach<L, F> {
+    /// To the light.
+    pub(crate) l: L,
+    /// Distance to the light.
+    pub(crate) distance: F,
+    /// The share of its colours that is left there.
+    pub(crate) share: F,
+}
+
 impl Light {
     /// A light moved by `−center`.
     pub fn new(light: &phong_scene::Light, center: DVec3) -> Self {
@@ -78,6 +90,17 @@ impl Light {
     /// What it sends to `p`. `place` in [0, 1)² picks a point of a soft light, (½, ½) its centre.
     /// `None` if `p` is where the light is.
     pub fn sample(&self, p: Vec3, place: [f32; 2]) -> Option<LightSample> {
+        self.reach(p, place).map(|reach| self.colored(reach))
+    }
+
+    /// What reaches a point, in its colours.
+    pub(crate) fn colored(&self, Reach { l, distance, share }: Reach<Dir3, f32>) -> LightSample {
+        let (color, specular_color) = (self.color * share, self.specular_color * share);
+        LightSample { l, distance, color, specular_color }
+    }
+
+    /// How it reaches `p`, as [`Light::sample`] has it.
+    pub(crate) fn reach(&self, p: Vec3, place: [f32; 2]) -> Option<Reach<Dir3, f32>> {
         match &self.kind {
             &Kind::Distant { to_light, half_angle_tan } => {
                 let l = if half_angle_tan > 0.0 {
@@ -85,39 +108,82 @@ impl Light {
                 } else {
                     to_light
                 };
-                Some(LightSample {
-                    l,
-                    distance: f32::INFINITY,
-                    color: self.color,
-                    specular_color: self.specular_color,
-                })
+                Some(Reach { l, distance: f32::INFINITY, share: 1.0 })
             }
-            Kind::Point { position, attenuation: [c, k, q], radius, cone } => {
+            Kind::Point { position, attenuation, radius, cone } => {
                 let mut toward = position - p;
                 if *radius > 0.0 {
                     toward += *radius * across(Dir3::new(toward)?, place);
                 }
-                let l = Dir3::new(toward)?;
-                let distance = toward.dot(l.to_vec());
-                let mut factor = 1.0 / (c + k * distance + q * distance * distance);
-                if let Some(cone) = cone {
-                    factor *= cone.share(l);
+                let Reach { l, distance, mut share } = arrival(toward.to_array(), *attenuation);
+                if l == [0.0; 3] {
+                    return None;
                 }
-                Some(LightSample {
-                    l,
-                    distance,
-                    color: self.color * factor,
-                    specular_color: self.specular_color * factor,
-                })
+                let l = Dir3::from_unit(Vec3::from(l));
+                if let Some(cone) = cone {
+                    share *= cone.share(-cone.axis.dot(l));
+                }
+                Some(Reach { l, distance, share })
             }
         }
     }
+
+    /// [`Light::reach`] of eight points from a light that is not soft: the same bits. `l` is 0 where
+    /// the light is.
+    #[inline(always)]
+    pub(crate) fn reach8<S: Simd>(
+        &self,
+        simd: S,
+        p: [f32x8<S>; 3],
+    ) -> Reach<[f32x8<S>; 3], f32x8<S>> {
+        let splat = |v: f32| f32x8::splat(simd, v);
+        match &self.kind {
+            Kind::Distant { to_light, .. } => {
+                let [x, y, z] = to_light.to_array();
+                Reach {
+                    l: [splat(x), splat(y), splat(z)],
+                    distance: splat(f32::INFINITY),
+                    share: splat(1.0),
+                }
+            }
+            Kind::Point { position, attenuation, cone, .. } => {
+                let Vec3 { x, y, z } = *position;
+                let toward = [splat(x) - p[0], splat(y) - p[1], splat(z) - p[2]];
+                let Reach { l, distance, mut share } = arrival(toward, *attenuation);
+                if let Some(cone) = cone {
+                    let [x, y, z] = cone.axis.to_array();
+                    share *= dot([splat(x), splat(y), splat(z)], l).each(|cos| cone.share(-cos));
+                }
+                Reach { l, distance, share }
+            }
+        }
+    }
+
+    /// The largest channel of its two colours; 0 for a light that gives none.
+    pub(crate) fn brightest(&self) -> f32 {
+        self.color.max_channel().max(self.specular_color.max_channel())
+    }
+
+    /// Its colour and its specular colour, before any is lost on the way. Linear.
+    pub(crate) fn colors(&self) -> [Rgb; 2] {
+        [self.color, self.specular_color]
+    }
+}
+
+/// The direction of `toward`, which is 0 where there is none; its length; and the share of light
+/// left at that distance: `1 / (c + k d + q d²)`.
+#[inline(always)]
+fn arrival<F: Real>(toward: [F; 3], [c, k, q]: [f32; 3]) -> Reach<[F; 3], F> {
+    let l = F::unit(toward);
+    let distance = dot(toward, l);
+    let share = distance.like(1.0) / (distance * k + c + distance * q * distance);
+    Reach { l, distance, share }
 }
 
 impl Cone {
-    /// 1 within the cone, 0 beyond the edge, between them smoothstep in the cosine.
-    fn share(&self, l: Dir3) -> f32 {
-        let cos = -self.axis.dot(l);
+    /// The share of light at `cos` off the axis: 1 within the cone, 0 beyond the edge, between them
+    /// smoothstep in the cosine.
+    fn share(&self, cos: f32) -> f32 {
         if cos >= self.full {
             1.0
         } else if cos <= self.none {
@@ -148,6 +214,7 @@ fn across(axis: Dir3, place: [f32; 2]) -> Vec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::lanes::{Lanes3, load3};
     use phong_scene::Place;
 
     const MIDDLE: [f32; 2] = [0.5, 0.5];
@@ -180,6 +247,45 @@ mod tests {
         assert_eq!((sample.l, sample.distance), (Dir3::Y, 2.0));
         assert_eq!(sample.color, Rgb::grey(2.0) * (1.0 / 17.0));
         assert_eq!(lamp.sample(Vec3::new(0.0, 3.0, 0.0), MIDDLE), None, "at the light itself");
+    }
+
+    #[test]
+    fn eight_points_are_reached_with_the_bits_of_one() {
+        let simd = fearless_simd::Fallback::new();
+        let position = DVec3::new(0.3, 2.0, -0.4);
+        let attenuation = [0.5, 0.1, 0.03];
+        for kind in [
+            LightKind::Distant { direction: DVec3::new(0.2, -3.0, 1.0), angle: 0.0 },
+            LightKind::Point { position, attenuation, radius: 0.0 },
+            LightKind::Spot {
+                position,
+                target: DVec3::ZERO,
+                cone: 20.0,
+                edge: 40.0,
+                attenuation,
+                radius: 0.0,
+            },
+        ] {
+            let light = light(kind);
+            let x = |i: usize, k: usize| ((i * 37 + k * 61) % 83) as f32 / 41.5 - 1.0;
+            // The last one is where the lamp is.
+            let lamp = position.as_vec3();
+            let at = |i: usize| if i == 7 { lamp } else { Vec3::new(x(i, 0), x(i, 1), x(i, 2)) };
+            let p: Lanes3 = std::array::from_fn(|k| std::array::from_fn(|i| at(i)[k]));
+            let eight = light.reach8(simd, load3(simd, &p));
+            for i in 0..8 {
+                let at = at(i);
+                let l = [eight.l[0][i], eight.l[1][i], eight.l[2][i]];
+                match light.reach(at, MIDDLE) {
+                    Some(one) => {
+                        assert_eq!(l, one.l.to_array());
+                        let eight = [eight.distance[i], eight.share[i]];
+                        assert_eq!(eight, [one.distance, one.share], "{at}");
+                    }
+                    None => assert_eq!(l, [0.0; 3]),
+                }
+            }
+        }
     }
 
     #[test]

@@ -1,9 +1,11 @@
 //! A material ready for light: the reflectance, and the colours that go with it.
 
+use fearless_simd::{Simd, f32x8};
 use phong_scene::{self as scene, AmbientRule, Model, Rgb, Tint, Viewer};
 
 use crate::light::LightSample;
 use crate::math::Dir3;
+use crate::math::lanes::Real;
 use crate::reflectance::{
     BlinnPhong, Distribution, Falloff, Incident, Lambert, Microfacet, OrenNayar, OrenNayarForm,
     Phong, Reflectance, Switches, Terms, Ward, fresnel,
@@ -55,6 +57,7 @@ impl Material {
 
     /// `k_a C_a` under the ambient light `ambient`, where the surface's colour is `color`; black
     /// where the ambient term is added per light.
+    #[inline]
     pub fn ambient(&self, color: Rgb, ambient: Rgb) -> Rgb {
         match self.ambient_rule {
             AmbientRule::Once | AmbientRule::Both => {
@@ -64,7 +67,19 @@ impl Material {
         }
     }
 
+    /// Whether mirror or glass rays go on from it.
+    pub fn bounces(&self) -> bool {
+        !(self.reflection.is_black() && self.transmission.is_black())
+    }
+
+    /// Whether each light adds to the ambient term.
+    #[inline]
+    pub fn takes_ambient_per_light(&self) -> bool {
+        self.ambient_rule != AmbientRule::Once
+    }
+
     /// What one light adds to the ambient term: nothing where that is added once.
+    #[inline]
     pub fn ambient_of_light(&self, color: Rgb, ambient: Rgb, light: &LightSample) -> Rgb {
         match self.ambient_rule {
             AmbientRule::Once => Rgb::BLACK,
@@ -76,11 +91,22 @@ impl Material {
     }
 
     /// E as highlights are seen, for rays whose E is `e`: that, unless the viewer is distant.
+    #[inline]
     pub fn eye(&self, e: Dir3) -> Dir3 {
         self.distant_eye.unwrap_or(e)
     }
 
+    /// [`Material::eye`] for eight rays.
+    #[inline(always)]
+    pub(crate) fn eye8<S: Simd>(&self, e: [f32x8<S>; 3]) -> [f32x8<S>; 3] {
+        self.distant_eye.map_or(e, |eye| {
+            let [x, y, z] = eye.to_array();
+            [e[0].like(x), e[0].like(y), e[0].like(z)]
+        })
+    }
+
     /// The light tinted by the material: `C_{m,d}` and `C_{m,s}`, where the normal is `n`.
+    #[inline]
     pub fn incident(&self, n: Dir3, color: Rgb, light: &LightSample) -> Incident {
         let specular = self.specular_color.unwrap_or(color);
         Incident {
@@ -99,7 +125,36 @@ impl Material {
         }
     }
 
+    /// [`Material::incident`] of eight surfaces of colour `color`, to which the `share` of the light's
+    /// colours is left at cosine `n_dot_l`: `C_{m,d}` and `C_{m,s}`.
+    #[inline(always)]
+    pub(crate) fn incident8<S: Simd>(
+        &self,
+        n_dot_l: f32x8<S>,
+        color: [f32x8<S>; 3],
+        [diffuse, specular]: [Rgb; 2],
+        share: f32x8<S>,
+    ) -> [[f32x8<S>; 3]; 2] {
+        let times = |light: Rgb, color: [f32x8<S>; 3]| {
+            [share * light.r * color[0], share * light.g * color[1], share * light.b * color[2]]
+        };
+        let own = |c: Rgb| [share.like(c.r), share.like(c.g), share.like(c.b)];
+        let own = self.specular_color.map_or(color, own);
+        let c_s = match self.tint {
+            Tint::Light => times(specular, own),
+            Tint::Object => color,
+            Tint::Metallic => {
+                let [r, g, b] = times(specular, own);
+                let share = n_dot_l.each(|cos| 1.0 - fresnel::pov_ray(cos.max(0.0)));
+                let metal = |color: f32x8<S>| share * (color - 1.0) + 1.0;
+                [r * metal(color[0]), g * metal(color[1]), b * metal(color[2])]
+            }
+        };
+        [times(diffuse, color), c_s]
+    }
+
     /// What one light adds to the diffuse and specular terms where nothing stands between.
+    #[inline]
     pub fn shade_light(
         &self,
         n: Dir3,

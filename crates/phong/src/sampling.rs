@@ -26,9 +26,14 @@ pub struct Sampler {
 
 impl Sampler {
     /// Sample `index` of `count` at a pixel of the full picture.
+    #[inline]
     pub fn new([x, y]: [u32; 2], index: u32, count: u32, seed: u64) -> Self {
-        let seed = hash(seed as u32 ^ hash((seed >> 32) as u32));
-        Self { key: hash(x ^ hash(y ^ seed)), index, centred: count <= 1 }
+        let centred = count <= 1;
+        let key = || {
+            let seed = hash(seed as u32 ^ hash((seed >> 32) as u32));
+            hash(x ^ hash(y ^ seed))
+        };
+        Self { key: if centred { 0 } else { key() }, index, centred }
     }
 
     /// The sampler of a mirror or glass ray that left a surface: as good, but uncorrelated.
@@ -38,10 +43,12 @@ impl Sampler {
     }
 
     /// A point of the unit square [0, 1)².
+    #[inline]
     pub fn pair(&self, purpose: Use) -> [f32; 2] {
-        if self.centred {
-            return [0.5, 0.5];
-        }
+        if self.centred { [0.5, 0.5] } else { self.scrambled(purpose) }
+    }
+
+    fn scrambled(&self, purpose: Use) -> [f32; 2] {
         let dimension = match purpose {
             Use::Pixel => 0,
             Use::Lens => 1,

@@ -40,6 +40,9 @@ pub struct LightTold {
 ///
 /// `()` says nothing and costs nothing.
 pub trait Witness {
+    /// Whether anybody listens: what would be told is not even worked out otherwise.
+    const LISTENS: bool = true;
+
     /// A ray hit nothing and saw this background.
     fn missed(&mut self, ray: &Ray, background: Rgb);
     /// A ray met a surface, with this ambient term.
@@ -55,6 +58,8 @@ pub trait Witness {
 }
 
 impl Witness for () {
+    const LISTENS: bool = false;
+
     fn missed(&mut self, _: &Ray, _: Rgb) {}
     fn met(&mut self, _: &Ray, _: &SurfaceInteraction, _: Rgb) {}
     fn lit(&mut self, _: &LightTold) {}

@@ -3,20 +3,47 @@
 //! With `p = o + t d`: `t = (point − o) · normal / (d · normal)`. A ray within the plane, or along
 //! it, meets nothing. A plane has no bounds, so it stays out of every tree.
 
+use fearless_simd::{Simd, f32x4, f64x4, prelude::*};
 use glam::DVec3;
 
 use crate::{Plane, Ray};
 
 impl Plane {
     /// The distance at which `ray` meets the plane, or none; both sides count.
+    #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<f32> {
         let t = self.solve(ray) as f32;
         (ray.t_min < t && t < ray.t_max).then_some(t)
     }
 
     /// The distance along the whole line of `ray`, not a finite number where they are parallel.
-    pub(crate) fn solve(&self, ray: &Ray) -> f64 {
-        (self.point - ray.origin.as_dvec3()).dot(self.normal) / ray.dir.as_dvec3().dot(self.normal)
+    #[inline]
+    fn solve(&self, ray: &Ray) -> f64 {
+        let Self { point, normal } = self;
+        let (o, d) = (ray.origin.as_dvec3(), ray.dir.as_dvec3());
+        (point - o).dot(*normal) / d.dot(*normal)
+    }
+
+    /// [`Plane::intersect`] for four rays: the lanes that are hit, and where.
+    #[inline(always)]
+    pub(crate) fn intersect4<S: Simd>(&self, simd: S, [a, b, c, d]: [&Ray; 4]) -> (u32, [f32; 4]) {
+        let Self { point, normal } = self;
+        let four =
+            |f: &dyn Fn(&Ray) -> f32| -> f32x4<S> { [f(a), f(b), f(c), f(d)].simd_into(simd) };
+        let wide = |f: &dyn Fn(&Ray) -> f32| -> f64x4<S> {
+            [f(a).into(), f(b).into(), f(c).into(), f(d).into()].simd_into(simd)
+        };
+        let off = (point.x - wide(&|r| r.origin.x)) * normal.x
+            + (point.y - wide(&|r| r.origin.y)) * normal.y
+            + (point.z - wide(&|r| r.origin.z)) * normal.z;
+        let along = wide(&|r| r.dir.x) * normal.x
+            + wide(&|r| r.dir.y) * normal.y
+            + wide(&|r| r.dir.z) * normal.z;
+        let t: [f64; 4] = (off / along).into();
+        let t = [t[0] as f32, t[1] as f32, t[2] as f32, t[3] as f32];
+        let t4: f32x4<S> = t.simd_into(simd);
+        let hit = four(&|r| r.t_min).simd_lt(t4) & t4.simd_lt(four(&|r| r.t_max));
+        (hit.to_bitmask() as u32, t)
     }
 
     /// Two unit vectors that span the plane: along growing u and v, with `u × v = normal`.
@@ -46,6 +73,29 @@ mod tests {
         assert_eq!(FLOOR.intersect(&Ray { dir: Vec3::Z, ..down }), None);
         assert_eq!(FLOOR.intersect(&Ray { t_max: 2.0, ..down }), None);
         assert_eq!(FLOOR.intersect(&Ray { t_min: 2.0, ..down }), None);
+    }
+
+    #[test]
+    fn four_rays_take_the_steps_of_one() {
+        let plane =
+            Plane { point: DVec3::new(0.1, -2.0, 0.7), normal: DVec3::new(0.6, -0.48, 0.64) };
+        let ray = |i: u32| {
+            let x = |k: u32| ((i * 37 + k * 101) % 97) as f32 / 48.5 - 1.0;
+            let dir = Vec3::new(x(4), x(5), x(6)).normalize_or(Vec3::X);
+            Ray { t_max: 3.0 + x(7), ..Ray::new(3.0 * Vec3::new(x(1), x(2), x(3)), dir) }
+        };
+        let mut met = 0;
+        for i in (0..400).step_by(4) {
+            let rays = [ray(i), ray(i + 1), ray(i + 2), ray(i + 3)];
+            let [a, b, c, d] = &rays;
+            let (hit, t) = plane.intersect4(fearless_simd::Fallback::new(), [a, b, c, d]);
+            for (lane, ray) in rays.iter().enumerate() {
+                let found = (hit >> lane & 1 != 0).then_some(t[lane]);
+                assert_eq!(found, plane.intersect(ray));
+                met += u32::from(found.is_some());
+            }
+        }
+        assert!(met > 50, "{met}");
     }
 
     #[test]

@@ -1,30 +1,32 @@
 //! Where surface coordinates begin, where they run, and which way normals point.
 
 use glam::{DQuat, DVec3, Vec2, Vec3};
-use phong_bvh::{BuildOptions, Bvh, Canonical, Geometry, Plane, Ray, Sphere, Surface};
+use phong_bvh::{BuildOptions, Bvh, Canonical, Coordinates, Geometry, Plane, Ray, Sphere, Surface};
 use proptest::prelude::*;
 
 use crate::oracle::{Placed, directions, shapes};
 
-fn seen(geometry: Geometry, origin: [f32; 3], dir: [f32; 3]) -> Surface {
+type Seen = (Surface, Coordinates);
+
+fn seen(geometry: Geometry, origin: [f32; 3], dir: [f32; 3]) -> Seen {
     let bvh = Bvh::build(vec![geometry], BuildOptions::default()).expect("few primitives");
     let ray = Ray::new(Vec3::from(origin), Vec3::from(dir));
     let hit = bvh.intersect(&ray);
     assert!(hit.is_some(), "{ray:?} meets nothing");
-    bvh.surface(&ray, &hit)
+    (bvh.surface(&ray, &hit), bvh.coordinates(&ray, &hit))
 }
 
-fn solid(shape: Canonical, origin: [f32; 3], dir: [f32; 3]) -> Surface {
+fn solid(shape: Canonical, origin: [f32; 3], dir: [f32; 3]) -> Seen {
     let placed = Placed::new(shape, DVec3::ONE, DQuat::IDENTITY, DVec3::ZERO);
     seen(Geometry::Solid(placed.solid), origin, dir)
 }
 
 #[track_caller]
-fn expect(surface: &Surface, ng: Vec3, tangent: Vec3, uv: [f32; 2]) {
+fn expect((surface, at): &Seen, ng: Vec3, tangent: Vec3, uv: [f32; 2]) {
     let is_near = |a: Vec3, b: Vec3| (a - b).length() < 1e-6;
     assert!(is_near(surface.ng, ng), "the normal is {}", surface.ng);
-    assert!(is_near(surface.tangent, tangent), "the tangent is {}", surface.tangent);
-    assert!((surface.uv - Vec2::from(uv)).length() < 1e-6, "the coordinates are {}", surface.uv);
+    assert!(is_near(at.tangent, tangent), "the tangent is {}", at.tangent);
+    assert!((at.uv - Vec2::from(uv)).length() < 1e-6, "the coordinates are {}", at.uv);
 }
 
 #[test]
@@ -44,8 +46,9 @@ fn a_sphere_has_longitude_and_latitude() {
 #[test]
 fn the_poles_of_a_sphere_have_some_tangent() {
     let pole = solid(Canonical::Sphere, [0.0, 0.0, 5.0], [0.0, 0.0, -1.0]);
-    assert_eq!((pole.ng, pole.uv.y), (Vec3::Z, 1.0));
-    assert!(pole.tangent.is_normalized() && pole.tangent.z.abs() < 1e-6, "{}", pole.tangent);
+    let (surface, Coordinates { uv, tangent }) = pole;
+    assert_eq!((surface.ng, uv.y), (Vec3::Z, 1.0));
+    assert!(tangent.is_normalized() && tangent.z.abs() < 1e-6, "{tangent}");
 }
 
 #[test]
@@ -109,7 +112,7 @@ fn a_plane_is_measured_from_its_point() {
     let plane = Plane { point: DVec3::new(1.0, 7.0, 1.0), normal: DVec3::Y };
     let surface = seen(Geometry::Plane(plane), [4.0, 9.0, 3.0], [0.0, -1.0, 0.0]);
     expect(&surface, Vec3::Y, Vec3::X, [3.0, -2.0]);
-    assert_eq!(surface.p, Vec3::new(4.0, 7.0, 3.0));
+    assert_eq!(surface.0.p, Vec3::new(4.0, 7.0, 3.0));
 }
 
 #[test]
@@ -119,7 +122,7 @@ fn a_triangle_has_its_weights_and_the_normal_of_its_turning() {
     for (height, dir) in [(2.0, -1.0), (-2.0, 1.0)] {
         let surface = seen(geometry.clone(), [0.25, 0.5, height], [0.0, 0.0, dir]);
         expect(&surface, Vec3::Z, Vec3::X, [0.25, 0.5]);
-        assert_eq!(surface.p, Vec3::new(0.25, 0.5, 0.0));
+        assert_eq!(surface.0.p, Vec3::new(0.25, 0.5, 0.0));
     }
 }
 
@@ -145,20 +148,20 @@ proptest! {
         let look = |at: Vec3, dir: Vec3| {
             let ray = Ray::new(at - dir, dir);
             let hit = bvh.intersect(&ray);
-            hit.is_some().then(|| bvh.surface(&ray, &hit))
+            hit.is_some().then(|| (bvh.surface(&ray, &hit), bvh.coordinates(&ray, &hit)))
         };
         let (middle, size) = placed.bounding_sphere();
-        let Some(first) = look((middle + 0.6 * size * to).as_vec3(), from.as_vec3()) else {
+        let Some((first, at)) = look((middle + 0.6 * size * to).as_vec3(), from.as_vec3()) else {
             return Ok(());
         };
-        prop_assert!(first.uv.min_element() >= 0.0 && first.uv.max_element() <= 1.0);
-        let next = look(first.p + 1e-3 * first.tangent, -first.ng);
+        prop_assert!(at.uv.min_element() >= 0.0 && at.uv.max_element() <= 1.0);
+        let next = look(first.p + 1e-3 * at.tangent, -first.ng);
         // On past a seam or over an edge it may begin again.
-        let Some(next) = next.filter(|next| next.ng.dot(first.ng) > 0.999) else {
+        let Some((next, there)) = next.filter(|(next, _)| next.ng.dot(first.ng) > 0.999) else {
             return Ok(());
         };
-        if (next.uv.x - first.uv.x).abs() < 0.5 && (next.p - first.p).length() < 2e-3 {
-            prop_assert!(next.uv.x > first.uv.x, "{} to {}", first.uv, next.uv);
+        if (there.uv.x - at.uv.x).abs() < 0.5 && (next.p - first.p).length() < 2e-3 {
+            prop_assert!(there.uv.x > at.uv.x, "{} to {}", at.uv, there.uv);
         }
     }
 }

@@ -25,7 +25,8 @@ impl Landing {
 
     /// A ray that leaves towards `dir`, given about the normal as z; `out`: on the normal's side.
     fn leave(&self, dir: DVec3, out: bool) -> Ray {
-        let Surface { p, p_error, ng, tangent, .. } = self.surface;
+        let Surface { p, p_error, ng } = self.surface;
+        let tangent = self.bvh.coordinates(&self.ray, &self.hit).tangent;
         let (n, x) = (ng.as_dvec3(), tangent.as_dvec3());
         let up = dir.z.abs().max(1e-4) * if out { 1.0 } else { -1.0 };
         let dir = (dir.x * x + dir.y * n.cross(x) + up * n).as_vec3();
@@ -35,9 +36,15 @@ impl Landing {
 
     /// What holds of every surface.
     fn check(&self, size: f64) -> Result<(), TestCaseError> {
-        let Surface { p, p_error, ng, tangent, .. } = self.surface;
+        let Surface { p, p_error, ng } = self.surface;
+        let tangent = self.bvh.coordinates(&self.ray, &self.hit).tangent;
         prop_assert!((ng.length() - 1.0).abs() < 1e-6 && (tangent.length() - 1.0).abs() < 1e-6);
         prop_assert!(ng.dot(tangent).abs() < 1e-6);
+        let eight = self.bvh.surface8(&[self.ray], &[self.hit], &[0, 0, 0, 0, 0, 0]);
+        for axis in 0..3 {
+            let found = [eight.p[axis][5], eight.p_error[axis][5], eight.ng[axis][5]];
+            prop_assert_eq!(found, [p[axis], p_error[axis], ng[axis]], "eight are not as one");
+        }
         let scale = p.as_dvec3().length() + size;
         prop_assert!(f64::from(p_error.length()) < 3e-6 * scale, "{p_error} is no tight bound");
         let along = self.ray.at(self.hit.t);

@@ -50,6 +50,7 @@ impl Rgb {
     }
 
     /// Whether all channels are exactly 0.
+    #[inline]
     #[must_use]
     pub fn is_black(self) -> bool {
         self == Self::BLACK

@@ -47,6 +47,7 @@ struct Attributes {
 }
 
 impl Part {
+    #[inline]
     pub(super) fn object(&self, local: u32) -> u32 {
         match self.object {
             Number::Same(object) => object,
@@ -58,6 +59,7 @@ impl Part {
         matches!(self.object, Number::Same(_))
     }
 
+    #[inline]
     pub(super) fn material(&self, local: u32) -> u32 {
         match &self.material {
             Numbers::Same(material) => *material,
@@ -65,7 +67,15 @@ impl Part {
         }
     }
 
+    /// Whether its surfaces have only what the shape and the material give them.
+    #[inline]
+    pub(super) fn is_plain(&self) -> bool {
+        let bare = |mesh: &Attributes| mesh.normals.is_empty() && mesh.colors.is_empty();
+        self.colors.is_empty() && self.mesh.as_ref().is_none_or(|mesh| bare(mesh))
+    }
+
     /// The interpolated shading normal; `None` where the mesh has none.
+    #[inline]
     pub(super) fn normal(&self, local: u32, corners: [u32; 3], hit: &Hit) -> Option<Dir3> {
         let mesh = self.mesh.as_ref()?;
         let [a, b, c] = at_corners(&mesh.normals, &mesh.normal_indices, local, corners)?;
@@ -80,6 +90,7 @@ impl Part {
     }
 
     /// The geometry's own colour; `None` where it is the material's.
+    #[inline]
     pub(super) fn color(&self, local: u32, corners: Option<[u32; 3]>, hit: &Hit) -> Option<Rgb> {
         if let (Some(mesh), Some(corners)) = (&self.mesh, corners) {
             let [a, b, c] = at_corners(&mesh.colors, &[], local, corners)?;
@@ -90,6 +101,7 @@ impl Part {
 }
 
 /// The values at a triangle's corners; `None` where there are none.
+#[inline]
 fn at_corners<T: Copy>(
     values: &[T],
     indices: &[[u32; 3]],

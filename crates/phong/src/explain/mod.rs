@@ -237,7 +237,7 @@ pub fn explain(
         let drawn = camera_ray(&integrator, options, &filter, pixel, index);
         let mut recorder = Recorder::new(scene);
         let radiance = drawn.ray.map_or_else(Radiance::default, |ray| {
-            integrator.trace(&[ray], &mut RayCounts::default(), &mut recorder)[0]
+            integrator.trace(&ray.into(), &mut RayCounts::default(), &mut recorder)[0]
         });
         sums.add(&radiance, drawn.weight);
         let place = [drawn.place.x as f32, drawn.place.y as f32];

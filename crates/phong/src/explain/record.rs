@@ -67,7 +67,7 @@ impl<'a> Recorder<'a> {
     fn blocker(&self, shadow: &Ray) -> Option<Blocker> {
         let hit = self.scene.bvh().intersect(shadow);
         hit.is_some().then(|| {
-            let object = self.scene.interaction(shadow, &hit).object;
+            let object = self.scene.object(hit.prim);
             let record = &self.scene.objects()[object as usize];
             Blocker {
                 object: record.name.clone(),
@@ -86,22 +86,24 @@ impl Witness for Recorder<'_> {
 
     fn met(&mut self, ray: &Ray, at: &SurfaceInteraction, ambient: Rgb) {
         let scene = self.scene;
-        let record = &scene.objects()[at.object as usize];
+        let object = scene.object(at.hit.prim);
+        let record = &scene.objects()[object as usize];
+        let coordinates = scene.coordinates(ray, &at.hit);
         let material = &scene.written_materials()[at.material as usize];
         let surface = Surface {
             object: record.name.clone(),
-            object_number: at.object,
+            object_number: object,
             at: record.place.clone(),
-            element: scene.element(at.prim),
+            element: scene.element(at.hit.prim),
             material: material.clone(),
             material_number: at.material,
-            t: at.t,
+            t: at.hit.t,
             p: scene.to_world(at.p),
             ng: at.ng,
             n: at.n,
-            tangent: at.tangent,
+            tangent: Dir3::from_unit(coordinates.tangent),
             e: at.e,
-            uv: at.uv.to_array(),
+            uv: coordinates.uv.to_array(),
             from_outside: at.from_outside(),
             color: at.color,
             c_a: scene.ambient() * material.ambient_color.unwrap_or(at.color),

@@ -191,6 +191,7 @@ mod tests {
                 / width(Lobe::Phong, alpha, theta, across);
             (ratio - wide::cos(theta.to_radians())).abs()
         });
-        assert!(tends.iter().all(|off| *off < 2e-3), "{tends:?}");
+        // Lobes of half a degree, with cosines in f32.
+        assert!(tends.iter().all(|off| *off < 4e-3), "{tends:?}");
     }
 }

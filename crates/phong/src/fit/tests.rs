@@ -49,7 +49,8 @@ fn the_formula_makes_the_half_widths_equal() {
         let formula = fit(phong, Model::BlinnPhong).unwrap().formula.unwrap();
         let blinn = Lobe::new(Model::BlinnPhong, formula.value).unwrap();
         let [a, b] = [phong, blinn].map(|l| l.half_width(0.0, Slice::InPlane).unwrap());
-        assert_near(b / a, 1.0, 1e-4);
+        // Cosines in f32: at 1000 the half angle is known to a few in ten thousand.
+        assert_near(b / a, 1.0, 2e-4);
         // And backwards it gives the exponent it came from.
         let back = fit(blinn, Model::Phong).unwrap().formula.unwrap();
         assert_near(back.value / p, 1.0, 1e-9);

@@ -71,7 +71,7 @@ pub(super) fn gather(scene: &CompiledScene, options: &RenderOptions) -> Vec<Poin
             let drawn = camera_ray(&integrator, &centre, &filter, [x, y], 0);
             let mut listener = Listener { scene, weights: Vec::new(), point: Point::default() };
             if let Some(ray) = drawn.ray {
-                integrator.trace(&[ray], &mut RayCounts::default(), &mut listener);
+                integrator.trace(&ray.into(), &mut RayCounts::default(), &mut listener);
             }
             listener.point
         })
@@ -94,15 +94,15 @@ impl Witness for Listener<'_> {
         }
     }
 
-    fn met(&mut self, _: &Ray, at: &SurfaceInteraction, ambient: Rgb) {
+    fn met(&mut self, ray: &Ray, at: &SurfaceInteraction, ambient: Rgb) {
         if self.weights.is_empty() {
             self.point.surface = Some(Surface {
-                object: at.object,
+                object: self.scene.object(at.hit.prim),
                 material: at.material,
                 n: at.n,
                 ng: at.ng,
                 e: at.e,
-                tangent: at.tangent,
+                tangent: Dir3::from_unit(self.scene.coordinates(ray, &at.hit).tangent),
                 color: at.color,
                 ambient,
                 lights: Vec::with_capacity(self.scene.lights().len()),

@@ -6,6 +6,7 @@
 mod dir;
 mod elementary;
 mod frame;
+pub(crate) mod lanes;
 mod pow;
 pub mod wide;
 

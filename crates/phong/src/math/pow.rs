@@ -6,6 +6,10 @@
 
 use std::f64::consts::{LN_2, LOG2_E};
 
+use fearless_simd::{Simd, f32x8, f64x4, prelude::*, u32x8};
+
+use super::lanes::Real;
+
 /// `x^y`, for bases that are lengths or cosines.
 ///
 /// At most 0.503 ulp off for finite `y` and positive finite `x`, subnormals included, whether they
@@ -19,6 +23,7 @@ use std::f64::consts::{LN_2, LOG2_E};
 /// assert_eq!(pow(0.5, 3.0), 0.125);
 /// assert_eq!(pow(0.0, 0.0), 1.0); // the lecture's lobe wants 0 here: see `lobe`
 /// ```
+#[inline]
 pub fn pow(x: f32, y: f32) -> f32 {
     if x > 0.0 && x < f32::INFINITY && y.is_finite() {
         exp2_of_steps(f64::from(y) * log2_in_steps(f64::from(x)))
@@ -38,6 +43,7 @@ pub fn pow(x: f32, y: f32) -> f32 {
 /// assert_eq!(lobe(0.0, 0.0), 0.0);
 /// assert_eq!(lobe(-0.5, 2.0), 0.0);
 /// ```
+#[inline]
 pub fn lobe(x: f32, alpha: f32) -> f32 {
     if x >= 1.0 {
         1.0
@@ -46,6 +52,20 @@ pub fn lobe(x: f32, alpha: f32) -> f32 {
     } else {
         0.0
     }
+}
+
+/// [`lobe`] of eight cosines: the same bits.
+#[inline(always)]
+pub(crate) fn lobe8<S: Simd>(simd: S, x: f32x8<S>, alpha: f32) -> f32x8<S> {
+    let (zero, one) = (f32x8::splat(simd, 0.0), f32x8::splat(simd, 1.0));
+    // Subnormal bases have another exponent as f32 than as f64.
+    let normal = x.simd_ge(f32x8::splat(simd, f32::MIN_POSITIVE)) & x.simd_lt(one);
+    if !(normal | x.simd_le(zero) | x.simd_ge(one)).all_true() || !alpha.is_finite() {
+        return x.each(|x| lobe(x, alpha));
+    }
+    let base = normal.select(x, f32x8::splat(simd, 0.5));
+    let power = exp2_of_steps8(simd, log2_in_steps8(simd, base), f64::from(alpha));
+    normal.select(power, x.simd_ge(one).select(one, zero))
 }
 
 /// The cases without a logarithm.
@@ -73,9 +93,31 @@ const STEPS_PER_E: f64 = STEPS as f64 * LOG2_E;
 /// `ln 2` of a step.
 const E_PER_STEP: f64 = LN_2 / STEPS as f64;
 
+/// Square of the largest r.
+const R2: f64 = 1.0 / (4 * LOG_STEPS * LOG_STEPS) as f64;
+/// `ln(1 + r) = r − r²/2 + r³/3 − r⁴/4 + r⁵/5`, of which the last term is economised:
+/// Chebyshev's `r⁴ ≈ R² r² − R⁴/8`, which is off by at most R⁴/8.
+const A: [f64; 4] = [
+    STEPS_PER_E * (1.0 - R2 * R2 / 40.0),
+    STEPS_PER_E * (-1.0 / 2.0),
+    STEPS_PER_E * (1.0 / 3.0 + R2 / 5.0),
+    STEPS_PER_E * (-1.0 / 4.0),
+];
+
+/// Added and taken off again, it leaves the nearest whole number, also in the lowest bits.
+const ROUND: f64 = 1.5 * (1_u64 << FRACTION_BITS) as f64;
+/// Beyond 2^±160 every f32 is 0 or ∞, and the f64's exponent is still far from its ends.
+const FAR: f64 = 160.0 * STEPS as f64;
+/// Square of the largest u.
+const U2: f64 = E_PER_STEP * E_PER_STEP / 4.0;
+/// `e^u = 1 + u + u²/2 + u³/6`, of which the last term is economised: Chebyshev's
+/// `u³ ≈ ¾ U² u`, which is off by at most U³/4.
+const B: [f64; 2] = [E_PER_STEP * (1.0 + U2 / 8.0), E_PER_STEP * E_PER_STEP / 2.0];
+
 /// `(1/c, 256 log₂ c)` at `c = 1 + i/128`, i = 0 ..= 128.
-static LOG_TABLE: [(f64, f64); LOG_STEPS + 1] = {
-    let mut table = [(1.0, 0.0); LOG_STEPS + 1];
+static LOG_TABLE: [(f64, f64); 2 * LOG_STEPS] = {
+    // A power of two of entries, so that a masked index needs no check.
+    let mut table = [(1.0, 0.0); 2 * LOG_STEPS];
     let mut i = 1;
     while i < LOG_STEPS {
         let c = 1.0 + i as f64 / LOG_STEPS as f64;
@@ -102,24 +144,15 @@ static EXP_TABLE: [f64; STEPS] = {
 /// `x = 2^k z` with z in [1, 2); with c the table's nearest step, `log₂ x = k + log₂ c +
 /// log₂(1 + r)`, where `r = z/c − 1` is at most 1/256. Just below 1, where k = −1 and c = 2, the
 /// first two cancel exactly and r is exact, so that nothing is lost where highlights peak.
+#[inline]
 fn log2_in_steps(x: f64) -> f64 {
-    /// Square of the largest r.
-    const R2: f64 = 1.0 / (4 * LOG_STEPS * LOG_STEPS) as f64;
-    /// `ln(1 + r) = r − r²/2 + r³/3 − r⁴/4 + r⁵/5`, of which the last term is economised:
-    /// Chebyshev's `r⁴ ≈ R² r² − R⁴/8`, which is off by at most R⁴/8.
-    const A: [f64; 4] = [
-        STEPS_PER_E * (1.0 - R2 * R2 / 40.0),
-        STEPS_PER_E * (-1.0 / 2.0),
-        STEPS_PER_E * (1.0 / 3.0 + R2 / 5.0),
-        STEPS_PER_E * (-1.0 / 4.0),
-    ];
     const ONE: u64 = 1.0_f64.to_bits();
     let bits = x.to_bits();
     let fraction = bits & ((1 << FRACTION_BITS) - 1);
     let k = (bits >> FRACTION_BITS) as i32 - 1023;
     let z = f64::from_bits(ONE | fraction);
     let nearest = ((fraction >> (FRACTION_BITS - LOG_STEPS.ilog2() - 1)) + 1) >> 1;
-    let (inverse, log_c) = LOG_TABLE[nearest as usize];
+    let (inverse, log_c) = LOG_TABLE[nearest as usize & (2 * LOG_STEPS - 1)];
     let whole = f64::from(k * STEPS as i32) + log_c;
     let r = z * inverse - 1.0;
     // Not Horner's nesting: independent products overlap in the processor.
@@ -130,24 +163,68 @@ fn log2_in_steps(x: f64) -> f64 {
 ///
 /// `t = i + s` with i whole and |s| ≤ 1/2: a power of two, times one of 256 tabulated, times
 /// `e^u` with `u = s ln 2 / 256`.
+#[inline]
 fn exp2_of_steps(t: f64) -> f32 {
-    /// Added and taken off again, it leaves the nearest whole number, also in the lowest bits.
-    const ROUND: f64 = 1.5 * (1_u64 << FRACTION_BITS) as f64;
-    /// Beyond 2^±160 every f32 is 0 or ∞, and the f64's exponent is still far from its ends.
-    const FAR: f64 = 160.0 * STEPS as f64;
-    /// Square of the largest u.
-    const U2: f64 = E_PER_STEP * E_PER_STEP / 4.0;
-    /// `e^u = 1 + u + u²/2 + u³/6`, of which the last term is economised: Chebyshev's
-    /// `u³ ≈ ¾ U² u`, which is off by at most U³/4.
-    const B: [f64; 2] = [E_PER_STEP * (1.0 + U2 / 8.0), E_PER_STEP * E_PER_STEP / 2.0];
     let t = t.clamp(-FAR, FAR);
     let shifted = t + ROUND;
-    let i = shifted.to_bits();
     let s = t - (shifted - ROUND);
+    let scale = scale_of(shifted);
+    (scale + scale * (s * (B[0] + B[1] * s))) as f32
+}
+
+/// `2^(i/256)` of the whole number i that `shifted` holds in its lowest bits.
+#[inline(always)]
+fn scale_of(shifted: f64) -> f64 {
+    let i = shifted.to_bits();
     let octaves = (i / STEPS as u64) << FRACTION_BITS;
     let step = EXP_TABLE[i as usize % STEPS].to_bits();
-    let scale = f64::from_bits(step.wrapping_add(octaves));
-    (scale + scale * (s * (B[0] + B[1] * s))) as f32
+    f64::from_bits(step.wrapping_add(octaves))
+}
+
+/// [`log2_in_steps`] of eight positive normal f32.
+#[inline(always)]
+fn log2_in_steps8<S: Simd>(simd: S, x: f32x8<S>) -> [f64x4<S>; 2] {
+    const FRACTION: u32 = (1 << (f32::MANTISSA_DIGITS - 1)) - 1;
+    let bits: u32x8<S> = x.bitcast();
+    let fraction = bits & FRACTION;
+    let z: f32x8<S> = (fraction | 1.0_f32.to_bits()).bitcast();
+    let nearest = ((fraction >> (f32::MANTISSA_DIGITS - 1 - LOG_STEPS.ilog2() - 1)) + 1) >> 1;
+    let nearest: [u32; 8] = nearest.into();
+    let k = bits >> (f32::MANTISSA_DIGITS - 1);
+    // Whole numbers of up to 2^17: exact.
+    let k = (k.to_float::<f32x8<S>>() - 127.0) * STEPS as f32;
+    let ((z0, z1), (k0, k1)) = (z.widen(), k.widen());
+    let [n0, n1, n2, n3, n4, n5, n6, n7] = nearest;
+    [log2_of_parts(simd, z0, k0, [n0, n1, n2, n3]), log2_of_parts(simd, z1, k1, [n4, n5, n6, n7])]
+}
+
+/// The last lines of [`log2_in_steps`], for four.
+#[inline(always)]
+fn log2_of_parts<S: Simd>(simd: S, z: f64x4<S>, k: f64x4<S>, [a, b, c, d]: [u32; 4]) -> f64x4<S> {
+    let entry = |nearest: u32| LOG_TABLE[nearest as usize & (2 * LOG_STEPS - 1)];
+    let [a, b, c, d] = [entry(a), entry(b), entry(c), entry(d)];
+    let inverse: f64x4<S> = [a.0, b.0, c.0, d.0].simd_into(simd);
+    let log_c: f64x4<S> = [a.1, b.1, c.1, d.1].simd_into(simd);
+    let whole = k + log_c;
+    let r = z * inverse - 1.0;
+    (whole + A[0] * r) + (r * r) * ((A[1] + A[2] * r) + (r * r) * A[3])
+}
+
+/// [`exp2_of_steps`] of `factor` times eight numbers.
+#[inline(always)]
+fn exp2_of_steps8<S: Simd>(simd: S, [low, high]: [f64x4<S>; 2], factor: f64) -> f32x8<S> {
+    exp2_of_steps4(simd, factor * low).narrow(exp2_of_steps4(simd, factor * high))
+}
+
+/// [`exp2_of_steps`] of four, before it is rounded.
+#[inline(always)]
+fn exp2_of_steps4<S: Simd>(simd: S, t: f64x4<S>) -> f64x4<S> {
+    let t = t.max(f64x4::splat(simd, -FAR)).min(f64x4::splat(simd, FAR));
+    let shifted = t + ROUND;
+    let s = t - (shifted - ROUND);
+    let [a, b, c, d]: [f64; 4] = shifted.into();
+    let scale: f64x4<S> = [scale_of(a), scale_of(b), scale_of(c), scale_of(d)].simd_into(simd);
+    scale + scale * (s * (B[0] + B[1] * s))
 }
 
 /// `ln c` for c in [1, 2] by `2 artanh((c − 1)/(c + 1))`, for tables only.
@@ -275,6 +352,21 @@ mod tests {
         }
         assert_eq!(lobe(1e-30, 0.0), 1.0);
         assert_eq!(lobe(f32::NAN, 2.0), 0.0);
+    }
+
+    #[test]
+    fn eight_lobes_have_the_bits_of_one() {
+        let simd = fearless_simd::Fallback::new();
+        let odd = [0.0, -0.0, -0.5, 1.0, 1.000_000_1, 1e-40, f32::MIN_POSITIVE, f32::NAN];
+        let cosines = (0.001_f32.to_bits()..1.0_f32.to_bits()).step_by(20_011).map(f32::from_bits);
+        let all: Vec<f32> = odd.into_iter().chain(cosines).collect();
+        for alpha in EXPONENTS.into_iter().chain([0.0, 1e30, f32::INFINITY, f32::NAN]) {
+            for x in all.as_chunks::<8>().0 {
+                let eight: [f32; 8] = lobe8(simd, (*x).simd_into(simd), alpha).into();
+                let one = x.map(|x| lobe(x, alpha));
+                assert_eq!(eight.map(f32::to_bits), one.map(f32::to_bits), "{x:?}^{alpha}");
+            }
+        }
     }
 
     #[test]

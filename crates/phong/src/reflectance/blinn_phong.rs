@@ -4,7 +4,8 @@ use std::f32::consts::SQRT_2;
 
 use super::scale::{Scale, Switches};
 use super::{Incident, Terms};
-use crate::math::{Dir3, lobe, pow};
+use crate::math::lanes::{Real, add, dot};
+use crate::math::{Dir3, pow};
 
 /// `k_d (L·N) C_d + k_s (N·H)^α C_s`, with `H = (L+E)/‖L+E‖`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,24 +45,24 @@ impl BlinnPhong {
     }
 
     /// What one light above the horizon adds: `k_d (L·N) C_d` and `k_s (N·H)^α C_s`.
-    pub(super) fn shade_light(
-        self,
-        n: Dir3,
-        e: Dir3,
-        Incident { l, c_d, c_s, .. }: Incident,
-    ) -> Terms {
+    #[inline]
+    pub(super) fn shade_light(self, n: Dir3, e: Dir3, incident: Incident) -> Terms {
+        let Incident { l, c_d, c_s, .. } = incident;
+        let [diffuse, specular] = self.weights(n.to_array(), e.to_array(), l.to_array());
+        Terms { diffuse: diffuse * c_d, specular: specular * c_s, ..Terms::default() }
+    }
+
+    /// `k_d (L·N)` and `k_s (N·H)^α`, for one light or eight.
+    #[inline(always)]
+    pub(super) fn weights<F: Real>(self, n: [F; 3], e: [F; 3], l: [F; 3]) -> [F; 2] {
         let Self { k_d, k_s, alpha, falloff, scale } = self;
-        let n_dot_l = n.cos(l);
-        let n_dot_h = l.halfway(e).map_or(0.0, |h| n.cos(h));
+        let n_dot_l = dot(n, l).positive();
+        let n_dot_h = dot(n, F::unit(add(l, e))).positive();
         let lobe = match falloff {
-            Falloff::Power => lobe(n_dot_h, alpha),
-            Falloff::Rational => rational_lobe(n_dot_h, alpha),
+            Falloff::Power => n_dot_h.lobe(alpha),
+            Falloff::Rational => n_dot_h.each(|x| rational_lobe(x, alpha)),
         };
-        Terms {
-            diffuse: k_d * n_dot_l * c_d,
-            specular: k_s * scale.at(n_dot_l) * lobe * c_s,
-            ..Terms::default()
-        }
+        [n_dot_l * k_d, scale.at(n_dot_l) * k_s * lobe]
     }
 }
 

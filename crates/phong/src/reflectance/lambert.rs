@@ -2,6 +2,7 @@
 
 use super::{Incident, Terms};
 use crate::math::Dir3;
+use crate::math::lanes::{Real, dot};
 
 /// `k_d (L·N) C_d`.
 ///
@@ -14,9 +15,15 @@ pub struct Lambert {
 
 impl Lambert {
     /// What one light above the horizon adds: `k_d (L·N) C_d`.
+    #[inline]
     pub(super) fn shade_light(self, n: Dir3, Incident { l, c_d, .. }: Incident) -> Terms {
-        let Self { k_d } = self;
-        Terms { diffuse: k_d * l.cos(n) * c_d, ..Terms::default() }
+        Terms { diffuse: self.weight(n.to_array(), l.to_array()) * c_d, ..Terms::default() }
+    }
+
+    /// `k_d (L·N)`, for one light or eight.
+    #[inline(always)]
+    pub(super) fn weight<F: Real>(self, n: [F; 3], l: [F; 3]) -> F {
+        dot(n, l).positive() * self.k_d
     }
 }
 

@@ -27,7 +27,10 @@ pub use ward::Ward;
 
 pub use phong_scene::{Fresnel, Shadowing, WardForm};
 
+use fearless_simd::{Simd, f32x8};
+
 use crate::math::Dir3;
+use crate::math::lanes::Real;
 
 /// Cosines up to this are 0 but for rounding; what is divided by them would be noise, or ∞.
 const HORIZON: f32 = 1e-9;
@@ -54,6 +57,32 @@ pub enum Reflectance {
 }
 
 impl Reflectance {
+    /// Whether it has a grain: whether the tangent matters.
+    #[inline]
+    pub const fn is_brushed(&self) -> bool {
+        matches!(self, Self::Ward(_))
+    }
+
+    /// What stands before `C_{m,d}` and `C_{m,s}` for eight lights above the horizon; `None` for the
+    /// models that are worked out one light at a time.
+    #[inline(always)]
+    pub(crate) fn weights8<S: Simd>(
+        &self,
+        n: [f32x8<S>; 3],
+        e: [f32x8<S>; 3],
+        l: [f32x8<S>; 3],
+    ) -> Option<[f32x8<S>; 2]> {
+        match self {
+            Self::Lambert(model) => {
+                let diffuse = model.weight(n, l);
+                Some([diffuse, diffuse.like(0.0)])
+            }
+            Self::Phong(model) => Some(model.weights(n, e, l)),
+            Self::BlinnPhong(model) => Some(model.weights(n, e, l)),
+            Self::Microfacet(_) | Self::OrenNayar(_) | Self::Ward(_) => None,
+        }
+    }
+
     /// What one light adds to the diffuse and the specular term; the other terms are 0.
     ///
     /// `n` is the shading normal, on the side of `e`, the direction to the eye; `tangent` gives
@@ -61,6 +90,7 @@ impl Reflectance {
     /// Included: cosine, weights, colours. Not included: visibility, and ambient light.
     ///
     /// **A light with L·N ≤ 0 adds nothing**, whatever the model.
+    #[inline]
     pub fn shade_light(&self, n: Dir3, tangent: Dir3, e: Dir3, incident: Incident) -> Terms {
         if incident.l.dot(n) <= 0.0 {
             return Terms::default();
@@ -82,6 +112,7 @@ mod tests {
     use phong_scene::Rgb;
 
     use super::*;
+    use crate::math::lanes::{Lanes3, load3};
 
     /// The direction of `(x, y, z)`.
     pub(super) fn dir(x: f32, y: f32, z: f32) -> Dir3 {
@@ -120,6 +151,43 @@ mod tests {
                 form: WardForm::Gmd,
             }),
         ]
+    }
+
+    #[test]
+    fn eight_lights_have_the_bits_of_one() {
+        let simd = fearless_simd::Fallback::new();
+        let mut shaded = 0;
+        for switches in [(false, false), (true, false), (false, true), (true, true)]
+            .map(|(times_cosine, normalize)| Switches { times_cosine, normalize })
+        {
+            for model in [
+                Reflectance::Lambert(Lambert { k_d: 0.7 }),
+                Reflectance::Phong(Phong::new(0.6, 0.3, 17.0, switches)),
+                Reflectance::BlinnPhong(BlinnPhong::new(0.6, 0.3, 17.0, switches)),
+                Reflectance::BlinnPhong(
+                    BlinnPhong::new(0.6, 0.3, 17.0, switches).with_falloff(Falloff::Rational),
+                ),
+            ] {
+                let x = |i: u32, k: u32| ((i * 37 + k * 61) % 83) as f32 / 41.5 - 1.0;
+                let e = dir(0.3, -0.2, 0.7);
+                let l: [Dir3; 8] = std::array::from_fn(|i| {
+                    dir(x(i as u32, 1), x(i as u32, 2), 0.9 + x(i as u32, 3))
+                });
+                let n: [Dir3; 8] = std::array::from_fn(|i| dir(x(i as u32, 4), 0.1, 1.5));
+                let lanes = |of: &dyn Fn(usize) -> Dir3| -> Lanes3 {
+                    std::array::from_fn(|k| std::array::from_fn(|i| of(i).to_array()[k]))
+                };
+                let [n8, e8, l8] = [lanes(&|i| n[i]), lanes(&|_| e), lanes(&|i| l[i])]
+                    .map(|lanes| load3(simd, &lanes));
+                let [diffuse, specular] = model.weights8(n8, e8, l8).unwrap();
+                for i in (0..8).filter(|&i| l[i].dot(n[i]) > 0.0) {
+                    let terms = model.shade_light(n[i], Dir3::X, e, white(l[i]));
+                    assert_eq!([diffuse[i], specular[i]], [terms.diffuse.r, terms.specular.r]);
+                    shaded += 1;
+                }
+            }
+        }
+        assert!(shaded > 60, "{shaded}");
     }
 
     #[test]

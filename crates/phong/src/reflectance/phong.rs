@@ -2,7 +2,8 @@
 
 use super::scale::{Scale, Switches};
 use super::{Incident, Terms};
-use crate::math::{Dir3, lobe};
+use crate::math::Dir3;
+use crate::math::lanes::{Real, dot, mirror};
 
 /// `k_d (L·N) C_d + k_s (R·E)^α C_s`, with `R = 2(L·N)N − L`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,20 +24,20 @@ impl Phong {
     }
 
     /// What one light above the horizon adds: `k_d (L·N) C_d` and `k_s (R·E)^α C_s`.
-    pub(super) fn shade_light(
-        self,
-        n: Dir3,
-        e: Dir3,
-        Incident { l, c_d, c_s, .. }: Incident,
-    ) -> Terms {
+    #[inline]
+    pub(super) fn shade_light(self, n: Dir3, e: Dir3, incident: Incident) -> Terms {
+        let Incident { l, c_d, c_s, .. } = incident;
+        let [diffuse, specular] = self.weights(n.to_array(), e.to_array(), l.to_array());
+        Terms { diffuse: diffuse * c_d, specular: specular * c_s, ..Terms::default() }
+    }
+
+    /// `k_d (L·N)` and `k_s (R·E)^α`, for one light or eight.
+    #[inline(always)]
+    pub(super) fn weights<F: Real>(self, n: [F; 3], e: [F; 3], l: [F; 3]) -> [F; 2] {
         let Self { k_d, k_s, alpha, scale } = self;
-        let n_dot_l = n.cos(l);
-        let r = n.mirror(l);
-        Terms {
-            diffuse: k_d * n_dot_l * c_d,
-            specular: k_s * scale.at(n_dot_l) * lobe(r.cos(e), alpha) * c_s,
-            ..Terms::default()
-        }
+        let n_dot_l = dot(n, l).positive();
+        let r_dot_e = dot(mirror(n, l), e).positive();
+        [n_dot_l * k_d, scale.at(n_dot_l) * k_s * r_dot_e.lobe(alpha)]
     }
 }
 

@@ -1,5 +1,7 @@
 //! What programs that say "Phong" multiply the lobe by, beside `k_s`.
 
+use crate::math::lanes::Real;
+
 /// The two of the four dialect switches that concern the lobe. The lecture: both off.
 ///
 /// (The other two, tint and ambient, concern colours, and are the integrator's.)
@@ -27,7 +29,8 @@ impl Scale {
     }
 
     /// The scale under light that falls in at cosine `n_dot_l`.
-    pub(super) fn at(self, n_dot_l: f32) -> f32 {
-        if self.times_cosine { self.factor * n_dot_l } else { self.factor }
+    #[inline(always)]
+    pub(super) fn at<F: Real>(self, n_dot_l: F) -> F {
+        if self.times_cosine { n_dot_l * self.factor } else { n_dot_l.like(self.factor) }
     }
 }
