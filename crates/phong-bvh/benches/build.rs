@@ -4,6 +4,7 @@
 //! crates/phong-bvh/benches/peers/setup.sh               # once: fetches Embree and the meshes
 //! cargo bench -p phong-bvh --bench build                # every scene and preset
 //! cargo bench -p phong-bvh --bench build -- dragon spheres fast balanced
+//! cargo bench -p phong-bvh --bench build -- --builds    # no rays are traced
 //! cargo bench -p phong-bvh --bench build -- growth      # 1 k to 10 M triangles, 1 k to 20 M spheres
 //! ```
 //!
@@ -57,6 +58,7 @@ struct Options {
     scenes: Vec<&'static str>,
     presets: Vec<(&'static str, Preset)>,
     growth: bool,
+    builds: bool,
 }
 
 impl Options {
@@ -67,6 +69,7 @@ impl Options {
             let preset = PRESETS.into_iter().find(|&(name, _)| name == arg);
             match (arg.as_str(), scene, preset) {
                 ("--bench", ..) => {}
+                ("--builds", ..) => options.builds = true,
                 ("growth", ..) => options.growth = true,
                 (_, Some(scene), _) => options.scenes.push(scene),
                 (_, _, Some(preset)) => options.presets.push(preset),
@@ -110,7 +113,7 @@ fn main() -> ExitCode {
     let bench = Bench { embree, one: pool(1), two: pool(2) };
     for &name in &options.scenes {
         match scenes::load(name, &folder) {
-            Ok(geometry) => bench.compare(name, &geometry, &options.presets),
+            Ok(geometry) => bench.compare(name, &geometry, &options),
             Err(error) => println!("{name} left out: {error} (see benches/peers/setup.sh)"),
         }
     }
@@ -179,13 +182,17 @@ impl Bench {
         (theirs, ours)
     }
 
-    fn compare(&self, name: &str, geometry: &Geometry, presets: &[(&'static str, Preset)]) {
+    fn compare(&self, name: &str, geometry: &Geometry, options: &Options) {
+        let presets = &options.presets;
         let ([ns, their_bytes], ours) = self.builds(geometry, presets, 5, true);
         for (&(preset, _), Built { cpu, wall, bytes }) in presets.iter().zip(&ours) {
             let ratio = ns / cpu;
             println!(
                 "BUILD  {name} {preset} {ratio:.2} {cpu:.1} {wall:.1} {bytes:.1} {their_bytes:.1}"
             );
+        }
+        if options.builds {
+            return;
         }
         let first = build(geometry.clone(), Preset::Balanced);
         let primary = rays::primary(geometry, 512);

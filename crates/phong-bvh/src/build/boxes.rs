@@ -9,7 +9,9 @@ use crate::{Aabb, Geometry, primitives::triangle};
 /// A primitive's box as `[−lo, index within its geometry, hi, index of the geometry]`.
 ///
 /// With the lower corner negated, the union of two boxes is one maximum of eight lanes. The two
-/// index lanes hold bits of integers, and nothing reads what a maximum makes of them.
+/// index lanes take part in all arithmetic, and nothing reads what it makes of them. They hold
+/// integers as bits, [raised](FIRST) so that these are no subnormal numbers: on those, arithmetic is
+/// slower, and building took a quarter longer.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
 pub(super) struct Boxed(pub(super) [f32; 8]);
@@ -17,24 +19,30 @@ pub(super) struct Boxed(pub(super) [f32; 8]);
 /// The union of nothing, in the same form.
 pub(super) const EMPTY: [f32; 8] = [f32::NEG_INFINITY; 8];
 
+/// The bits of index 0: a power of two so small that no difference of indices is subnormal.
+const FIRST: u32 = 0x2000_0000;
+
+/// Indices are below this: their bits are then finite numbers.
+pub(super) const MOST: usize = 1 << 30;
+
 impl Boxed {
     const UNUSED: u32 = u32::MAX;
 
     /// Of primitive `local` of a geometry; grown by what its test may round.
     pub(super) fn new(bounds: Aabb, local: usize, geometry: usize) -> Self {
         let Aabb { lo, hi } = bounds.padded();
-        let [local, geometry] = [local, geometry].map(|index| f32::from_bits(index as u32));
+        let [local, geometry] = [local, geometry].map(|index| f32::from_bits(index as u32 + FIRST));
         Self([-lo.x, -lo.y, -lo.z, local, hi.x, hi.y, hi.z, geometry])
     }
 
     /// Index within its geometry.
     pub(super) fn local(&self) -> usize {
-        self.0[3].to_bits() as usize
+        (self.0[3].to_bits() - FIRST) as usize
     }
 
     /// Index of its geometry.
     pub(super) fn geometry(&self) -> usize {
-        self.0[7].to_bits() as usize
+        (self.0[7].to_bits() - FIRST) as usize
     }
 
     /// The eight lanes.

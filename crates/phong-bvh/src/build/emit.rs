@@ -9,6 +9,7 @@ use crate::{
     Geometry,
     node8::{Kind, NODE, REFS, Ref, Row},
     primitives::{sphere, triangle},
+    simd::prefetch_item,
 };
 
 /// What is under one node.
@@ -120,8 +121,9 @@ impl Writer<'_> {
                 root
             }
             Shape::Leaf { kind, len, first } => {
-                let boxes = &self.boxes[first as usize..][..usize::from(len)];
-                self.leaf(kind, boxes)
+                let (first, len) = (first as usize, usize::from(len));
+                self.prefetch(first, len);
+                self.leaf(kind, &self.boxes[first..first + len])
             }
             Shape::Pair { .. } => {
                 self.end += NODE;
@@ -138,6 +140,33 @@ impl Writer<'_> {
                 }
                 self.rows[at..at + NODE].copy_from_slice(&node);
                 Ref::node(at)
+            }
+        }
+    }
+
+    /// Asks for primitives of leaves to come: the next boxes are written soon, not in their order but
+    /// nearly, and primitives lie anywhere in memory.
+    #[inline(always)]
+    fn prefetch(&self, first: usize, len: usize) {
+        const AHEAD: usize = 16;
+        let range = |ahead: usize| {
+            let end = self.boxes.len();
+            (first + ahead).min(end)..(first + ahead + len).min(end)
+        };
+        if !self.indexed {
+            for b in &self.boxes[range(2 * AHEAD)] {
+                match &self.geometry[b.geometry()] {
+                    Geometry::Triangles { indices, .. } => prefetch_item(indices, b.local()),
+                    Geometry::Spheres(spheres) => prefetch_item(spheres, b.local()),
+                    Geometry::Solid(_) | Geometry::Plane(_) => {}
+                }
+            }
+            for b in &self.boxes[range(AHEAD)] {
+                if let Geometry::Triangles { positions, indices } = &self.geometry[b.geometry()] {
+                    for &index in &indices[b.local()] {
+                        prefetch_item(positions, index as usize);
+                    }
+                }
             }
         }
     }

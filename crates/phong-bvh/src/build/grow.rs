@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::{
     Settings, WIDTH,
     boxes::{Boxed, half_area},
+    emit::{Size, measure},
     gather::{CLOSED, Costs, Split, gather},
     partition::{partition, partition_by_all},
     sah::{Bins, Cut, Run},
@@ -49,6 +50,8 @@ pub(super) struct Subtree {
     pub(super) branches: Vec<Branch>,
     /// Its boxes, among all.
     pub(super) boxes: Range<usize>,
+    /// How large it is once written, without the subtrees it refers to.
+    pub(super) size: Size,
 }
 
 impl Subtree {
@@ -86,7 +89,9 @@ impl Grower<'_> {
         let runs = boxes.par_chunks(TASK).map(|boxes| self.token.run(Bound { boxes }));
         let run = runs.reduce(|| Run::NONE, |a, b| a.union(&b));
         let top = self.top(boxes, 0, &run, 0);
-        self.token.run(Flatten { top })
+        let (mut over, subtrees) = self.token.run(Flatten { top });
+        over.size = measure(&over.branches, self.settings.indexed, over.branches.len() as u32 - 1);
+        (over, subtrees)
     }
 
     /// Cuts large runs, by all threads together; `first` is the number of the first box.
@@ -94,7 +99,9 @@ impl Grower<'_> {
         if boxes.len() <= TASK {
             let range = first..first + boxes.len();
             let branches = self.token.run(Grow { grower: self, boxes, run, depth });
-            return Top::Subtree(Subtree { branches, boxes: range }, run.bounds);
+            // Now, while they are in the cache.
+            let size = measure(&branches, self.settings.indexed, branches.len() as u32 - 1);
+            return Top::Subtree(Subtree { branches, boxes: range, size }, run.bounds);
         }
         let bins = boxes
             .par_chunks(TASK)

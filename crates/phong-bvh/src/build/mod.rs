@@ -16,7 +16,7 @@ use rayon::prelude::*;
 
 use self::{
     boxes::Boxed,
-    emit::{Size, Writer, measure},
+    emit::Writer,
     grow::{Grower, Subtree},
 };
 #[cfg(test)]
@@ -45,7 +45,7 @@ pub(crate) struct Tree {
     pub(crate) only: Option<Kind>,
 }
 
-/// More rows than can be referred to.
+/// More primitives than a box can name, or more rows than can be referred to.
 #[derive(Debug)]
 pub(crate) struct TooLarge;
 
@@ -76,6 +76,9 @@ pub(crate) fn build(
     preset: Preset,
     token: Token,
 ) -> Result<Tree, TooLarge> {
+    if geometry.len() > boxes::MOST || geometry.iter().any(|g| g.len() > boxes::MOST) {
+        return Err(TooLarge);
+    }
     let mut boxes = boxes::of(geometry);
     if boxes.is_empty() {
         return Ok(Tree::default());
@@ -107,13 +110,9 @@ struct Plan<'a> {
 impl Plan<'_> {
     /// Writes all subtrees and the tree over them.
     fn lay(&self, top: &Subtree, subtrees: &[Subtree]) -> Result<Tree, TooLarge> {
-        let measure = |subtree: &Subtree| {
-            measure(&subtree.branches, self.indexed, subtree.branches.len() as u32 - 1)
-        };
-        let sizes: Vec<Size> = subtrees.par_iter().map(measure).collect();
-        let Size { rows, nodes } = measure(top);
-        let size = rows + sizes.iter().map(|size| size.rows).sum::<usize>();
-        let nodes = nodes + sizes.iter().map(|size| size.nodes).sum::<u64>();
+        let sizes = || subtrees.iter().chain([top]).map(|subtree| subtree.size);
+        let size = sizes().map(|size| size.rows).sum();
+        let nodes = sizes().map(|size| size.nodes).sum();
         if size > MAX_ROWS {
             return Err(TooLarge);
         }
@@ -122,17 +121,17 @@ impl Plan<'_> {
         let root = self.write(top, rows.as_mut_slice(), |number, at| {
             let number = number as usize;
             places.push((number, at));
-            (subtrees[number].root(self.indexed, at), sizes[number].rows)
+            (subtrees[number].root(self.indexed, at), subtrees[number].size.rows)
         });
         let mut rest = rows.as_mut_slice();
         let mut done = 0;
         let mut pieces = Vec::with_capacity(subtrees.len());
         for (number, at) in places {
             let (_, from) = rest.split_at_mut(at - done);
-            let (piece, behind) = from.split_at_mut(sizes[number].rows);
+            let (piece, behind) = from.split_at_mut(subtrees[number].size.rows);
             pieces.push((&subtrees[number], piece));
             rest = behind;
-            done = at + sizes[number].rows;
+            done = at + subtrees[number].size.rows;
         }
         pieces.into_par_iter().for_each(|(subtree, rows)| {
             self.write(subtree, rows, |_, at| (Ref::node(at), 0));
@@ -147,7 +146,7 @@ impl Plan<'_> {
         mut inner: impl FnMut(u32, usize) -> (Ref, usize),
     ) -> Ref {
         let Self { geometry, first, indexed, boxes } = *self;
-        let Subtree { branches, boxes: range } = subtree;
+        let Subtree { branches, boxes: range, .. } = subtree;
         let boxes = &boxes[range.clone()];
         let mut writer = Writer { geometry, first, indexed, branches, boxes, rows, end: 0 };
         writer.write(branches.len() as u32 - 1, &mut inner)

@@ -26,15 +26,15 @@ pub(super) fn partition<S: Simd>(simd: S, boxes: &mut [Boxed], cut: &Cut) -> [Ru
     // The next box changes places with the first of these, and is counted in if it is left of it:
     // there is no branch to be predicted, since half of those would be wrong.
     for i in 0..boxes.len() {
-        let b = boxes[i];
+        let b = &boxes[i];
         let lanes = b.lanes(simd);
         let center = f32x8::splat(simd, b.0[4 + axis]) - f32x8::splat(simd, b.0[axis]);
         let goes_left = ((center - first) * scale).simd_lt(bin);
         let centers = center_bounds(lanes);
         left = left.max(goes_left.select(centers, empty));
         right = right.max(goes_left.select(empty, centers));
-        boxes[i] = boxes[front];
-        boxes[front] = b;
+        boxes[front].lanes(simd).store_array(&mut boxes[i].0);
+        lanes.store_array(&mut boxes[front].0);
         front += goes_left.to_bitmask() as usize & 1;
     }
     [

@@ -25,3 +25,17 @@ pub(crate) fn prefetch(rows: &[Row], row: usize) {
     #[cfg(not(target_arch = "x86_64"))]
     let _ = (rows, row);
 }
+
+/// Asks for one item before it is needed; beyond the end it asks for nothing of use.
+#[inline(always)]
+pub(crate) fn prefetch_item<T>(items: &[T], index: usize) {
+    #[cfg(target_arch = "x86_64")]
+    {
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        let at = items.as_ptr().wrapping_add(index).cast::<i8>();
+        // SAFETY: a prefetch reads nothing and cannot fault, whatever the address.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(at) };
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = (items, index);
+}
