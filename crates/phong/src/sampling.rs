@@ -36,6 +36,13 @@ impl Sampler {
         Self { key: if centred { 0 } else { key() }, index, centred }
     }
 
+    /// Another sample of the same pixel.
+    #[inline]
+    #[must_use]
+    pub fn at(&self, index: u32) -> Self {
+        Self { index, ..*self }
+    }
+
     /// The sampler of a mirror or glass ray that left a surface: as good, but uncorrelated.
     #[must_use]
     pub fn branch(&self, number: u32) -> Self {
@@ -43,11 +50,24 @@ impl Sampler {
     }
 
     /// A point of the unit square [0, 1)².
-    #[inline]
     pub fn pair(&self, purpose: Use) -> [f32; 2] {
         if self.centred { [0.5, 0.5] } else { self.scrambled(purpose) }
     }
 
+    /// [`Sampler::pair`] of eight samplers of as many samples: straight code, which the compiler
+    /// makes vector code of.
+    #[inline(always)]
+    pub(crate) fn pair8(samplers: &[Self; 8], purpose: Use) -> [[f32; 8]; 2] {
+        let mut out = [[0.5; 8]; 2];
+        if !samplers[0].centred {
+            for (lane, sampler) in samplers.iter().enumerate() {
+                [out[0][lane], out[1][lane]] = sampler.scrambled(purpose);
+            }
+        }
+        out
+    }
+
+    #[inline(always)]
     fn scrambled(&self, purpose: Use) -> [f32; 2] {
         let dimension = match purpose {
             Use::Pixel => 0,
@@ -65,6 +85,7 @@ impl Sampler {
 }
 
 /// The 24 highest bits as a number in [0, 1).
+#[inline(always)]
 fn unit(bits: u32) -> f32 {
     (bits >> 8) as f32 * (1.0 / 16_777_216.0)
 }
@@ -72,6 +93,7 @@ fn unit(bits: u32) -> f32 {
 /// The second Sobol dimension. Its generator matrix is Pascal's triangle modulo 2, whose entry at
 /// row r, column j is 1 where the bits of r are among those of j (Lucas): the five-fold product of
 /// the 2 × 2 triangle with itself, applied one factor at a time.
+#[inline(always)]
 fn sobol(index: u32) -> u32 {
     let mut x = index;
     x ^= x >> 1 & 0x5555_5555;
@@ -86,6 +108,7 @@ fn sobol(index: u32) -> u32 {
 /// above it. On reversed bits that is a hash in which a bit depends on lower bits only, which
 /// additions, even multiplications and exclusive-or with them give. (The multipliers are those of
 /// Laine and Karras, *Stratified sampling for stochastic transparency*, 2011.)
+#[inline(always)]
 fn scramble(bits: u32, key: u32) -> u32 {
     let mut x = bits.reverse_bits();
     x = x.wrapping_add(key);
@@ -97,6 +120,7 @@ fn scramble(bits: u32, key: u32) -> u32 {
 }
 
 /// A 32-bit mixer: each bit of the input changes about half of the output's.
+#[inline(always)]
 fn hash(mut x: u32) -> u32 {
     x ^= x >> 16;
     x = x.wrapping_mul(0x7feb_352d);
@@ -163,6 +187,18 @@ mod tests {
         assert_ne!(p, Sampler::new([4, 7], 5, 16, 1).pair(Use::Pixel));
         assert_ne!(p, Sampler::new([3, 7], 5, 16, 2).pair(Use::Pixel));
         assert_ne!(p, Sampler::new([3, 7], 5, 16, 1 << 32).pair(Use::Pixel));
+    }
+
+    #[test]
+    fn eight_pairs_have_the_bits_of_one() {
+        for count in [1, 16] {
+            let samplers =
+                std::array::from_fn(|i| Sampler::new([i as u32, 9], i as u32 % 3, count, 5));
+            let [x, y] = Sampler::pair8(&samplers, Use::Pixel);
+            for (i, sampler) in samplers.iter().enumerate() {
+                assert_eq!([x[i], y[i]], sampler.pair(Use::Pixel));
+            }
+        }
     }
 
     #[test]

@@ -82,15 +82,53 @@ impl<S: Simd> Closest8<S> {
         }
     }
 
-    /// The lanes that are hit, and where.
+    /// Up to eight rays, one in each lane; lanes beyond the last repeat it.
+    #[inline(always)]
+    pub(crate) fn of_rays(simd: S, rays: &[Ray]) -> Self {
+        let (mut origin, mut dir) = ([[0.0; 8]; 3], [[0.0; 8]; 3]);
+        let (mut t_min, mut t_max) = ([0.0; 8], [0.0; 8]);
+        for lane in 0..8 {
+            let ray = &rays[lane.min(rays.len() - 1)];
+            (origin[0][lane], origin[1][lane], origin[2][lane]) = ray.origin.into();
+            (dir[0][lane], dir[1][lane], dir[2][lane]) = ray.dir.into();
+            (t_min[lane], t_max[lane]) = (ray.t_min, ray.t_max);
+        }
+        let load = |lanes: &[f32; 8]| f32x8::load_array_ref(simd, lanes);
+        let [x, y, z] = [load(&dir[0]), load(&dir[1]), load(&dir[2])];
+        Self {
+            origin: [load(&origin[0]), load(&origin[1]), load(&origin[2])],
+            dir: [x, y, z],
+            scale: f32x8::splat(simd, 1.0) / (x * x + y * y + z * z),
+            t_min: load(&t_min),
+            t_max: load(&t_max),
+        }
+    }
+
+    /// The lanes that are hit, and where: a ray against eight spheres.
     #[inline(always)]
     pub(crate) fn intersect(&self, simd: S, block: &[Row; BLOCK]) -> (u32, f32x8<S>) {
         let load = |row: usize| f32x8::load_array_ref(simd, &block[row].0);
+        self.meet(simd, [load(0), load(1), load(2)], load(3))
+    }
+
+    /// The lanes that are hit, and where: eight rays against the sphere in one lane of a block.
+    #[inline(always)]
+    pub(crate) fn intersect_one(
+        &self,
+        simd: S,
+        block: &[Row; BLOCK],
+        lane: usize,
+    ) -> (u32, f32x8<S>) {
+        let splat = |row: usize| f32x8::splat(simd, block[row].0[lane]);
+        self.meet(simd, [splat(0), splat(1), splat(2)], splat(3))
+    }
+
+    #[inline(always)]
+    fn meet(&self, simd: S, center: [f32x8<S>; 3], radius: f32x8<S>) -> (u32, f32x8<S>) {
         let [dx, dy, dz] = self.dir;
-        let cx = load(0) - self.origin[0];
-        let cy = load(1) - self.origin[1];
-        let cz = load(2) - self.origin[2];
-        let radius = load(3);
+        let cx = center[0] - self.origin[0];
+        let cy = center[1] - self.origin[1];
+        let cz = center[2] - self.origin[2];
         let b = (cx * dx + cy * dy + cz * dz) * self.scale;
         let fx = cx - b * dx;
         let fy = cy - b * dy;

@@ -1,6 +1,7 @@
 //! Rays through the tree.
 
 mod coherent;
+mod handful;
 mod interleaved;
 mod leaves;
 mod single;
@@ -11,6 +12,7 @@ use std::{cell::RefCell, marker::PhantomData, ops::Range};
 
 use self::{
     coherent::{AnyTogether, ClosestTogether, Entries, Entry, is_coherent, same_octant},
+    handful::{AnyOfHandful, ClosestOfHandful},
     interleaved::{Any, Closest, Many, RAYS, Stacks},
     leaves::{Anything, Content, OnlySpheres, OnlyTriangles},
 };
@@ -18,7 +20,8 @@ use crate::{
     Cost, Geometry, Hit, Ray,
     build::Tree,
     level::Token,
-    node8::{Kind, Ref, Row},
+    node8::{Kind, Ref, Row, rows},
+    primitives::sphere,
 };
 
 /// A tree and what its leaves refer to.
@@ -57,6 +60,10 @@ impl<'a> World<'a> {
 
     /// The closest hit of each ray; `hits` come with the best outside the tree.
     pub(crate) fn closest_of_many(&self, rays: &[Ray], hits: &mut [Hit]) {
+        if let Some(block) = self.handful() {
+            self.token.run(ClosestOfHandful { block, rays, hits });
+            return;
+        }
         match self.only {
             Some(Kind::Triangles) => self.closest_of_many_in::<OnlyTriangles>(rays, hits),
             Some(Kind::Spheres) => self.closest_of_many_in::<OnlySpheres>(rays, hits),
@@ -66,11 +73,21 @@ impl<'a> World<'a> {
 
     /// Whether each ray hits anything; those already `blocked` stay so.
     pub(crate) fn any_of_many(&self, rays: &[Ray], blocked: &mut [bool]) {
+        if let Some(block) = self.handful() {
+            self.token.run(AnyOfHandful { block, rays, blocked });
+            return;
+        }
         match self.only {
             Some(Kind::Triangles) => self.any_of_many_in::<OnlyTriangles>(rays, blocked),
             Some(Kind::Spheres) => self.any_of_many_in::<OnlySpheres>(rays, blocked),
             _ => self.any_of_many_in::<Anything>(rays, blocked),
         }
+    }
+
+    /// The only leaf, if the tree is one and holds spheres.
+    fn handful(&self) -> Option<&'a [Row; sphere::BLOCK]> {
+        let leaf = self.root.filter(|root| root.kind() == Some(Kind::Spheres))?;
+        Some(rows(self.rows, leaf.row()))
     }
 
     /// Whether a ray hits anything.

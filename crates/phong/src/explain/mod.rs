@@ -22,6 +22,7 @@ use crate::integrator::{Integrator, Radiance, RayCounts};
 use crate::math::{Dir3, wide};
 use crate::reflectance::Terms;
 use crate::render::{RenderOptions, Sums, camera_ray};
+use crate::sampling::Sampler;
 use record::Recorder;
 
 /// A pixel, explained.
@@ -234,7 +235,8 @@ pub fn explain(
     let mut sums = Sums::default();
     let mut samples = Vec::with_capacity(options.samples as usize);
     for index in 0..options.samples {
-        let drawn = camera_ray(&integrator, options, &filter, pixel, index);
+        let sampler = Sampler::new(pixel, index, options.samples, options.seed);
+        let drawn = camera_ray(&integrator, options, &filter, pixel, sampler);
         let mut recorder = Recorder::new(scene);
         let radiance = drawn.ray.map_or_else(Radiance::default, |ray| {
             integrator.trace(&ray.into(), &mut RayCounts::default(), &mut recorder)[0]

@@ -10,6 +10,7 @@ use crate::integrator::{Integrator, RayCounts};
 use crate::interaction::SurfaceInteraction;
 use crate::math::Dir3;
 use crate::render::{RenderOptions, camera_ray};
+use crate::sampling::Sampler;
 use crate::witness::{Branch, LightTold, Witness};
 
 /// What one pixel is made of.
@@ -68,7 +69,8 @@ pub(super) fn gather(scene: &CompiledScene, options: &RenderOptions) -> Vec<Poin
     let [width, height] = options.size;
     let row = |y: u32| {
         (0..width).map(move |x| (x, y)).map(|(x, y)| {
-            let drawn = camera_ray(&integrator, &centre, &filter, [x, y], 0);
+            let sampler = Sampler::new([x, y], 0, 1, centre.seed);
+            let drawn = camera_ray(&integrator, &centre, &filter, [x, y], sampler);
             let mut listener = Listener { scene, weights: Vec::new(), point: Point::default() };
             if let Some(ray) = drawn.ray {
                 integrator.trace(&ray.into(), &mut RayCounts::default(), &mut listener);

@@ -1,7 +1,10 @@
 //! One tile: its samples in index order, summed in f64, and its variables from centre rays.
 
+use std::ops::Range;
+
+use fearless_simd::Simd;
 use glam::DVec2;
-use phong_bvh::Hit;
+use phong_bvh::{Hit, Kernel};
 use phong_scene::{Background, Rgb};
 
 use super::{Cancel, Cancelled, RenderOptions};
@@ -16,6 +19,12 @@ use crate::witness::{Branch, LightTold, Witness};
 /// Pixels are visited in squares of this edge within a tile: rays near one another in a bundle
 /// are near one another in space.
 const SQUARE: u32 = 8;
+
+/// Pixels of a bundle of several samples each: a square's.
+const LOT: usize = (SQUARE * SQUARE) as usize;
+
+/// Samples of each pixel in a bundle.
+const LOTS: u32 = 4;
 
 /// Paints tiles.
 pub(super) struct Painter<'a> {
@@ -46,35 +55,44 @@ impl<'a> Painter<'a> {
         cancel: &Cancel,
     ) -> Result<Vec<Vec<f32>>, Cancelled> {
         let pixels = pixels(window);
+        let samples = self.options.samples;
         let mut out: Vec<Vec<f32>> =
             self.layers.iter().map(|kind| vec![0.0; pixels.len() * kind.channels()]).collect();
-        let mut samples = Samples::with_capacity(pixels.len());
-        // One sample, which weighs 1, is its pixel: nothing to sum.
-        let alone = self.options.samples == 1;
-        let mut sums = vec![Sums::default(); if alone { 0 } else { pixels.len() }];
-        for index in 0..self.options.samples {
-            if cancel.is_cancelled() {
-                return Err(Cancelled);
-            }
-            self.draw(&pixels, index, &mut samples);
-            let mut brought = self.integrator.trace(&samples.bundle, counts, &mut ());
-            // Behind the rays come the samples outside the image circle: they bring nothing.
-            brought.resize(samples.numbers.len(), Radiance::default());
-            for ((&number, &weight), radiance) in
-                samples.numbers.iter().zip(&samples.weights).zip(&brought)
-            {
-                if alone {
-                    let share = f32::from(u8::from(radiance.met));
-                    let resolved = (&radiance.terms, coverage(share, self.options.background));
-                    self.put(of_window(window, pixels[number as usize]), resolved, &mut out);
-                } else {
-                    sums[number as usize].add(radiance, weight);
+        // A bundle is about a tile's worth of rays: one sample of each pixel, or, where there are
+        // more, a few of each pixel of a square.
+        let (square, lot) = if samples == 1 { (pixels.len(), 1) } else { (LOT, LOTS.min(samples)) };
+        let mut drawn = Samples::with_capacity(square * lot as usize);
+        for pixels in pixels.chunks(square) {
+            let own: Vec<Sampler> = pixels
+                .iter()
+                .map(|&pixel| Sampler::new(pixel, 0, samples, self.options.seed))
+                .collect();
+            let mut sums = vec![Sums::default(); if samples == 1 { 0 } else { pixels.len() }];
+            for from in (0..samples).step_by(lot as usize) {
+                if cancel.is_cancelled() {
+                    return Err(Cancelled);
+                }
+                self.draw(pixels, &own, from..samples.min(from + lot), &mut drawn);
+                let mut brought = self.integrator.trace(&drawn.bundle, counts, &mut ());
+                // Behind the rays come the samples outside the image circle: they bring nothing.
+                brought.resize(drawn.numbers.len(), Radiance::default());
+                for ((&number, &weight), radiance) in
+                    drawn.numbers.iter().zip(&drawn.weights).zip(&brought)
+                {
+                    if let Some(sums) = sums.get_mut(number as usize) {
+                        sums.add(radiance, weight);
+                    } else {
+                        // One sample, which weighs 1, is its pixel: nothing to sum.
+                        let share = f32::from(u8::from(radiance.met));
+                        let resolved = (&radiance.terms, coverage(share, self.options.background));
+                        self.put(of_window(window, pixels[number as usize]), resolved, &mut out);
+                    }
                 }
             }
-        }
-        for (&pixel, sums) in pixels.iter().zip(&sums) {
-            let (terms, alpha) = sums.resolve(self.options.samples, self.options.background);
-            self.put(of_window(window, pixel), (&terms, alpha), &mut out);
+            for (&pixel, sums) in pixels.iter().zip(&sums) {
+                let (terms, alpha) = sums.resolve(samples, self.options.background);
+                self.put(of_window(window, pixel), (&terms, alpha), &mut out);
+            }
         }
         if !self.options.aovs.is_empty() {
             for &pixel in &pixels {
@@ -84,41 +102,43 @@ impl<'a> Painter<'a> {
         Ok(out)
     }
 
-    /// Draws sample `index` of each pixel.
-    fn draw(&self, pixels: &[[u32; 2]], index: u32, samples: &mut Samples) {
-        samples.clear();
-        let camera = self.integrator.scene.camera();
-        if !camera.is_pinhole() {
-            let mut outside = Vec::new();
-            for (number, &pixel) in pixels.iter().enumerate() {
-                let Drawn { weight, ray, .. } =
-                    camera_ray(&self.integrator, self.options, &self.filter, pixel, index);
-                match ray {
-                    Some(ray) => {
-                        samples.bundle.push(ray);
-                        samples.numbers.push(number as u32);
-                        samples.weights.push(weight);
-                    }
-                    None => outside.push((number as u32, weight)),
-                }
+    /// Draws some samples of each pixel; `own` are the pixels' samplers.
+    fn draw(&self, pixels: &[[u32; 2]], own: &[Sampler], indices: Range<u32>, drawn: &mut Samples) {
+        drawn.clear();
+        let scene = self.integrator.scene;
+        let lanes = pixels.iter().zip(own).enumerate().flat_map(|(number, (&pixel, sampler))| {
+            indices.clone().map(move |index| (number as u32, pixel, sampler.at(index)))
+        });
+        if scene.camera().is_pinhole() {
+            for (number, pixel, sampler) in lanes {
+                drawn.numbers.push(number);
+                drawn.pixels.push(pixel);
+                drawn.bundle.samplers.push(sampler);
             }
-            samples.numbers.extend(outside.iter().map(|&(number, _)| number));
-            samples.weights.extend(outside.iter().map(|&(_, weight)| weight));
+            scene.bvh().run(Fall { filter: &self.filter, drawn });
+            if matches!(self.options.background, Background::Gradient { .. }) {
+                let heights = drawn.places.iter().map(|&place| height(place, self.options.size));
+                drawn.bundle.heights.extend(heights);
+            }
+            let rays = &mut drawn.bundle.rays;
+            scene.camera().pinhole_rays(scene.bvh(), &drawn.places, self.options.size, rays);
             return;
         }
-        let gradient = matches!(self.options.background, Background::Gradient { .. });
-        for (number, &pixel) in pixels.iter().enumerate() {
-            let Fallen { sampler, place, weight } = fall(self.options, &self.filter, pixel, index);
-            samples.places.push(place);
-            samples.bundle.samplers.push(sampler);
-            if gradient {
-                samples.bundle.heights.push(height(place, self.options.size));
+        let mut outside = Vec::new();
+        for (number, pixel, sampler) in lanes {
+            let Drawn { weight, ray, .. } =
+                camera_ray(&self.integrator, self.options, &self.filter, pixel, sampler);
+            match ray {
+                Some(ray) => {
+                    drawn.bundle.push(ray);
+                    drawn.numbers.push(number);
+                    drawn.weights.push(weight);
+                }
+                None => outside.push((number, weight)),
             }
-            samples.numbers.push(number as u32);
-            samples.weights.push(weight);
         }
-        let (bvh, rays) = (self.integrator.scene.bvh(), &mut samples.bundle.rays);
-        camera.pinhole_rays(bvh, &samples.places, self.options.size, rays);
+        drawn.numbers.extend(outside.iter().map(|&(number, _)| number));
+        drawn.weights.extend(outside.iter().map(|&(_, weight)| weight));
     }
 
     /// Puts what a pixel is into the layers, at its place in the tile.
@@ -192,40 +212,61 @@ pub(crate) struct Drawn {
     pub(crate) ray: Option<CameraRay>,
 }
 
-/// Draws sample `index` of a pixel.
+/// Draws a sample of a pixel.
 pub(crate) fn camera_ray(
     integrator: &Integrator<'_>,
     options: &RenderOptions,
     filter: &Filter,
     pixel: [u32; 2],
-    index: u32,
+    sampler: Sampler,
 ) -> Drawn {
-    let Fallen { sampler, place, weight } = fall(options, filter, pixel, index);
+    let (place, weight) = fall(filter, pixel, sampler.pair(Use::Pixel));
     let camera = integrator.scene.camera();
     let lens = if camera.has_lens() { sampler.pair(Use::Lens) } else { [0.5; 2] };
-    let ray = camera.ray(place, options.size, lens);
     let height = height(place, options.size);
+    let ray = camera.ray(place, options.size, lens);
     let ray = ray.map(|ray| CameraRay { ray, sampler, height });
     Drawn { place, weight, ray }
 }
 
-/// Where a sample falls.
-struct Fallen {
-    sampler: Sampler,
-    /// In the picture, pixels.
-    place: DVec2,
-    weight: f32,
-}
-
-#[inline]
-fn fall(options: &RenderOptions, filter: &Filter, [x, y]: [u32; 2], index: u32) -> Fallen {
-    let sampler = Sampler::new([x, y], index, options.samples, options.seed);
-    let drawn = filter.sample(sampler.pair(Use::Pixel));
+/// Where in the picture a sample falls, in pixels, and its weight there.
+#[inline(always)]
+fn fall(filter: &Filter, [x, y]: [u32; 2], pair: [f32; 2]) -> (DVec2, f32) {
+    let drawn = filter.sample(pair);
     let place = DVec2::new(
         f64::from(x) + 0.5 + f64::from(drawn.offset[0]),
         f64::from(y) + 0.5 + f64::from(drawn.offset[1]),
     );
-    Fallen { sampler, place, weight: drawn.weight }
+    (place, drawn.weight)
+}
+
+/// [`fall`] of all samples drawn.
+struct Fall<'a> {
+    filter: &'a Filter,
+    drawn: &'a mut Samples,
+}
+
+impl Kernel for Fall<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, _: S) {
+        let Self { filter, drawn } = self;
+        let (eights, rest) = drawn.bundle.samplers.as_chunks::<8>();
+        for (i, samplers) in eights.iter().enumerate() {
+            let [u, v] = Sampler::pair8(samplers, Use::Pixel);
+            for (lane, &pixel) in drawn.pixels[8 * i..][..8].iter().enumerate() {
+                let (place, weight) = fall(filter, pixel, [u[lane], v[lane]]);
+                drawn.places.push(place);
+                drawn.weights.push(weight);
+            }
+        }
+        for (sampler, &pixel) in rest.iter().zip(&drawn.pixels[8 * eights.len()..]) {
+            let (place, weight) = fall(filter, pixel, sampler.pair(Use::Pixel));
+            drawn.places.push(place);
+            drawn.weights.push(weight);
+        }
+    }
 }
 
 /// Where a place of the picture crosses its height: 0 the upper edge, 1 the lower.
@@ -233,14 +274,15 @@ fn height(place: DVec2, size: [u32; 2]) -> f32 {
     (place.y / f64::from(size[1])).clamp(0.0, 1.0) as f32
 }
 
-/// One sample of each pixel of a tile.
+/// Samples of the pixels of a square.
 struct Samples {
     bundle: Bundle,
-    /// For each sample the number of its pixel in the tile, and its weight there: first those of the
-    /// rays, then those outside the image circle of a fisheye.
+    /// For each sample the number of its pixel in the square, and its weight there: first those of
+    /// the rays, then those outside the image circle of a fisheye.
     numbers: Vec<u32>,
     weights: Vec<f32>,
-    /// Where pinhole rays go through the picture.
+    /// Of a pinhole's rays the pixels, and where they go through the picture.
+    pixels: Vec<[u32; 2]>,
     places: Vec<DVec2>,
 }
 
@@ -250,6 +292,7 @@ impl Samples {
             bundle: Bundle::with_capacity(len),
             numbers: Vec::with_capacity(len),
             weights: Vec::with_capacity(len),
+            pixels: Vec::with_capacity(len),
             places: Vec::with_capacity(len),
         }
     }
@@ -258,6 +301,7 @@ impl Samples {
         self.bundle.clear();
         self.numbers.clear();
         self.weights.clear();
+        self.pixels.clear();
         self.places.clear();
     }
 }
