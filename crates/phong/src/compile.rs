@@ -48,6 +48,16 @@ pub struct ObjectRecord {
     pub place: Place,
 }
 
+/// What belongs to a surface besides its geometry.
+pub(crate) struct Dressed {
+    /// Shading normal, on the side of the eye.
+    pub(crate) n: Dir3,
+    /// Number of the material.
+    pub(crate) material: u32,
+    /// The diffuse colour.
+    pub(crate) color: Rgb,
+}
+
 /// How to compile.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CompileOptions {
@@ -203,46 +213,27 @@ impl CompiledScene {
     /// # Panics
     /// If `hit` is none.
     pub fn interaction(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
-        self.dressed(ray, hit, self.bvh.surface(ray, hit))
+        let Surface { p, p_error, ng } = self.bvh.surface(ray, hit);
+        let (ng, e) = (Dir3::from_unit(ng), -Dir3::from_unit(ray.dir));
+        let Dressed { n, material, color } = self.dressed(hit, ng, e);
+        SurfaceInteraction { hit: *hit, material, p, p_error, ng, n, e, color }
     }
 
-    /// The surface at a hit of `ray`, with what belongs to it besides its geometry.
+    /// What belongs to the surface at a hit besides its geometry; its normal is `ng`, and `e` leads
+    /// to the eye.
     #[inline]
-    pub(crate) fn dressed(&self, ray: &Ray, hit: &Hit, surface: Surface) -> SurfaceInteraction {
+    pub(crate) fn dressed(&self, hit: &Hit, ng: Dir3, e: Dir3) -> Dressed {
         let (index, local) = self.bvh.locate(hit.prim);
         let part = &self.parts[index];
-        let e = -Dir3::from_unit(ray.dir);
-        let ng = Dir3::from_unit(surface.ng);
+        let material = part.material(local);
+        let own = self.materials[material as usize].color;
+        if part.is_plain() {
+            return Dressed { n: ng.facing(e), material, color: own };
+        }
         let corners = self.corners(index, local);
         let n = corners.and_then(|c| part.normal(local, c, hit)).unwrap_or(ng);
-        let material = part.material(local);
-        let color = part.color(local, corners, hit);
-        SurfaceInteraction {
-            hit: *hit,
-            material,
-            p: surface.p,
-            p_error: surface.p_error,
-            ng,
-            n: n.facing(e),
-            e,
-            color: color.unwrap_or(self.materials[material as usize].color),
-        }
-    }
-
-    /// The materials of up to eight hits on geometry that has neither normals nor colours of its own;
-    /// `None` if any has.
-    #[inline]
-    pub(crate) fn plain_materials(&self, hits: &[Hit], of: &[u32]) -> Option<[u32; 8]> {
-        let mut materials = [0; 8];
-        for (material, &of) in materials.iter_mut().zip(of) {
-            let (index, local) = self.bvh.locate(hits[of as usize].prim);
-            let part = &self.parts[index];
-            if !part.is_plain() {
-                return None;
-            }
-            *material = part.material(local);
-        }
-        Some(materials)
+        let color = part.color(local, corners, hit).unwrap_or(own);
+        Dressed { n: n.facing(e), material, color }
     }
 
     /// Where on its surface a hit of `ray` is: a mesh's own texture coordinates, if it has some.

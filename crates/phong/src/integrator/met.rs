@@ -3,10 +3,10 @@
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*, u32x8};
 use glam::Vec3;
-use phong_bvh::{Hit, Ray, Surface, Surfaces8};
+use phong_bvh::{Hit, Ray, Surfaces8};
 use phong_scene::Rgb;
 
-use crate::compile::CompiledScene;
+use crate::compile::{CompiledScene, Dressed};
 use crate::interaction::SurfaceInteraction;
 use crate::math::Dir3;
 use crate::math::lanes::{Lanes3, dot, load3};
@@ -44,30 +44,13 @@ impl Met {
         for of in of.chunks(8) {
             let Surfaces8 { p, p_error, ng } = scene.bvh().surface8(rays, &hits, of);
             let mut eight = Eight { p, p_error, ng, ..Eight::NONE };
-            if let Some(materials) = scene.plain_materials(&hits, of) {
-                eight.material = materials;
-                for (lane, (&of, &material)) in of.iter().zip(&materials).enumerate() {
-                    let e = -Dir3::from_unit(rays[of as usize].dir);
-                    let n = direction(&ng, lane).facing(e);
-                    set(&mut eight.n, lane, n.to_array());
-                    set(&mut eight.e, lane, e.to_array());
-                    let color = scene.materials()[material as usize].color;
-                    set(&mut eight.color, lane, color.to_array());
-                }
-                eights.push(eight);
-                continue;
-            }
             for (lane, &of) in of.iter().enumerate() {
-                let surface = Surface {
-                    p: get(&p, lane).into(),
-                    p_error: get(&p_error, lane).into(),
-                    ng: get(&ng, lane).into(),
-                };
-                let at = scene.dressed(&rays[of as usize], &hits[of as usize], surface);
-                set(&mut eight.n, lane, at.n.to_array());
-                set(&mut eight.e, lane, at.e.to_array());
-                set(&mut eight.color, lane, at.color.to_array());
-                eight.material[lane] = at.material;
+                let (ng, e) = (direction(&ng, lane), -Dir3::from_unit(rays[of as usize].dir));
+                let Dressed { n, material, color } = scene.dressed(&hits[of as usize], ng, e);
+                set(&mut eight.n, lane, n.to_array());
+                set(&mut eight.e, lane, e.to_array());
+                set(&mut eight.color, lane, color.to_array());
+                eight.material[lane] = material;
             }
             eights.push(eight);
         }

@@ -312,15 +312,23 @@ impl Sums {
     pub(crate) fn add(&mut self, radiance: &Radiance, weight: f32) {
         let weight = f64::from(weight);
         self.weight += weight;
-        for (sum, term) in self.terms.iter_mut().zip(radiance.terms.to_array()) {
-            // Most samples bring two or three of the six.
-            if !term.is_black() {
-                sum[0] += weight * f64::from(term.r);
-                sum[1] += weight * f64::from(term.g);
-                sum[2] += weight * f64::from(term.b);
-            }
+        let Terms { background, ambient, diffuse, specular, reflection, transmission } =
+            radiance.terms;
+        let [to_background, to_ambient, to_diffuse, to_specular, to_reflection, to_transmission] =
+            &mut self.terms;
+        // A ray brings the background or a surface's terms; what is black changes no sum.
+        if !radiance.met {
+            add(to_background, weight, background);
+            return;
         }
-        self.alpha += weight * f64::from(u8::from(radiance.met));
+        add(to_ambient, weight, ambient);
+        add(to_diffuse, weight, diffuse);
+        add(to_specular, weight, specular);
+        if !(reflection.is_black() && transmission.is_black()) {
+            add(to_reflection, weight, reflection);
+            add(to_transmission, weight, transmission);
+        }
+        self.alpha += weight;
     }
 
     /// The terms, each resolved to f32, and the coverage.
@@ -334,6 +342,13 @@ impl Sums {
         let alpha = (self.alpha / total).clamp(0.0, 1.0) as f32;
         (Terms::from_array(terms), coverage(alpha, background))
     }
+}
+
+#[inline]
+fn add(sum: &mut [f64; 3], weight: f64, term: Rgb) {
+    sum[0] += weight * f64::from(term.r);
+    sum[1] += weight * f64::from(term.g);
+    sum[2] += weight * f64::from(term.b);
 }
 
 /// The alpha of a pixel of which surfaces cover `share`.
