@@ -20,21 +20,30 @@ import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-SCENES = "slide mesh spheres-100k spheres-1m spheres-5m".split()
+SCENES = "slide slide-16 mesh spheres-100k spheres-1m spheres-5m spheres-20m".split()
 SIZE = 1920, 1080
 
 
 def commands(phong, name, folder, threads):
-    """What each program is called with, and where it leaves its picture. All write linear 8-bit PNG."""
+    """What each program is called with, and where it leaves its picture. All write linear 8-bit PNG.
+
+    `slide-16` is the slide with 16 samples a pixel; a scene too large for a program has no file for it.
+    """
+    many = name.endswith("-16")
+    name = name.removesuffix("-16")
     at = lambda kind: str(folder / f"{name}.{kind}")
-    picture = lambda program: at(f"{program}.png")
+    picture = lambda program: str(folder / f"{name}{'-16' if many else ''}.{program}.png")
     all_of_them = {
-        "phong": [phong, "render", at("toml"), "-o", picture("phong"), "--linear", "--quiet", f"--threads={threads}"],
-        "tachyon": ["tachyon", at("dat"), "-numthreads", str(threads), "-shade_phong", "-format", "PNG", "-o", picture("tachyon")],
+        "phong": [phong, "render", at("toml"), "-o", picture("phong"), "--linear", "--quiet",
+                  f"--threads={threads}", f"--samples={16 if many else 1}"],
+        "tachyon": ["tachyon", at("dat"), "-numthreads", str(threads), "-shade_phong", "-format", "PNG",
+                    "-aasamples", "15" if many else "0", "-o", picture("tachyon")],
         "povray": ["povray", f"+I{at('pov')}", f"+O{picture('povray')}", f"+W{SIZE[0]}", f"+H{SIZE[1]}",
-                   "-A", "-D", f"+WT{threads}", "File_Gamma=1.0"],
+                   *(["+A0.0", "+AM1", "+R4"] if many else ["-A"]), "-D", f"+WT{threads}", "File_Gamma=1.0"],
     }  # fmt: skip
-    return {program: line for program, line in all_of_them.items() if shutil.which(line[0])}, picture
+    inputs = {"phong": at("toml"), "tachyon": at("dat"), "povray": at("pov")}
+    runs = lambda program: shutil.which(all_of_them[program][0]) and os.path.exists(inputs[program])
+    return {program: line for program, line in all_of_them.items() if runs(program)}, picture
 
 
 def measure(command):
@@ -66,7 +75,7 @@ def main():
     print("|---|---|---|---|---|---|---|---|---|")
     for name in options.scenes.split(","):
         # In a process of its own: a child's peak memory begins with its parent's.
-        write = [sys.executable, ROOT / "bench/scenes.py", name, options.folder, *([options.ply] if options.ply else [])]
+        write = [sys.executable, ROOT / "bench/scenes.py", name.removesuffix("-16"), options.folder, *([options.ply] if options.ply else [])]
         subprocess.run(write, check=True)
         lines, picture = commands(options.phong, name, options.folder, options.threads)
         apart = {}

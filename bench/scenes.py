@@ -2,7 +2,7 @@
 
     slide        a plane and five spheres
     mesh         a mesh with smooth normals on a plane: a PLY file you name, else a knot of 860 thousand triangles
-    spheres-N    a lattice of about N spheres (100k, 1m, 5m), each moved a little, in three sizes and four colours
+    spheres-N    a lattice of about N spheres (100k, 1m, 5m, 20m), each moved a little, in three sizes and four colours
 
 All are 1920 x 1080 with one sample a pixel, one point and one distant light, hard shadows, and one Phong material:
 ambient 0.1, diffuse 0.7, specular 0.3, exponent 40.
@@ -62,7 +62,11 @@ def spheres(nx, ny, nz):
 
 
 def mesh(path=None):
-    points, faces = read_ply(path) if path else knot(3600, 120)
+    return dressed(*(read_ply(path) if path else knot(3600, 120)))
+
+
+def dressed(points, faces):
+    """The scene of a mesh, sized to 4, on a plane, with smooth normals."""
     low, high = points.min(0), points.max(0)
     points = (points - (low + high) / 2) * (4 / (high - low)[0])
     points[:, 1] -= points[:, 1].min()
@@ -134,7 +138,11 @@ SCENES = {
     "spheres-100k": lambda: spheres(50, 50, 40),
     "spheres-1m": lambda: spheres(100, 100, 100),
     "spheres-5m": lambda: spheres(200, 200, 125),
+    "spheres-20m": lambda: spheres(320, 250, 250),
 }
+
+# Above this the other programs' texts and memory are beyond a small machine: only phong's scene is written.
+MOST_FOR_OTHERS = 6_000_000
 
 
 def numbers(values, between=" "):
@@ -248,10 +256,14 @@ def write_povray(scene, path):
 def write(name, folder: Path, ply=None):
     """Writes a scene for every program; does nothing if it is there."""
     done = folder / f"{name}.pov"
-    if done.exists():
+    alone = folder / f"{name}.alone"
+    if done.exists() or alone.exists():
         return
     scene = mesh(ply) if name == "mesh" else SCENES[name]()
     write_phong(scene, folder / f"{name}.toml")
+    if len(scene.get("radii", ())) > MOST_FOR_OTHERS:
+        alone.touch()
+        return
     write_tachyon(scene, folder / f"{name}.dat")
     write_povray(scene, folder / f"{name}.pov.part")
     (folder / f"{name}.pov.part").rename(done)
