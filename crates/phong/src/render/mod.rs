@@ -1,8 +1,11 @@
 //! A whole picture: tiles of rays, in any order, on any number of threads, to the same bits.
 
+mod draw;
+mod sums;
 mod tile;
 
-pub(crate) use tile::{Sums, camera_ray};
+pub(crate) use draw::camera_ray;
+pub(crate) use sums::Sums;
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
