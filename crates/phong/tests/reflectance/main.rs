@@ -4,6 +4,7 @@
 #![expect(clippy::unwrap_used, reason = "in a test, what is not there is a failure")]
 
 mod agreement;
+mod albedo;
 mod dialects;
 mod directions;
 mod energy;
