@@ -221,7 +221,7 @@ impl CompiledScene {
 
     /// What belongs to the surface at a hit besides its geometry; its normal is `ng`, and `e` leads
     /// to the eye.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn dressed(&self, hit: &Hit, ng: Dir3, e: Dir3) -> Dressed {
         let (index, local) = self.bvh.locate(hit.prim);
         let part = &self.parts[index];

@@ -104,6 +104,19 @@ fn levels(values: &[f32], channels: usize, width: usize, tone: &Tone<'_>) -> Vec
     let rows = out.par_chunks_exact_mut(width * pixel_bytes).enumerate();
     rows.for_each(|(y, row)| {
         let first = y * width;
+        if tone.alpha.is_none() && bytes == 1 {
+            // The usual picture: nothing to divide, and a byte a value.
+            let levels = values[first * channels..].iter().map(|value| value * tone.gain);
+            match tone.curve {
+                Some(curve) => {
+                    row.iter_mut().zip(levels).for_each(|(to, v)| *to = curve.level(v) as u8);
+                }
+                None => {
+                    row.iter_mut().zip(levels).for_each(|(to, v)| *to = linear_level(v, 255) as u8);
+                }
+            }
+            return;
+        }
         let mut sink = row.iter_mut();
         let mut put = |level: u16| {
             if bytes == 2 {
