@@ -8,7 +8,7 @@ mod geometry;
 
 use glam::{DVec3, Vec3};
 use phong_bvh::{BuildError, BuildOptions, Bvh, Coordinates, Geometry, Hit, Ray, Surface};
-use phong_scene::{Place, Rgb, Scene};
+use phong_scene::{MaterialId, Place, Rgb, Scene};
 use thiserror::Error;
 
 use crate::camera::Camera;
@@ -108,7 +108,12 @@ impl CompiledScene {
         let Scene { image: _, camera, ambient, lights, materials, objects, groups } = scene;
         let leaves = flatten::flatten(objects, &groups);
         drop(groups);
-        let geometry::Compiled { geometry, parts, objects } = geometry::compile(leaves, center);
+        let has_grain = |material: MaterialId| {
+            let material = materials.get(material.0 as usize);
+            material.is_some_and(|m| matches!(m.model, phong_scene::Model::Ward { .. }))
+        };
+        let geometry::Compiled { geometry, parts, objects } =
+            geometry::compile(leaves, center, &has_grain);
         let camera = Camera::new(&camera, center);
         let written_materials = materials;
         let viewer = camera.backward();

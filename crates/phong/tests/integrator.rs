@@ -1,15 +1,17 @@
 //! The road of a ray, on scenes small enough to work out by hand.
 #![expect(clippy::unwrap_used, reason = "in a test, what is not there is a failure")]
 
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DVec3, Vec3};
 use phong::aov::Aov;
 use phong::compile::{CompileError, CompileOptions, CompiledScene};
 use phong::film::{Film, LayerKind};
 use phong::reflectance::{Terms, fresnel};
 use phong::render::{Cancel, Cancelled, RenderOptions, Rendered, render};
+use phong_bvh::Ray;
 use phong_scene::{
     AmbientRule, Background, Camera, CameraKind, FilterKind, Group, GroupId, Image, Light,
-    LightKind, Material, MaterialId, Mesh, Object, Place, Points, Rgb, Scene, Shape, Tint,
+    LightKind, Material, MaterialId, Mesh, Model, Object, Place, Points, Rgb, Scene, Shape, Tint,
+    WardForm,
 };
 
 /// One pixel looking down −z from (0, 0, 10) at whatever is added.
@@ -342,6 +344,27 @@ fn a_mirrored_closed_mesh_keeps_its_outside_outside() {
     // At a grazing 84° from inside nothing would be transmitted at all.
     assert!(inside(false).r > 0.1);
     close(inside(true), inside(false).r);
+}
+
+#[test]
+fn the_grain_of_a_brushed_sphere_turns_with_it() {
+    let tangent = |turned: bool| {
+        let mut scene = scene();
+        scene.materials[0].model =
+            Model::Ward { roughness_x: 0.5, roughness_y: 0.1, form: WardForm::Gmd };
+        let mut ball = sphere([0.0; 3], 1.0);
+        if turned {
+            ball.transform = DAffine3::from_rotation_y(std::f64::consts::FRAC_PI_2);
+        }
+        scene.objects.push(ball);
+        let scene = CompiledScene::new(scene, CompileOptions::default()).unwrap();
+        let ray = Ray::new(Vec3::new(0.0, 0.6, 5.0), Vec3::NEG_Z);
+        let hit = scene.bvh().intersect(&ray);
+        scene.coordinates(&ray, &hit).tangent
+    };
+    // Around the pole z; around the pole x, to which the turn takes z.
+    assert!((tangent(false) - Vec3::NEG_X).length() < 1e-6, "{}", tangent(false));
+    assert!((tangent(true) - Vec3::new(0.0, -0.8, 0.6)).length() < 1e-6, "{}", tangent(true));
 }
 
 #[test]

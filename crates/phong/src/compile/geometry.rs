@@ -4,7 +4,7 @@ use std::mem::size_of;
 
 use glam::{DAffine3, DMat3, DVec2, DVec3, Vec2, Vec3};
 use phong_bvh::{Canonical, Geometry, Hit, Plane, Solid, Sphere};
-use phong_scene::{Bounds, Mesh, NO_INDEX, Object, Points, Rgb, Scene, Shape};
+use phong_scene::{Bounds, MaterialId, Mesh, NO_INDEX, Object, Points, Rgb, Scene, Shape};
 use rayon::prelude::*;
 
 use super::ObjectRecord;
@@ -175,7 +175,13 @@ fn sum(objects: &[Object], groups: &[u64], bytes: impl Fn(&Object) -> usize) -> 
 }
 
 /// Bakes every object into world space moved by `−center`.
-pub(super) fn compile(leaves: Vec<Object>, center: DVec3) -> Compiled {
+///
+/// `has_grain` tells the materials on which it is seen how a surface is turned.
+pub(super) fn compile(
+    leaves: Vec<Object>,
+    center: DVec3,
+    has_grain: &dyn Fn(MaterialId) -> bool,
+) -> Compiled {
     let mut out = Compiled {
         geometry: Vec::new(),
         parts: Vec::new(),
@@ -188,7 +194,7 @@ pub(super) fn compile(leaves: Vec<Object>, center: DVec3) -> Compiled {
         match shape {
             Shape::Mesh(mesh) => out.mesh(*mesh, to_world, number, material.0),
             Shape::Points(points) => out.points(*points, to_world, number, material.0),
-            shape => out.single(&shape, to_world, number, material.0),
+            shape => out.single(&shape, to_world, number, material.0, has_grain(material)),
         }
     }
     out
@@ -272,7 +278,14 @@ impl Compiled {
     }
 
     /// An object that is one primitive, or a box's worth of them.
-    fn single(&mut self, shape: &Shape, to_world: DAffine3, object: u32, material: u32) {
+    fn single(
+        &mut self,
+        shape: &Shape,
+        to_world: DAffine3,
+        object: u32,
+        material: u32,
+        has_grain: bool,
+    ) {
         let part = Part {
             object: Number::Same(object),
             material: Numbers::Same(material),
@@ -282,14 +295,13 @@ impl Compiled {
         let part = Part { object: Number::From(object), ..part };
         match *shape {
             Shape::Sphere { center, radius } => match even_scale(to_world.matrix3) {
-                Some(scale) => {
+                // A turned sphere looks as one that is not, unless it has a grain.
+                Some(scale) if !has_grain || is_scale(to_world.matrix3, scale) => {
                     let center = to_world.transform_point3(center).as_vec3();
                     let radius = (radius * scale) as f32;
                     self.sphere(Sphere { center, radius }, object, material);
                 }
-                None => {
-                    self.push(Geometry::Solid(sphere_solid(center, radius, to_world)), part);
-                }
+                _ => self.push(Geometry::Solid(sphere_solid(center, radius, to_world)), part),
             },
             Shape::Plane { point, normal } => {
                 let point = to_world.transform_point3(point);
@@ -404,6 +416,11 @@ fn even_scale(m: DMat3) -> Option<f64> {
         && close(m.x_axis.dot(m.z_axis), 0.0)
         && close(m.y_axis.dot(m.z_axis), 0.0);
     even.then(|| square.sqrt())
+}
+
+/// Whether a matrix is a scale and nothing else.
+fn is_scale(m: DMat3, scale: f64) -> bool {
+    m.abs_diff_eq(DMat3::from_diagonal(DVec3::splat(scale)), 1e-12 * scale)
 }
 
 /// What turns normals when `m` turns points: the matrix of cofactors, of the sign that keeps
