@@ -145,17 +145,22 @@ fn solid(drawing: &mut Drawing, o: Point, length: f64) {
         place(Vec3::new(way.x as f32, -way.y as f32, 0.0))
     });
     drawing.fill(Path::polygon(plane), style::GUIDE.fade(0.22));
-    let arc = |drawing: &mut Drawing, from: Vec3, to: Vec3, share: f32, ink: Ink, words: &str| {
+    let arc = |drawing: &mut Drawing, from: Vec3, to: Vec3, share: f32, ink: Ink| {
         let at = |t: f32| {
             let way = Dir3::new((1.0 - t) * from + t * to).unwrap_or(Dir3::Y).to_vec();
             place(share * way)
         };
         let points = (0..=16).map(|step| at(step as f32 / 16.0));
         drawing.stroke(Path::polyline(points), Stroke::new(ink, style::LINE));
-        drawing.label(at(0.5) + 14.0 * (at(0.5) - o).normalize_or_zero(), 18.0, ink, words);
+        at(0.5)
     };
-    arc(drawing, r, e.to_vec(), 0.8, style::TEXT, "*φ*");
-    arc(drawing, Vec3::Y, h, 0.74, style::HALF, "*β*");
+    arc(drawing, r, e.to_vec(), 0.55, style::TEXT);
+    // Between r and e there is no room for a letter.
+    let below_e = place(0.55 * e.to_vec()) + Point::new(9.0, 13.0);
+    drawing.label(below_e, 18.0, style::TEXT, "*φ*");
+    let middle = arc(drawing, Vec3::Y, h, 0.74, style::HALF);
+    let above = middle + 14.0 * (middle - o).normalize_or_zero();
+    drawing.label(above, 18.0, style::HALF, "*β*");
     drawing.line(o, place(1.3 * r), Stroke::new(style::MIRROR, 2.0).dashed());
     let beyond = |tip: Point| tip + 15.0 * (tip - o).normalize_or_zero();
     drawing.label(beyond(place(1.3 * r)), style::LETTER, style::MIRROR, "*r*");

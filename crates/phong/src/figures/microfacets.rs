@@ -127,7 +127,7 @@ fn histogram(drawing: &mut Drawing, experiment: &Experiment, many: &Tally) {
         .collect();
     let degrees = ticks(&[-30.0, 0.0, 30.0, 60.0, 90.0, 120.0], "°");
     plot.axes(drawing, &degrees, &ticks(&values, ""));
-    plot.names(drawing, "direction, from the normal", "per steradian", 26.0);
+    plot.names(drawing, "direction, from the normal", "per steradian", 44.0);
     let horizon = Stroke::new(style::SURFACE, style::THIN).dashed();
     drawing.line(plot.at(90.0, 0.0), plot.at(90.0, top), horizon);
     let beside = plot.at(92.0, 0.92 * top);

@@ -2,6 +2,7 @@
 
 mod labels;
 
+use std::f64::consts::PI;
 use std::fmt::Write;
 
 use glam::{DVec2, DVec3};
@@ -77,7 +78,6 @@ impl Explanation {
 /// Both panels of a light and its angles, from `top`; tells where the next row begins.
 fn row(out: &mut String, top: f64, s: &Surface, lit: Option<&Lit>) -> f64 {
     let _ = writeln!(out, "<path d=\"M20 {top}H{}\" stroke=\"#d5dae0\"/>", 2.0 * PANEL - 20.0);
-    let below = lit.is_some_and(|lit| lit.n_dot_l < 0.0);
     let point = DVec2::new(0.5 * PANEL, top + ABOVE);
     for in_space in [false, true] {
         let at = point + if in_space { DVec2::new(PANEL, 0.0) } else { DVec2::ZERO };
@@ -86,7 +86,9 @@ fn row(out: &mut String, top: f64, s: &Surface, lit: Option<&Lit>) -> f64 {
         text(out, DVec2::new(at.x - 0.5 * PANEL + 20.0, top + 24.0), MUTED, 14.0, &title);
         panel(out, at, s, lit, in_space);
     }
-    let mut y = point.y + if below { 175.0 } else { 95.0 };
+    // A light behind the surface needs room below it.
+    let behind = lit.map_or(0.0, |lit| f64::from(-lit.n_dot_l).max(0.0));
+    let mut y = point.y + (75.0 + RAISED[0] * UNIT * behind).max(95.0);
     let Some(lit) = lit else { return y };
     let verdict = match (&lit.blocker, hidden(lit)) {
         (Some(b), Some(why)) => format!("{why}: {} stands between", named(&b.object, b.element)),
@@ -140,112 +142,147 @@ fn unit(dir: Dir3) -> DVec3 {
     dir.to_vec().as_dvec3()
 }
 
-/// The vectors of one light around `point`: in its plane of incidence, or in space.
-fn panel(out: &mut String, point: DVec2, s: &Surface, lit: Option<&Lit>, in_space: bool) {
-    let (along, depth) = frame(s.n, lit.and_then(|lit| lit.l).unwrap_or(s.e));
-    let n = unit(s.n);
-    let place = |v: DVec3| {
-        let (x, y, z) = (v.dot(along), v.dot(n), v.dot(depth));
-        let flat = if in_space {
+/// How the surroundings of a point are looked at: along the plane of incidence, or aslant.
+struct View {
+    /// Where the point is on the page.
+    point: DVec2,
+    n: DVec3,
+    along: DVec3,
+    depth: DVec3,
+    in_space: bool,
+}
+
+impl View {
+    /// Where the tip of a vector from the point is on the page.
+    fn place(&self, v: DVec3) -> DVec2 {
+        let (x, y, z) = (v.dot(self.along), v.dot(self.n), v.dot(self.depth));
+        let flat = if self.in_space {
             let near = z * TURNED[0] - x * TURNED[1];
             DVec2::new(x * TURNED[0] + z * TURNED[1], y * RAISED[0] - near * RAISED[1])
         } else {
             DVec2::new(x, y)
         };
-        point + UNIT * DVec2::new(flat.x, -flat.y)
-    };
-    if in_space {
+        self.point + UNIT * DVec2::new(flat.x, -flat.y)
+    }
+
+    /// The surface, and in space half a disc of the plane of incidence on it; tells its edges.
+    fn ground(&self, out: &mut String) -> Vec<DVec2> {
+        let Self { n, along, depth, .. } = *self;
+        if !self.in_space {
+            let [left, right] = [-1.3, 1.3].map(|x| self.place(x * along));
+            let under = [left, right, right + DVec2::new(0.0, 14.0), left + DVec2::new(0.0, 14.0)];
+            outline(out, &under, "fill=\"#eef1f4\"");
+            line(out, &[left, right], MUTED, "stroke-width=\"1.5\"");
+            return vec![left, right];
+        }
         let corners = [-along - depth, along - depth, along + depth, depth - along];
-        let corners = corners.map(|corner| place(PATCH * corner));
+        let corners = corners.map(|corner| self.place(PATCH * corner));
         outline(out, &corners, &format!("fill=\"#eef1f4\" stroke=\"{MUTED}\""));
-        let half_disc: Vec<DVec2> = (0..=36)
-            .map(|i| {
-                let (sin, cos) = wide::sin_cos(f64::from(i) * std::f64::consts::PI / 36.0);
-                place(PATCH * (cos * along + sin * n))
-            })
-            .collect();
-        outline(out, &half_disc, "fill=\"#8a94a0\" fill-opacity=\"0.16\"");
-    } else {
-        let [a, b] = [-1.3, 1.3].map(|x| place(x * along));
+        let rim = (0..=36).map(|i| {
+            let (sin, cos) = wide::sin_cos(f64::from(i) * PI / 36.0);
+            self.place(PATCH * (cos * along + sin * n))
+        });
+        outline(out, &rim.collect::<Vec<_>>(), "fill=\"#8a94a0\" fill-opacity=\"0.16\"");
+        [&corners[..], &corners[..1]].concat()
+    }
+
+    /// From the tip of a vector straight to the surface.
+    fn plumb(&self, out: &mut String, v: DVec3) -> [DVec2; 2] {
+        let [tip, foot] = [v, v - v.dot(self.n) * self.n].map(|v| self.place(v));
+        line(out, &[tip, foot], MUTED, "stroke-dasharray=\"2 4\"");
         let _ = writeln!(
             out,
-            "<rect x=\"{:.2}\" y=\"{:.2}\" width=\"{:.2}\" height=\"14\" fill=\"#eef1f4\"/>\
-             <path d=\"M{:.2} {:.2}H{:.2}\" stroke=\"{MUTED}\" stroke-width=\"1.5\"/>",
-            a.x,
-            a.y,
-            b.x - a.x,
-            a.x,
-            a.y,
-            b.x
+            "<circle cx=\"{:.2}\" cy=\"{:.2}\" r=\"2\" fill=\"{MUTED}\"/>",
+            foot.x, foot.y
         );
+        [tip, foot]
     }
-    let mut vectors = vec![(n, N, "N"), (unit(s.e), E, "E")];
+
+    /// Part of a circle around the point, from one unit vector to another.
+    fn arc(&self, Arc { from, to, radius, .. }: &Arc) -> Vec<DVec2> {
+        let middle = (*from + *to).normalize_or(self.n);
+        let at = |i: u32| {
+            let t = f64::from(i) / 24.0;
+            self.place(radius * ((1.0 - t) * *from + t * *to).normalize_or(middle))
+        };
+        (0..=24).map(at).collect()
+    }
+}
+
+/// An angle to be drawn.
+struct Arc {
+    from: DVec3,
+    to: DVec3,
+    radius: f64,
+    ink: &'static str,
+    name: &'static str,
+}
+
+impl Arc {
+    /// Those that can be measured on the page: θ in the plane, φ and β in space.
+    fn of(n: DVec3, e: DVec3, lit: &Lit, in_space: bool) -> Vec<Self> {
+        let [l, r, h] = [lit.l, lit.r, lit.h].map(|dir| dir.map(unit));
+        let arc = |from, to: Option<DVec3>, radius, ink, name| {
+            to.map(|to| Self { from, to, radius, ink, name })
+        };
+        let arcs = if in_space {
+            [r.and_then(|r| arc(r, Some(e), 0.62, R, "φ")), arc(n, h, 0.42, H, "β")]
+        } else {
+            [l, r].map(|dir| arc(n, dir, 0.3, L, "θ"))
+        };
+        // Not those too narrow to letter, nor those too wide to be one arc.
+        let drawn = |arc: &Self| (-0.98..0.998).contains(&arc.from.dot(arc.to));
+        arcs.into_iter().flatten().filter(drawn).collect()
+    }
+}
+
+/// The vectors of one light around `point`: in its plane of incidence, or in space.
+fn panel(out: &mut String, point: DVec2, s: &Surface, lit: Option<&Lit>, in_space: bool) {
+    let (along, depth) = frame(s.n, lit.and_then(|lit| lit.l).unwrap_or(s.e));
+    let (n, e) = (unit(s.n), unit(s.e));
+    let view = View { point, n, along, depth, in_space };
+    let mut vectors = vec![(n, N, "N"), (e, E, "E")];
     if let Some(lit) = lit {
         let more = [(lit.h, H, "H"), (lit.r, R, "R"), (lit.l, L, "L")];
-        vectors
-            .extend(more.into_iter().filter_map(|(dir, ink, name)| Some((unit(dir?), ink, name))));
+        let there = more.into_iter().filter_map(|(dir, ink, name)| Some((unit(dir?), ink, name)));
+        vectors.extend(there);
     }
-    let tips = vectors.iter().map(|vector| place(vector.0));
-    let mut labels = Labels::new(tips.clone().map(|tip| [point, tip]));
+    let mut labels = Labels::new(vectors.iter().map(|vector| [point, view.place(vector.0)]));
+    labels.avoid(&view.ground(out));
     if in_space {
-        for (v, tip) in vectors.iter().map(|vector| vector.0).zip(tips) {
-            let foot = place(v - v.dot(n) * n);
-            labels.avoid(&[tip, foot]);
-            let _ = writeln!(
-                out,
-                "<path d=\"M{:.2} {:.2}L{:.2} {:.2}\" stroke=\"{MUTED}\" stroke-dasharray=\"2 4\"/>\
-                 <circle cx=\"{:.2}\" cy=\"{:.2}\" r=\"2\" fill=\"{MUTED}\"/>",
-                tip.x, tip.y, foot.x, foot.y, foot.x, foot.y
-            );
+        for (v, ..) in &vectors {
+            labels.avoid(&view.plumb(out, *v));
         }
     }
     for (v, ink, _) in &vectors {
-        arrow(out, point, place(*v), ink);
+        arrow(out, point, view.place(*v), ink);
     }
     for (v, ink, name) in &vectors {
-        let tip = place(*v);
+        let tip = view.place(*v);
         letter(out, labels.place(tip, tip - point), ink, 19.0, name);
     }
-    let Some(lit) = lit else { return };
-    let mut arcs = vec![];
-    if let (Some(l), Some(r)) = (lit.l, lit.r) {
-        if in_space {
-            arcs.push((unit(r), unit(s.e), R, "φ", 0.62));
-        } else {
-            arcs.push((n, unit(l), L, "θ", 0.3));
-            arcs.push((n, unit(r), L, "θ", 0.3));
-        }
-    }
-    if let (Some(h), true) = (lit.h, in_space) {
-        arcs.push((n, unit(h), H, "β", 0.42));
-    }
-    for (a, b, ink, name, radius) in arcs {
-        // Too narrow to letter, or too wide to be one arc.
-        if a.dot(b) > 0.998 || a.dot(b) < -0.98 {
-            continue;
-        }
-        let mid = (a + b).normalize_or(n);
-        let points: Vec<DVec2> = (0..=24)
-            .map(|i| {
-                let t = f64::from(i) / 24.0;
-                place(radius * ((1.0 - t) * a + t * b).normalize_or(mid))
-            })
-            .collect();
+    for arc in lit.map_or_else(Vec::new, |lit| Arc::of(n, e, lit, in_space)) {
+        let points = view.arc(&arc);
+        line(out, &points, arc.ink, "stroke-width=\"1.5\"");
         labels.avoid(&points);
-        let path: Vec<String> = points.iter().map(|p| format!("{:.2} {:.2}", p.x, p.y)).collect();
-        let _ = writeln!(
-            out,
-            "<path d=\"M{}\" fill=\"none\" stroke=\"{ink}\" stroke-width=\"1.5\"/>",
-            path.join("L")
-        );
-        let on = place(radius * mid);
-        letter(out, labels.place(on, on - point), ink, 15.0, name);
+        let middle = points[points.len() / 2];
+        letter(out, labels.place(middle, middle - point), arc.ink, 15.0, arc.name);
     }
+}
+
+/// From point to point.
+fn line(out: &mut String, points: &[DVec2], ink: &str, look: &str) {
+    let points: Vec<String> = points.iter().map(|p| format!("{:.2},{:.2}", p.x, p.y)).collect();
+    // Writing to a String cannot fail.
+    let _ = writeln!(
+        out,
+        "<polyline points=\"{}\" fill=\"none\" stroke=\"{ink}\" {look}/>",
+        points.join(" ")
+    );
 }
 
 fn outline(out: &mut String, corners: &[DVec2], paint: &str) {
     let points: Vec<String> = corners.iter().map(|p| format!("{:.2},{:.2}", p.x, p.y)).collect();
-    // Writing to a String cannot fail.
     let _ = writeln!(out, "<polygon points=\"{}\" {paint}/>", points.join(" "));
 }
 
