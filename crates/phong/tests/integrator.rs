@@ -280,9 +280,9 @@ fn mesh(origin: DVec3) -> Mesh {
     Mesh {
         origin,
         positions: vec![
-            glam::Vec3::new(-2.0, -2.0, 0.0),
-            glam::Vec3::new(2.0, -2.0, 0.0),
-            glam::Vec3::new(0.0, 3.0, 0.0),
+            Vec3::new(-2.0, -2.0, 0.0),
+            Vec3::new(2.0, -2.0, 0.0),
+            Vec3::new(0.0, 3.0, 0.0),
         ],
         indices: vec![[0, 1, 2]],
         colors: vec![Rgb::new(1.0, 0.0, 0.0); 3],
