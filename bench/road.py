@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
-"""The whole road, from a scene's text to a picture on disk, against Tachyon and POV-Ray.
+"""The whole road, from a scene's text to a picture on disk, against Tachyon, POV-Ray and Mitsuba 3.
 
     cargo build --release && python3 bench/road.py [--scenes slide,mesh,...] [--ply dragon.ply.gz] [--runs 5]
 
 Writes the scenes (bench/scenes.py, needs numpy), runs every program that is installed on the very same scene, one after
 the other in rounds so that a busy machine disturbs all alike, and prints medians as a Markdown table. Ratios are to
 phong: above 1, phong took less. Before measuring it holds the pictures against each other, for a program that draws
-something else is not compared.
+something else is not compared. (Mitsuba has no Phong material: it draws the same view, lights and shadows, diffuse.)
 """
 
 import argparse
+import importlib.util
 import json
 import os
 import shutil
@@ -40,8 +41,12 @@ def commands(phong, name, folder, threads):
                     "-aasamples", "15" if many else "0", "-o", picture("tachyon")],
         "povray": ["povray", f"+I{at('pov')}", f"+O{picture('povray')}", f"+W{SIZE[0]}", f"+H{SIZE[1]}",
                    *(["+A0.0", "+AM1", "+R4"] if many else ["-A"]), "-D", f"+WT{threads}", "File_Gamma=1.0"],
+        # Its spheres are objects one by one: for a mesh, and for few of them.
+        "mitsuba": [sys.executable, str(ROOT / "bench/mitsuba_peer.py"), at("toml"), picture("mitsuba")],
     }  # fmt: skip
-    inputs = {"phong": at("toml"), "tachyon": at("dat"), "povray": at("pov")}
+    if many or name.startswith("spheres") or importlib.util.find_spec("mitsuba") is None:
+        del all_of_them["mitsuba"]
+    inputs = {"phong": at("toml"), "tachyon": at("dat"), "povray": at("pov"), "mitsuba": at("toml")}
     runs = lambda program: shutil.which(all_of_them[program][0]) and os.path.exists(inputs[program])
     return {program: line for program, line in all_of_them.items() if runs(program)}, picture
 
