@@ -91,7 +91,8 @@ fn what_is_lost_is_listed_and_an_error_if_it_must_not_be() {
     let ball = dropped.iter().find(|d| d["message"].as_str().unwrap().contains("sphere")).unwrap();
     assert_eq!((&ball["file"], &ball["line"]), (&"a.toml".into(), &14.into()));
     assert_eq!(folder.done("convert a.toml b.obj -q").err, "");
-    folder.done("convert b.obj c.ply --strict");
+    folder.when("convert b.obj c.ply --strict").is_refused(&["PLY holds no materials", "mirror"]);
+    folder.done("convert b.obj c.ply");
     folder.when("convert a.toml c.ply -q --strict").is_refused(&["PLY holds no lights"]);
 }
 

@@ -9,27 +9,25 @@ use crate::{Diagnostic, Label, Light, LightKind, Object, Place, Scene, Shape, Sp
 /// Most pairs of a light and an object that are looked at: a check must not outlast the render.
 const MOST_PAIRS: usize = 10_000_000;
 
-/// Everything suspicious about a scene, each with its place but without an excerpt. What is
+/// Says everything suspicious about a scene, each with its place but without an excerpt. What is
 /// missing from the scene as a whole is told of the file `main`.
-pub(crate) fn check(scene: &Scene, main: &Arc<str>) -> Vec<Diagnostic> {
-    let mut said = Vec::new();
+pub(crate) fn check(scene: &Scene, main: &Arc<str>, say: &mut dyn FnMut(Diagnostic)) {
     let top = Place { file: Arc::clone(main), line: 1, column: 1 };
     if scene.objects.is_empty() {
         let help = "add a shape, such as `[[sphere]]`";
-        said.push(Diagnostic::warning("the scene has no objects", at(&top)).with_help(help));
+        say(Diagnostic::warning("the scene has no objects", at(&top)).with_help(help));
     }
     if scene.lights.is_empty() {
         let help = "without a `[[light]]` only the ambient term is seen";
-        said.push(Diagnostic::warning("the scene has no lights", at(&top)).with_help(help));
+        say(Diagnostic::warning("the scene has no lights", at(&top)).with_help(help));
     }
     if scene.objects.len().saturating_mul(scene.lights.len()) <= MOST_PAIRS {
-        scene.objects.iter().for_each(|object| shut_in(scene, object, &mut said));
+        scene.objects.iter().for_each(|object| shut_in(scene, object, say));
     }
-    said
 }
 
 /// Says if lights or the camera are within an object that keeps light in or out.
-fn shut_in(scene: &Scene, object: &Object, said: &mut Vec<Diagnostic>) {
+fn shut_in(scene: &Scene, object: &Object, say: &mut dyn FnMut(Diagnostic)) {
     let to_own_space = object.transform.inverse();
     let within = |p: DVec3| contains(&object.shape, to_own_space.transform_point3(p));
     let lights = || scene.lights.iter().filter_map(|light| Some((light, position(light)?)));
@@ -38,13 +36,13 @@ fn shut_in(scene: &Scene, object: &Object, said: &mut Vec<Diagnostic>) {
         let lit = lights().any(|(_, position)| within(position));
         if matches!(object.shape, Shape::Sphere { .. }) && !lit {
             let message = format!("the camera is inside {}, and no light is", object.name);
-            said.push(Diagnostic::warning(message, at(&object.place)));
+            say(Diagnostic::warning(message, at(&object.place)));
         }
         return;
     }
     for (light, position) in lights() {
         if light.shadows && within(position) {
-            said.push(dark(light, object));
+            say(dark(light, object));
         }
     }
 }

@@ -84,6 +84,7 @@ cases! {
     every_number_out_of_range_is_told_at_its_place
     every_syntax_error_is_told_and_everything_else_too
     facets_reflect_by_one_rule
+    glass_without_a_mirror_loses_light
     groups_that_hold_one_another_are_told
     names_may_be_of_any_letters
     nan_and_infinity_are_wrong_everywhere

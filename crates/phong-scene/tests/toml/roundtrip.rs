@@ -78,12 +78,18 @@ fn corners(mesh: &Mesh) -> Mesh {
     }
 }
 
+/// Writing and reading gives the same scene, and writing it again the same text.
 #[track_caller]
-fn assert_comes_back(scene: &Scene, what: &str) {
+pub(crate) fn assert_comes_back(scene: &Scene, what: &str) {
     let (text, back) = written_and_read(scene.clone());
     let (before, after) = (seen(scene.clone()), seen(back.clone()));
-    let differs = before.lines().zip(after.lines()).find(|(a, b)| a != b);
-    assert!(before == after, "{what}: {differs:?}\n{text}");
+    if let Some((a, b)) = before.lines().zip(after.lines()).find(|(a, b)| a != b) {
+        let same = a.chars().zip(b.chars()).take_while(|(a, b)| a == b).count();
+        let around = |line: &str| line.chars().skip(same.saturating_sub(80)).take(200).collect();
+        let [a, b]: [String; 2] = [a, b].map(around);
+        panic!("{what}: … {a}\ncomes back as … {b}\nfrom\n{text}");
+    }
+    assert_eq!(before.lines().count(), after.lines().count(), "{what}:\n{text}");
     let (again, _) = written_and_read(back);
     assert!(text == again, "{what}: the same scene gives the same text");
 }

@@ -78,6 +78,13 @@ pub(super) fn material(v: &Values, name: &str, notes: &mut Notes) -> Option<Mate
         },
         place: notes.place(v.spot),
     };
+    if material.fresnel && !material.transmission.is_black() && material.reflection.is_black() {
+        let message = "Fresnel's factor takes from what is let through what `reflection` \
+                       would mirror, but that is 0: the light is lost";
+        let help = "write `reflection = 1`, as for glass, or `fresnel = false` to keep \
+                    `transmission` as it is written";
+        notes.warning(v.spot_of("transmission"), message).help = Some(help.to_owned());
+    }
     if material.dialect == Dialect::ThreeJs && material.model == Model::BlinnPhong {
         three_js(v, material, notes)
     } else {

@@ -4,13 +4,21 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::text::{Spot, Text};
-use crate::{Diagnostic, Place, Span};
+use crate::{Diagnostic, Place, Severity, Span};
+
+/// Most diagnostics that are told; the rest is counted. A generated file may be wrong a million
+/// times in the same way.
+const MOST: usize = 1000;
 
 /// The files read and everything said about them.
 #[derive(Debug, Default)]
 pub(super) struct Notes {
     texts: Vec<Arc<Text>>,
     said: Vec<(Vec<usize>, Diagnostic)>,
+    /// How many warnings and errors there were beyond those.
+    untold: [usize; 2],
+    /// What is not told is written here.
+    spare: Diagnostic,
     /// Files and places where tables begin that lost a statement to a syntax error.
     lost: BTreeSet<(u32, usize)>,
 }
@@ -39,23 +47,43 @@ impl Notes {
 
     /// Says that something is wrong there.
     pub(super) fn error(&mut self, spot: Spot, message: impl Into<String>) -> &mut Diagnostic {
+        if self.is_full() {
+            return self.count(Severity::Error);
+        }
         let diagnostic = Diagnostic::error(message, self.span(spot));
         self.say(spot, diagnostic)
     }
 
     /// Says that something is worth knowing there.
     pub(super) fn warning(&mut self, spot: Spot, message: impl Into<String>) -> &mut Diagnostic {
+        if self.is_full() {
+            return self.count(Severity::Warning);
+        }
         let diagnostic = Diagnostic::warning(message, self.span(spot));
         self.say(spot, diagnostic)
     }
 
     /// Says this where `spot` is in the order of the text.
     pub(super) fn say(&mut self, spot: Spot, diagnostic: Diagnostic) -> &mut Diagnostic {
+        if self.is_full() {
+            return self.count(diagnostic.severity);
+        }
         let mut order = self.text(spot.file).at.clone();
         order.push(spot.start);
         self.said.push((order, diagnostic));
         let last = self.said.len() - 1;
         &mut self.said[last].1
+    }
+
+    /// Whether no more is told, only counted: then no words need be found for it.
+    pub(super) fn is_full(&self) -> bool {
+        self.said.len() >= MOST
+    }
+
+    /// One more that is not told.
+    pub(super) fn count(&mut self, severity: Severity) -> &mut Diagnostic {
+        self.untold[usize::from(severity == Severity::Error)] += 1;
+        &mut self.spare
     }
 
     /// Remembers that the tables which begin there lost a statement to a syntax error.
@@ -70,6 +98,10 @@ impl Notes {
 
     /// Says this where its place is, and shows the text that stands there.
     pub(super) fn say_located(&mut self, mut diagnostic: Diagnostic) {
+        if self.is_full() {
+            self.count(diagnostic.severity);
+            return;
+        }
         let mut at = Spot::new(0, 0..0);
         let labels = diagnostic.labels.iter_mut().map(|label| &mut label.span);
         for span in labels.chain(&mut diagnostic.span) {
@@ -87,12 +119,22 @@ impl Notes {
 
     /// Whether an error was said.
     pub(super) fn has_errors(&self) -> bool {
-        self.said.iter().any(|(_, diagnostic)| diagnostic.is_error())
+        self.untold[1] > 0 || self.said.iter().any(|(_, diagnostic)| diagnostic.is_error())
     }
 
-    /// All of it, in the order of the text, includes at their place.
+    /// All of it, in the order of the text, includes at their place; then how many more there are.
     pub(super) fn into_diagnostics(mut self) -> Vec<Diagnostic> {
         self.said.sort_by(|(a, _), (b, _)| a.cmp(b));
-        self.said.into_iter().map(|(_, diagnostic)| diagnostic).collect()
+        let mut all: Vec<_> = self.said.into_iter().map(|(_, diagnostic)| diagnostic).collect();
+        let [warnings, errors] = self.untold;
+        let place = Place { file: Arc::clone(&self.texts[0].file), ..Place::default() };
+        let span = Span { place, ..Span::default() };
+        if errors > 0 {
+            all.push(Diagnostic::error(format!("and {errors} more errors"), span.clone()));
+        }
+        if warnings > 0 {
+            all.push(Diagnostic::warning(format!("and {warnings} more warnings"), span));
+        }
+        all
     }
 }

@@ -9,7 +9,7 @@ use super::reader::Reader;
 use super::text::Spot;
 use crate::check::check;
 use crate::wording::{closest, list, quoted};
-use crate::{Diagnostic, Group, GroupId, Material, MaterialId, Object, Scene, Shape};
+use crate::{Diagnostic, Group, GroupId, Material, MaterialId, Object, Scene, Severity, Shape};
 
 /// Most names that a message lists.
 const MOST_LISTED: usize = 12;
@@ -77,9 +77,8 @@ impl Reader<'_> {
                 |name| format!("no instance places the group {name}"),
                 &mut notes,
             );
-            for warning in check(scene, &notes.text(0).file.clone()) {
-                notes.say_located(warning);
-            }
+            let main = notes.text(0).file.clone();
+            check(scene, &main, &mut |warning| notes.say_located(warning));
         }
         (scene, notes.into_diagnostics())
     }
@@ -188,6 +187,10 @@ pub(super) fn say_unknown_name<'n>(
     known: impl Iterator<Item = &'n str>,
     spot: Spot,
 ) {
+    if notes.is_full() {
+        notes.count(Severity::Error);
+        return;
+    }
     let known: Vec<_> = known.take(MOST_COMPARED + 1).collect();
     let few = known.len() <= MOST_COMPARED;
     let near = few.then(|| closest(name, known.iter().copied())).flatten();

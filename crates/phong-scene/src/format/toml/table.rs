@@ -7,7 +7,7 @@ use super::text::Spot;
 use super::value::{Value, ValueReader};
 use crate::keys::{Default, Key, Kind, Table};
 use crate::wording::{closest, list};
-use crate::{Background, Rgb};
+use crate::{Background, Rgb, Severity};
 use glam::{DAffine3, DVec2, DVec3, DVec4};
 
 /// What one table of the text says: every value checked, every default at hand.
@@ -219,6 +219,10 @@ pub(super) fn say_unknown(
     table: &'static Table,
     word: Option<&str>,
 ) {
+    if notes.is_full() {
+        notes.count(Severity::Error);
+        return;
+    }
     let known = || table.keys().filter(|key| key.applies(word)).map(|key| key.name);
     let help = match closest(name, known()) {
         Some(meant) => format!("did you mean `{meant}`?"),

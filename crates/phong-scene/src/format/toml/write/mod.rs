@@ -10,7 +10,7 @@ mod text;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
-use glam::{DAffine3, DVec3};
+use glam::DVec3;
 
 use super::table::default;
 use super::value::Value;
@@ -253,7 +253,7 @@ fn sidecar(object: &mut Object, ply: PlyEncoding) -> Option<Content> {
         _ => return None,
     };
     if origin != DVec3::ZERO {
-        object.transform *= DAffine3::from_translation(origin);
+        object.transform.translation = object.transform.transform_point3(origin);
     }
     Some(content)
 }

@@ -1,0 +1,357 @@
+//! Scenes of every sort, made up, written and read back.
+
+use glam::{DAffine3, DMat3, DVec2, DVec3, Vec2, Vec3};
+use phong_scene::{
+    AmbientRule, Background, Camera, CameraKind, Dialect, Distribution, FilterKind, Fresnel, Group,
+    GroupId, Image, Light, LightKind, Material, MaterialId, Mesh, Model, NO_INDEX, Object, Place,
+    Points, Rgb, Scene, Shadowing, Shape, Tint, Viewer, WardForm,
+};
+use proptest::prelude::*;
+
+use crate::roundtrip::assert_comes_back;
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn any_scene_comes_back(seed in any::<u64>()) {
+        assert_comes_back(&Make(seed).scene(), "a generated scene");
+    }
+}
+
+/// Choices that follow from a seed.
+struct Make(u64);
+
+impl Make {
+    /// SplitMix64.
+    fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    fn below(&mut self, n: usize) -> usize {
+        (self.bits() % n as u64) as usize
+    }
+
+    fn flag(&mut self) -> bool {
+        self.below(2) == 0
+    }
+
+    fn one<T: Copy>(&mut self, of: &[T]) -> T {
+        of[self.below(of.len())]
+    }
+
+    /// A number from 0.01 to 1.01, of few digits or of all that f64 has.
+    fn number(&mut self) -> f64 {
+        if self.flag() {
+            0.01 * self.below(100) as f64 + 0.01
+        } else {
+            0.01 + (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
+        }
+    }
+
+    fn float(&mut self) -> f32 {
+        self.number() as f32
+    }
+
+    /// Far from others by its third coordinate only if asked to be.
+    fn point(&mut self) -> DVec3 {
+        let size = self.one(&[1.0, 1.0, 100.0, 1e-7]);
+        let mut axis = || (self.number() - 0.5) * size;
+        DVec3::new(axis(), axis(), axis())
+    }
+
+    fn color(&mut self) -> Rgb {
+        match self.below(4) {
+            0 => Rgb::grey(self.float()),
+            1 => Rgb::from_srgb8([self.bits() as u8, 7, self.bits() as u8]),
+            2 => Rgb::new(1.0, 0.0, self.float()),
+            _ => Rgb::new(self.float(), self.float(), 3.0 * self.float()),
+        }
+    }
+
+    fn name(&mut self) -> String {
+        self.one(&["a", "b-2", "two words", "Größe", "\"q\"\\", "#", "tab\tand\nline"]).to_owned()
+    }
+
+    fn scene(&mut self) -> Scene {
+        let materials: Vec<_> = (0..1 + self.below(5)).map(|i| self.material(i)).collect();
+        let mut groups: Vec<Group> = Vec::new();
+        for i in 0..self.below(3) {
+            let objects = self.objects(materials.len(), i);
+            groups.push(Group { name: format!("{} {i}", self.name()), objects });
+        }
+        let objects = self.objects(materials.len(), groups.len());
+        let lights = (0..self.below(4)).map(|i| self.light(i + 1)).collect();
+        let (image, camera, ambient) = (self.image(), self.camera(), self.color());
+        Scene { image, camera, ambient, lights, materials, objects, groups }
+    }
+
+    fn image(&mut self) -> Image {
+        use FilterKind::{Box, Gaussian, Mitchell, Tent};
+        Image {
+            size: [1 + self.below(5000) as u32, 540],
+            samples: self.one(&[16, 1, 1_000_000]),
+            background: match self.below(3) {
+                0 => Background::Color(self.color()),
+                1 => Background::Transparent,
+                _ => Background::Gradient { top: self.color(), bottom: self.color() },
+            },
+            filter: self.one(&[Box, Tent, Gaussian, Mitchell]),
+            seed: self.one(&[0, 1, u64::MAX]),
+            depth: self.one(&[8, 0, 100]),
+        }
+    }
+
+    fn camera(&mut self) -> Camera {
+        let lens = self.flag();
+        let kind = match self.below(4) {
+            0 => CameraKind::Perspective { fov: 179.0 * self.number() / 1.01 },
+            1 => CameraKind::Orthographic { height: self.number() },
+            2 if !lens => CameraKind::Fisheye { fov: 356.0 * self.number() },
+            _ if !lens => CameraKind::Panorama,
+            _ => CameraKind::Perspective { fov: 40.0 },
+        };
+        Camera {
+            kind,
+            eye: self.point() + DVec3::Z * 1e3,
+            look_at: self.point(),
+            up: DVec3::new(self.number(), 5.0, 0.0),
+            aperture: if lens { self.number() } else { 0.0 },
+            focus: (lens && self.flag()).then(|| self.number()),
+        }
+    }
+
+    fn light(&mut self, number: usize) -> Light {
+        let attenuation = self.one(&[[1.0, 0.0, 0.0], [0.5, 0.25, 1e-9]]);
+        let position = self.point();
+        let radius = self.one(&[0.0, 0.125]);
+        let kind = match self.below(3) {
+            0 => LightKind::Point { position, attenuation, radius },
+            1 => LightKind::Distant {
+                direction: DVec3::new(self.number(), -1.0, 0.0),
+                angle: self.one(&[0.0, 0.53]),
+            },
+            _ => LightKind::Spot {
+                position,
+                target: position + DVec3::new(0.0, self.number(), 1.0),
+                cone: 45.0 * self.number() / 1.01,
+                edge: self.one(&[45.0, 90.0]),
+                attenuation,
+                radius,
+            },
+        };
+        let color = self.color();
+        Light {
+            name: if self.flag() { format!("light {number}") } else { self.name() },
+            kind,
+            color,
+            specular_color: if self.flag() { color } else { self.color() },
+            shadows: self.flag(),
+            place: Place::default(),
+        }
+    }
+
+    fn model(&mut self) -> Model {
+        use Shadowing::{Correlated, Implicit, Separable, VCavity};
+        match self.below(7) {
+            0 => Model::Lambert,
+            1 => Model::Phong,
+            2 => Model::BlinnPhong,
+            3 => Model::BlinnFast,
+            4 => Model::Microfacet {
+                distribution: self.one(&[
+                    Distribution::Blinn,
+                    Distribution::Beckmann,
+                    Distribution::Ggx,
+                ]),
+                roughness: self.float(),
+                shadowing: self.one(&[Separable, Correlated, VCavity, Implicit]),
+                fresnel: match self.below(5) {
+                    0 => Fresnel::None,
+                    1 => Fresnel::Schlick { f0: Rgb::grey(0.04) },
+                    2 => Fresnel::Schlick { f0: Rgb::new(0.5, 0.25, 0.9 * self.float()) },
+                    3 => Fresnel::Conductor {
+                        eta: Rgb::new(self.float(), 0.5, 2.0),
+                        k: self.color(),
+                    },
+                    _ => Fresnel::Dielectric { eta: self.float() },
+                },
+            },
+            5 => Model::OrenNayar {
+                sigma: (90.0 * self.number() / 1.01).to_radians() as f32,
+                full: self.flag(),
+            },
+            _ => {
+                let roughness_x = self.float();
+                let roughness_y = if self.flag() { roughness_x } else { self.float() };
+                Model::Ward {
+                    roughness_x,
+                    roughness_y,
+                    form: self.one(&[WardForm::Ward, WardForm::Gmd]),
+                }
+            }
+        }
+    }
+
+    fn material(&mut self, number: usize) -> Material {
+        let model = self.model();
+        let lobe = matches!(model, Model::Phong | Model::BlinnPhong | Model::BlinnFast);
+        let glossy = !matches!(model, Model::Lambert | Model::OrenNayar { .. });
+        // A material of three.js is read as facets, of which every test above holds some.
+        let suits = |d: &Dialect| *d != Dialect::ThreeJs && d.allows(&model);
+        let dialects: Vec<_> = Dialect::ALL.into_iter().filter(suits).collect();
+        let dialect = self.one(&dialects);
+        let preset = dialect.switches();
+        let transmission = if self.flag() { Rgb::BLACK } else { self.color() };
+        let mut shininess = Material::default().shininess;
+        if let Model::Microfacet { distribution: Distribution::Blinn, roughness, .. } = model {
+            shininess = roughness;
+        } else if lobe {
+            shininess = self.one(&[32.0, 0.0, 1e6, 12.345]);
+        }
+        Material {
+            name: if number == 0 { "default".into() } else { format!("{} {number}", self.name()) },
+            model,
+            color: self.color(),
+            ambient_color: if self.flag() { None } else { Some(self.color()) },
+            specular_color: match self.below(3) {
+                0 if glossy => None,
+                1 if glossy => Some(self.color()),
+                _ => Some(Rgb::WHITE),
+            },
+            k_a: self.float(),
+            k_d: self.one(&[0.7, 0.1, 1.0]),
+            k_s: if glossy { self.float() } else { 0.0 },
+            shininess,
+            reflection: if self.flag() { Rgb::BLACK } else { self.color() },
+            transmission,
+            ior: self.one(&[1.5, 1.0, 0.666_666_7]),
+            fresnel: self.flag(),
+            dialect,
+            times_cosine: if lobe { self.flag() } else { preset.times_cosine },
+            normalize: if lobe { self.flag() } else { preset.normalize },
+            tint: if lobe {
+                self.one(&[Tint::Light, Tint::Object, Tint::Metallic])
+            } else {
+                preset.tint
+            },
+            ambient_rule: self.one(&[AmbientRule::Once, AmbientRule::PerLight, AmbientRule::Both]),
+            viewer: if lobe { self.one(&[Viewer::Local, Viewer::Distant]) } else { preset.viewer },
+            place: Place::default(),
+        }
+    }
+
+    fn objects(&mut self, materials: usize, groups: usize) -> Vec<Object> {
+        (0..self.below(6)).map(|_| self.object(materials, groups)).collect()
+    }
+
+    fn object(&mut self, materials: usize, groups: usize) -> Object {
+        let transform = match self.below(5) {
+            0 => DAffine3::from_translation(self.point()),
+            1 => DAffine3::from_scale(DVec3::new(self.number(), -2.0, 1.0)),
+            2 => DAffine3 {
+                matrix3: DMat3::from_cols(
+                    DVec3::new(self.number(), 0.0, 0.1),
+                    DVec3::new(0.25, 2.0, -0.0),
+                    DVec3::new(0.0, self.number(), -3.0),
+                ),
+                translation: self.point(),
+            },
+            _ => DAffine3::IDENTITY,
+        };
+        Object {
+            name: self.name(),
+            shape: self.shape(groups),
+            material: MaterialId(self.below(materials) as u32),
+            transform,
+            place: Place::default(),
+        }
+    }
+
+    fn shape(&mut self, groups: usize) -> Shape {
+        let center = self.point();
+        let up = DVec3::new(0.25, self.number(), 0.0);
+        let (radius, capped) = (self.number(), self.flag());
+        match self.below(11) {
+            0 => Shape::Sphere { center, radius },
+            1 => Shape::Plane { point: center, normal: up },
+            2 => Shape::Triangle {
+                points: [center, center + DVec3::X, center + up],
+                normals: self.flag().then_some([up, DVec3::X, DVec3::Z]),
+                uv: self.flag().then_some([DVec2::ZERO, DVec2::new(0.1, -7.5), DVec2::Y]),
+            },
+            3 => Shape::Disc { center, normal: up, radius },
+            4 => Shape::Box { min: center, max: center + DVec3::ONE },
+            5 => Shape::Cylinder { from: center, to: center + up, radius, capped },
+            6 => Shape::Cone {
+                from: center,
+                to: center + up,
+                radius,
+                radius_to: self.one(&[0.0, 2.5]),
+                capped,
+            },
+            7 => Shape::Torus { center, axis: up, radius, tube: 0.5 * radius },
+            8 => Shape::Mesh(Box::new(self.mesh())),
+            9 => Shape::Points(Box::new(self.points())),
+            _ if groups > 0 => Shape::Instance(GroupId(self.below(groups) as u32)),
+            _ => Shape::Sphere { center, radius: 1.0 },
+        }
+    }
+
+    fn origin(&mut self) -> DVec3 {
+        self.one(&[DVec3::ZERO, DVec3::ZERO, DVec3::new(4_000_032.0, 0.0, -64.0)])
+    }
+
+    fn mesh(&mut self) -> Mesh {
+        let count = 4 + self.below(9);
+        let triangles = 1 + self.below(12);
+        let mut three = |n: usize| {
+            let first = self.below(n);
+            [first, first + 1, first + 2].map(|i| (i % n) as u32)
+        };
+        let mut mesh = Mesh {
+            indices: (0..triangles).map(|_| three(count)).collect(),
+            normal_indices: (0..triangles).map(|_| three(3)).collect(),
+            uv_indices: (0..triangles).map(|_| three(4)).collect(),
+            ..Mesh::default()
+        };
+        mesh.origin = self.origin();
+        mesh.positions = (0..count).map(|_| self.point().as_vec3()).collect();
+        match self.below(3) {
+            0 => mesh.normal_indices.clear(),
+            1 => {
+                mesh.normals = (0..count).map(|i| Vec3::new(i as f32, 1.0, 0.0)).collect();
+                mesh.normal_indices.clear();
+            }
+            _ => {
+                mesh.normals = vec![Vec3::X, Vec3::new(0.1, 0.2, 0.3), -Vec3::Y];
+                mesh.normal_indices[0][1] = NO_INDEX;
+            }
+        }
+        if self.flag() {
+            mesh.uvs = (0..4).map(|i| Vec2::new(i as f32, 0.1)).collect();
+        } else {
+            mesh.uv_indices.clear();
+        }
+        if self.flag() {
+            mesh.colors = (0..count).map(|_| self.color()).collect();
+        }
+        mesh
+    }
+
+    fn points(&mut self) -> Points {
+        let count = 1 + self.below(9);
+        let mut points = Points { origin: self.origin(), ..Points::default() };
+        for _ in 0..count {
+            let [x, y, z] = self.point().as_vec3().to_array();
+            points.spheres.push([x, y, z, self.float()]);
+        }
+        if self.flag() {
+            points.colors = (0..count).map(|_| self.color()).collect();
+        }
+        points
+    }
+}
