@@ -9,11 +9,12 @@ use std::marker::PhantomData;
 use fearless_simd::Simd;
 
 use super::{
-    Best, World,
-    leaves::{Content, Leaves},
+    World,
+    errand::Errand,
+    leaves::Content,
     walk::{Stack, Walk},
 };
-use crate::{Hit, Ray, level::Kernel, node8::Ref, simd::prefetch};
+use crate::{Ray, level::Kernel, node8::Ref, simd::prefetch};
 
 /// How many rays are on their way at once.
 pub(super) const RAYS: usize = 12;
@@ -21,96 +22,12 @@ pub(super) const RAYS: usize = 12;
 /// A stack for each.
 pub(super) type Stacks = [Stack; RAYS];
 
-/// What rays are sent for.
-pub(super) trait Errand {
-    /// The first ray from `from` on that has to be sent.
-    fn next(&self, rays: &[Ray], from: usize) -> Option<usize>;
-
-    /// What is known of a ray before it is sent.
-    fn best(&self, ray: &Ray, index: usize) -> Best;
-
-    /// One step; whether there is another.
-    fn step<S: Simd, L: Leaves<S>>(
-        walk: &mut Walk<S, L>,
-        simd: S,
-        world: &World<'_>,
-        stack: &mut Stack,
-    ) -> bool;
-
-    /// A ray is back.
-    fn back(&mut self, index: usize, best: Best);
-}
-
-/// The closest hits. They come with the best outside the tree.
-pub(super) struct Closest<'a>(pub(super) &'a mut [Hit]);
-
-/// Whether anything is hit. Rays already blocked are not sent.
-pub(super) struct Any<'a>(pub(super) &'a mut [bool]);
-
-impl Errand for Closest<'_> {
-    #[inline(always)]
-    fn next(&self, rays: &[Ray], from: usize) -> Option<usize> {
-        (from < rays.len()).then_some(from)
-    }
-
-    #[inline(always)]
-    fn best(&self, _: &Ray, index: usize) -> Best {
-        Best::outside(self.0[index].t, self.0[index].prim)
-    }
-
-    #[inline(always)]
-    fn step<S: Simd, L: Leaves<S>>(
-        walk: &mut Walk<S, L>,
-        simd: S,
-        world: &World<'_>,
-        stack: &mut Stack,
-    ) -> bool {
-        walk.step(simd, world, stack)
-    }
-
-    #[inline(always)]
-    fn back(&mut self, index: usize, best: Best) {
-        // Not the hit it was sent with: a walk is told its distance and number alone, and a group that
-        // gave up has found weights as well.
-        if best.0.prim != self.0[index].prim {
-            self.0[index] = best.0;
-        }
-    }
-}
-
-impl Errand for Any<'_> {
-    #[inline(always)]
-    fn next(&self, _: &[Ray], from: usize) -> Option<usize> {
-        Some(from + self.0.get(from..)?.iter().position(|&blocked| !blocked)?)
-    }
-
-    #[inline(always)]
-    fn best(&self, ray: &Ray, _: usize) -> Best {
-        Best::new(ray.t_max)
-    }
-
-    #[inline(always)]
-    fn step<S: Simd, L: Leaves<S>>(
-        walk: &mut Walk<S, L>,
-        simd: S,
-        world: &World<'_>,
-        stack: &mut Stack,
-    ) -> bool {
-        walk.step_any(simd, world, stack)
-    }
-
-    #[inline(always)]
-    fn back(&mut self, index: usize, best: Best) {
-        self.0[index] = best.0.is_some();
-    }
-}
-
 /// Rays, each on its own.
 pub(super) struct Many<'a, E, C> {
     pub(super) world: &'a World<'a>,
     pub(super) root: Ref,
     pub(super) rays: &'a [Ray],
-    pub(super) errand: E,
+    pub(super) errand: &'a mut E,
     pub(super) stacks: &'a mut Stacks,
     pub(super) content: PhantomData<C>,
 }
@@ -120,7 +37,7 @@ impl<E: Errand, C: Content> Kernel for Many<'_, E, C> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Self { world, root, rays, mut errand, stacks, .. } = self;
+        let Self { world, root, rays, errand, stacks, .. } = self;
         let Some(first) = errand.next(rays, 0) else { return };
         let best = errand.best(&rays[first], first);
         let walk = Walk::<S, C::Leaves<S>>::new(simd, &rays[first], best, root);

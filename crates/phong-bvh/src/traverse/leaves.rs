@@ -19,6 +19,9 @@ use crate::{
 pub(super) trait Content {
     /// Its leaves' tests.
     type Leaves<S: Simd>: Leaves<S>;
+    /// Whether rays for which any hit will do are worth going together. Among many spheres they are
+    /// blocked, each by another, before a group has earned what it cost.
+    const ANY_TOGETHER: bool = true;
 }
 
 /// A ray prepared for the primitives of leaves.
@@ -46,6 +49,7 @@ impl Content for OnlyTriangles {
 
 impl Content for OnlySpheres {
     type Leaves<S: Simd> = Spheres<S>;
+    const ANY_TOGETHER: bool = false;
 }
 
 impl Content for Anything {

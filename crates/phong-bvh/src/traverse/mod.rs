@@ -1,6 +1,9 @@
 //! Rays through the tree.
 
 mod coherent;
+mod columns;
+mod errand;
+mod frustum;
 mod handful;
 mod interleaved;
 mod leaves;
@@ -11,9 +14,10 @@ mod walk;
 use std::{cell::RefCell, marker::PhantomData, ops::Range};
 
 use self::{
-    coherent::{AnyTogether, ClosestTogether, Entries, Entry, is_coherent, same_octant},
+    coherent::{Entries, Entry, Together, is_coherent, same_octant},
+    errand::{Any, Closest, Errand},
     handful::{AnyOfHandful, ClosestOfHandful},
-    interleaved::{Any, Closest, Many, RAYS, Stacks},
+    interleaved::{Many, RAYS, Stacks},
     leaves::{Anything, Content, OnlySpheres, OnlyTriangles},
 };
 use crate::{
@@ -65,9 +69,9 @@ impl<'a> World<'a> {
             return;
         }
         match self.only {
-            Some(Kind::Triangles) => self.closest_of_many_in::<OnlyTriangles>(rays, hits),
-            Some(Kind::Spheres) => self.closest_of_many_in::<OnlySpheres>(rays, hits),
-            _ => self.closest_of_many_in::<Anything>(rays, hits),
+            Some(Kind::Triangles) => self.many_in::<OnlyTriangles, _>(rays, Closest(hits)),
+            Some(Kind::Spheres) => self.many_in::<OnlySpheres, _>(rays, Closest(hits)),
+            _ => self.many_in::<Anything, _>(rays, Closest(hits)),
         }
     }
 
@@ -78,9 +82,9 @@ impl<'a> World<'a> {
             return;
         }
         match self.only {
-            Some(Kind::Triangles) => self.any_of_many_in::<OnlyTriangles>(rays, blocked),
-            Some(Kind::Spheres) => self.any_of_many_in::<OnlySpheres>(rays, blocked),
-            _ => self.any_of_many_in::<Anything>(rays, blocked),
+            Some(Kind::Triangles) => self.many_in::<OnlyTriangles, _>(rays, Any(blocked)),
+            Some(Kind::Spheres) => self.many_in::<OnlySpheres, _>(rays, Any(blocked)),
+            _ => self.many_in::<Anything, _>(rays, Any(blocked)),
         }
     }
 
@@ -108,42 +112,33 @@ impl<'a> World<'a> {
         });
     }
 
-    fn closest_of_many_in<C: Content>(&self, rays: &[Ray], hits: &mut [Hit]) {
+    /// A bundle, run by run.
+    fn many_in<C: Content, E: Errand>(&self, rays: &[Ray], mut errand: E) {
         let Some(root) = self.root else { return };
-        let (world, content) = (self, PhantomData::<C>);
-        Runs::of(rays, root).for_each(|(range, together)| {
-            let (rays, hits) = (&rays[range.clone()], &mut hits[range]);
-            let done = together
-                && ENTRIES.with_borrow_mut(|entries| {
-                    let hits = &mut *hits;
-                    self.token.run(ClosestTogether { world, root, rays, hits, entries, content })
-                });
-            if !done {
-                STACKS.with_borrow_mut(|stacks| {
-                    let errand = Closest(hits);
-                    self.token.run(Many { world, root, rays, errand, stacks, content });
-                });
-            }
+        Runs::of::<C, E>(rays, root).for_each(|(range, together)| {
+            self.run_in::<C, _>(root, &rays[range.clone()], errand.part(range), together);
         });
     }
 
-    fn any_of_many_in<C: Content>(&self, rays: &[Ray], blocked: &mut [bool]) {
-        let Some(root) = self.root else { return };
-        let (world, content) = (self, PhantomData::<C>);
-        Runs::of(rays, root).for_each(|(range, together)| {
-            let (rays, blocked) = (&rays[range.clone()], &mut blocked[range]);
-            let done = together
-                && ENTRIES.with_borrow_mut(|entries| {
-                    let blocked = &mut *blocked;
-                    self.token.run(AnyTogether { world, root, rays, blocked, entries, content })
-                });
-            if !done {
-                STACKS.with_borrow_mut(|stacks| {
-                    let errand = Any(blocked);
-                    self.token.run(Many { world, root, rays, errand, stacks, content });
-                });
-            }
-        });
+    /// A part of a bundle, together if that is worth it.
+    fn run_in<C: Content, E: Errand>(
+        &self,
+        root: Ref,
+        rays: &[Ray],
+        mut errand: E,
+        together: bool,
+    ) {
+        let (world, content, errand) = (self, PhantomData::<C>, &mut errand);
+        let done = together
+            && ENTRIES.with_borrow_mut(|entries| {
+                let errand = &mut *errand;
+                self.token.run(Together { world, root, rays, errand, entries, content })
+            });
+        if !done {
+            STACKS.with_borrow_mut(|stacks| {
+                self.token.run(Many { world, root, rays, errand, stacks, content });
+            });
+        }
     }
 
     #[inline(always)]
@@ -170,7 +165,8 @@ thread_local! {
 /// A bundle cut into runs: rays that go together, and others.
 struct Runs<'a> {
     rays: &'a [Ray],
-    /// Whether any may go together: not where the root is a leaf, which has no box.
+    /// Whether any may go together: not where the root is a leaf, which has no box, nor where it never
+    /// pays.
     together: bool,
     next: usize,
     /// A run of the first kind that was found behind one of the second.
@@ -178,8 +174,9 @@ struct Runs<'a> {
 }
 
 impl<'a> Runs<'a> {
-    fn of(rays: &'a [Ray], root: Ref) -> Self {
-        Self { rays, together: root.kind().is_none(), next: 0, found: None }
+    fn of<C: Content, E: Errand>(rays: &'a [Ray], root: Ref) -> Self {
+        let together = root.kind().is_none() && (C::ANY_TOGETHER || !E::ANY);
+        Self { rays, together, next: 0, found: None }
     }
 }
 
