@@ -302,6 +302,15 @@ fn no_ray_slips_between_the_triangles_of_a_closed_mesh() {
 }
 
 #[test]
+fn few_rays_ask_for_a_tree_that_is_soon_built_and_many_for_a_better_one() {
+    assert_eq!(Preset::for_rays(0, 0), Preset::Balanced, "nothing to build");
+    assert_eq!(Preset::for_rays(1000, 0), Preset::Fast);
+    assert_eq!(Preset::for_rays(1000, 1999), Preset::Fast);
+    assert_eq!(Preset::for_rays(1000, 2000), Preset::Balanced);
+    assert_eq!(Preset::for_rays(u64::MAX, u64::MAX), Preset::Fast, "no overflow");
+}
+
+#[test]
 fn a_level_this_machine_lacks_is_an_error() {
     let missing = Level::ALL.into_iter().find(|level| !level.is_available()).unwrap();
     let options = BuildOptions { level: Some(missing), ..BuildOptions::default() };

@@ -4,17 +4,15 @@ use fearless_simd::{Simd, f32x8, prelude::*};
 use glam::Vec3;
 use rayon::prelude::*;
 
-use crate::{Aabb, Geometry, primitives::triangle};
+use crate::{Aabb, Geometry, primitives::triangle, simd::Rows};
 
 /// A primitive's box as `[−lo, index within its geometry, hi, index of the geometry]`.
 ///
 /// With the lower corner negated, the union of two boxes is one maximum of eight lanes. The two
 /// index lanes take part in all arithmetic, and nothing reads what it makes of them. They hold
 /// integers as bits, [raised](FIRST) so that these are no subnormal numbers: on those, arithmetic is
-/// slower, and building took a quarter longer.
-#[derive(Clone, Copy, Debug)]
-#[repr(C, align(32))]
-pub(super) struct Boxed(pub(super) [f32; 8]);
+/// slower, and building took a quarter longer. A row of zeros is no box.
+pub(super) use crate::node8::Row as Boxed;
 
 /// The union of nothing, in the same form.
 pub(super) const EMPTY: [f32; 8] = [f32::NEG_INFINITY; 8];
@@ -26,10 +24,8 @@ const FIRST: u32 = 0x2000_0000;
 pub(super) const MOST: usize = 1 << 30;
 
 impl Boxed {
-    const UNUSED: u32 = u32::MAX;
-
-    /// Of primitive `local` of a geometry; grown by what its test may round.
-    pub(super) fn new(bounds: Aabb, local: usize, geometry: usize) -> Self {
+    /// The box of primitive `local` of a geometry; grown by what its test may round.
+    pub(super) fn boxed(bounds: Aabb, local: usize, geometry: usize) -> Self {
         let Aabb { lo, hi } = bounds.padded();
         let [local, geometry] = [local, geometry].map(|index| f32::from_bits(index as u32 + FIRST));
         Self([-lo.x, -lo.y, -lo.z, local, hi.x, hi.y, hi.z, geometry])
@@ -59,36 +55,50 @@ pub(super) fn half_area(b: &[f32; 8]) -> f32 {
     x * y + y * z + z * x
 }
 
-/// A box of every primitive that has bounds and can be hit: not planes, not degenerate triangles.
-pub(super) fn of(geometry: &[Geometry]) -> Vec<Boxed> {
+/// A box of every primitive that has bounds and can be hit, and how many those are: not planes, not
+/// degenerate triangles.
+pub(super) fn of(geometry: &[Geometry]) -> (Rows, usize) {
     const CHUNK: usize = 1 << 14;
     let bounded = |g: &Geometry| if matches!(g, Geometry::Plane(_)) { 0 } else { g.len() };
-    let unused = Boxed([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, f32::from_bits(Boxed::UNUSED)]);
-    let mut boxes = vec![unused; geometry.iter().map(bounded).sum()];
+    let most = geometry.iter().map(bounded).sum();
+    let mut boxes = Rows::zeroed(most);
     let mut rest = boxes.as_mut_slice();
+    let mut used = 0;
     for (index, geometry) in geometry.iter().enumerate() {
         let (mine, others) = rest.split_at_mut(bounded(geometry));
         rest = others;
-        if mine.len() < CHUNK {
-            fill(mine, 0, geometry, index);
+        used += if mine.len() < CHUNK {
+            fill(mine, 0, geometry, index)
         } else {
             let chunks = mine.par_chunks_mut(CHUNK).enumerate();
-            chunks.for_each(|(chunk, mine)| fill(mine, chunk * CHUNK, geometry, index));
+            chunks.map(|(chunk, mine)| fill(mine, chunk * CHUNK, geometry, index)).sum()
+        };
+    }
+    if used < most {
+        let boxes = boxes.as_mut_slice();
+        let mut end = 0;
+        for at in 0..most {
+            if boxes[at] != Boxed::ZERO {
+                boxes[end] = boxes[at];
+                end += 1;
+            }
         }
     }
-    boxes.retain(|b| b.0[7].to_bits() != Boxed::UNUSED);
-    boxes
+    (boxes, used)
 }
 
-/// The boxes of the primitives of one geometry from number `first` on.
-fn fill(boxes: &mut [Boxed], first: usize, geometry: &Geometry, index: usize) {
+/// The boxes of the primitives of one geometry from number `first` on; how many there are.
+fn fill(boxes: &mut [Boxed], first: usize, geometry: &Geometry, index: usize) -> usize {
+    let mut used = boxes.len();
     match geometry {
         Geometry::Triangles { positions, indices } => {
             for (local, slot) in (first..).zip(boxes) {
                 let corners @ [a, b, c] = indices[local].map(|i| positions[i as usize]);
-                if !triangle::is_degenerate(corners) {
+                if triangle::is_degenerate(corners) {
+                    used -= 1;
+                } else {
                     let bounds = Aabb { lo: a.min(b).min(c), hi: a.max(b).max(c) };
-                    *slot = Boxed::new(bounds, local, index);
+                    *slot = Boxed::boxed(bounds, local, index);
                 }
             }
         }
@@ -97,13 +107,14 @@ fn fill(boxes: &mut [Boxed], first: usize, geometry: &Geometry, index: usize) {
                 let sphere = spheres[local];
                 let radius = Vec3::splat(sphere.radius);
                 let bounds = Aabb { lo: sphere.center - radius, hi: sphere.center + radius };
-                *slot = Boxed::new(bounds, local, index);
+                *slot = Boxed::boxed(bounds, local, index);
             }
         }
         Geometry::Solid(solid) => {
             let [lo, hi] = solid.bounds();
-            boxes[0] = Boxed::new(Aabb { lo, hi }, 0, index);
+            boxes[0] = Boxed::boxed(Aabb { lo, hi }, 0, index);
         }
         Geometry::Plane(_) => {}
     }
+    used
 }

@@ -11,7 +11,7 @@ use super::{
     emit::{Size, measure},
     gather::{CLOSED, Costs, Split, gather},
     partition::{partition, partition_by_all},
-    sah::{Bins, Cut, Run},
+    sah::{Bins, Cut, Cuts, Run},
 };
 use crate::{
     Geometry,
@@ -105,7 +105,7 @@ impl Grower<'_> {
         }
         let bins = boxes
             .par_chunks(TASK)
-            .map(|boxes| self.token.run(Bin { boxes, run, most: self.settings.bins }))
+            .map(|boxes| self.token.run(Bin { boxes, run, cuts: self.settings.cuts }))
             .reduce_with(|a, b| a.merge(&b));
         let cut = bins.filter(|_| depth < DEEP).and_then(|bins| self.token.run(Cheapest { bins }));
         let [left, right] = match cut {
@@ -178,7 +178,7 @@ impl Sapling<'_> {
             return self.cut_by_kind(simd, boxes);
         }
         if depth < DEEP {
-            self.bins.sort(simd, boxes, run, self.grower.settings.bins);
+            self.bins.sort(simd, boxes, run, self.grower.settings.cuts);
             if let Some(cut) = self.bins.cheapest(simd) {
                 return partition(simd, boxes, &cut);
             }
@@ -238,7 +238,7 @@ impl Kernel for Bound<'_> {
 struct Bin<'a> {
     boxes: &'a [Boxed],
     run: &'a Run,
-    most: usize,
+    cuts: Cuts,
 }
 
 impl Kernel for Bin<'_> {
@@ -247,7 +247,7 @@ impl Kernel for Bin<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> Bins {
         let mut bins = Bins::new();
-        bins.sort(simd, self.boxes, self.run, self.most);
+        bins.sort(simd, self.boxes, self.run, self.cuts);
         bins
     }
 }

@@ -18,6 +18,7 @@ use self::{
     boxes::Boxed,
     emit::Writer,
     grow::{Grower, Subtree},
+    sah::Cuts,
 };
 #[cfg(test)]
 use crate::node8::NODE;
@@ -52,20 +53,19 @@ pub(crate) struct TooLarge;
 /// How to build.
 #[derive(Clone, Copy, Debug)]
 struct Settings {
-    /// Bins along each axis.
-    bins: usize,
+    cuts: Cuts,
     /// Whether leaves name their triangles instead of holding them.
     indexed: bool,
 }
 
 impl Settings {
     fn of(preset: Preset) -> Self {
-        let bins = match preset {
-            Preset::Fast => 8,
-            Preset::Balanced | Preset::Compact => 16,
-            Preset::Best => 32,
+        let cuts = match preset {
+            Preset::Fast => Cuts { bins: 8, widest: true },
+            Preset::Balanced | Preset::Compact => Cuts { bins: 16, widest: false },
+            Preset::Best => Cuts { bins: 32, widest: false },
         };
-        Self { bins, indexed: preset == Preset::Compact }
+        Self { cuts, indexed: preset == Preset::Compact }
     }
 }
 
@@ -79,16 +79,16 @@ pub(crate) fn build(
     if geometry.len() > boxes::MOST || geometry.iter().any(|g| g.len() > boxes::MOST) {
         return Err(TooLarge);
     }
-    let mut boxes = boxes::of(geometry);
-    if boxes.is_empty() {
+    let (mut boxes, count) = boxes::of(geometry);
+    if count == 0 {
         return Ok(Tree::default());
     }
+    let boxes = &mut boxes.as_mut_slice()[..count];
     let settings = Settings::of(preset);
     let only = only(geometry);
-    let (top, subtrees) = Grower { geometry, settings, only, token }.grow(&mut boxes);
+    let (top, subtrees) = Grower { geometry, settings, only, token }.grow(boxes);
     let only = only.filter(|&kind| !(settings.indexed && kind == Kind::Triangles));
-    let tree =
-        Plan { geometry, first, indexed: settings.indexed, boxes: &boxes }.lay(&top, &subtrees)?;
+    let tree = Plan { geometry, first, indexed: settings.indexed, boxes }.lay(&top, &subtrees)?;
     Ok(Tree { only, ..tree })
 }
 

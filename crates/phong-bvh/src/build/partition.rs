@@ -143,7 +143,7 @@ mod tests {
         for (count, cuts) in [(1, 2), (5 * CHUNK + 7, 9), (3 * CHUNK, 1)] {
             let boxed = |i: usize| {
                 let lo = Vec3::new((i * 37 % 100) as f32, i as f32, 0.0);
-                Boxed::new(Aabb { lo, hi: lo }, i, 0)
+                Boxed::boxed(Aabb { lo, hi: lo }, i, 0)
             };
             let boxes: Vec<Boxed> = (0..count).map(boxed).collect();
             for at in 0..=cuts {

@@ -59,11 +59,28 @@ impl Run {
             centers: union(&self.centers, &other.centers),
         }
     }
+
+    /// The axis on which centres lie farthest apart.
+    #[inline(always)]
+    fn widest(&self) -> usize {
+        let extent = |axis: usize| self.centers[axis] + self.centers[4 + axis];
+        let axis = usize::from(extent(1) > extent(0));
+        if extent(2) > extent(axis) { 2 } else { axis }
+    }
 }
 
 /// The bounds of two boxes given as `[−lo, _, hi, _]`.
 pub(super) fn union(a: &[f32; 8], b: &[f32; 8]) -> [f32; 8] {
     std::array::from_fn(|lane| a[lane].max(b[lane]))
+}
+
+/// Which cuts are tried.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cuts {
+    /// The most bins along an axis, at most 32.
+    pub(super) bins: usize,
+    /// Along one axis alone, that on which centres lie farthest apart, instead of all three.
+    pub(super) widest: bool,
 }
 
 /// The most bins along an axis.
@@ -124,13 +141,23 @@ impl Bins {
         Self { bounds: [[EMPTY; 3]; MOST], counts: [[0; 4]; MOST], grid }
     }
 
-    /// Sorts `boxes` of `run` into at most `most` bins an axis.
+    /// Sorts `boxes` of `run` into bins between which `cuts` are tried.
     #[inline(always)]
-    pub(super) fn sort<S: Simd>(&mut self, simd: S, boxes: &[Boxed], run: &Run, most: usize) {
-        let grid = Grid::new(run, most.min(MOST));
+    pub(super) fn sort<S: Simd>(&mut self, simd: S, boxes: &[Boxed], run: &Run, cuts: Cuts) {
+        let grid = Grid::new(run, cuts.bins.min(MOST));
         self.grid = grid;
         self.bounds[..grid.bins].fill([EMPTY; 3]);
         self.counts[..grid.bins].fill([0; 4]);
+        if cuts.widest {
+            // The bins of other axes stay empty, and nothing is not cut.
+            let axis = run.widest();
+            let (first, scale) = (grid.first[axis], grid.scale[axis]);
+            for b in boxes {
+                let bin = (b.0[4 + axis] - b.0[axis] - first) * scale;
+                self.put(simd, b.lanes(simd), axis, bin as i32);
+            }
+            return;
+        }
         let first = f32x4::load_array(simd, grid.first);
         let scale = f32x4::load_array(simd, grid.scale);
         for b in boxes {
@@ -258,27 +285,31 @@ mod tests {
     use super::*;
     use crate::Aabb;
 
-    fn cheapest(boxes: &[Boxed], most: usize) -> Option<Cut> {
+    const ALL: Cuts = Cuts { bins: 16, widest: false };
+
+    fn cheapest(boxes: &[Boxed], cuts: Cuts) -> Option<Cut> {
         let simd = Fallback::new();
         let mut bins = Bins::new();
-        bins.sort(simd, boxes, &Run::of(simd, boxes), most);
+        bins.sort(simd, boxes, &Run::of(simd, boxes), cuts);
         bins.cheapest(simd)
     }
 
     fn boxed(lo: Vec3, size: f32) -> Boxed {
-        Boxed::new(Aabb { lo, hi: lo + size }, 0, 0)
+        Boxed::boxed(Aabb { lo, hi: lo + size }, 0, 0)
     }
 
     #[test]
     fn two_heaps_are_cut_apart_and_each_side_has_its_bounds() {
         let heap = |z: f32| (0..20).map(move |i| boxed(Vec3::new(i as f32 * 0.1, 0.0, z), 1.0));
         let boxes: Vec<Boxed> = heap(0.0).chain(heap(50.0)).collect();
-        let cut = cheapest(&boxes, 16).unwrap();
         let simd = Fallback::new();
         let [low, high] = [&boxes[..20], &boxes[20..]].map(|heap| Run::of(simd, heap).bounds);
-        assert_eq!(cut.axis, 2);
-        for axis in [0, 1, 2, 4, 5, 6] {
-            assert_eq!([cut.bounds[0][axis], cut.bounds[1][axis]], [low[axis], high[axis]]);
+        for widest in [false, true] {
+            let cut = cheapest(&boxes, Cuts { widest, ..ALL }).unwrap();
+            assert_eq!(cut.axis, 2);
+            for axis in [0, 1, 2, 4, 5, 6] {
+                assert_eq!([cut.bounds[0][axis], cut.bounds[1][axis]], [low[axis], high[axis]]);
+            }
         }
     }
 
@@ -286,7 +317,8 @@ mod tests {
     fn there_is_no_cut_where_all_centres_are_one() {
         let boxes: Vec<Boxed> =
             (0..40).map(|i| boxed(Vec3::splat(-0.5 * i as f32), i as f32)).collect();
-        assert!(cheapest(&boxes, 16).is_none());
+        assert!(cheapest(&boxes, ALL).is_none());
+        assert!(cheapest(&boxes, Cuts { widest: true, ..ALL }).is_none());
     }
 
     #[test]
@@ -297,7 +329,7 @@ mod tests {
         let run = Run::of(simd, &boxes);
         let of = |boxes: &[Boxed]| {
             let mut bins = Bins::new();
-            bins.sort(simd, boxes, &run, 16);
+            bins.sort(simd, boxes, &run, ALL);
             bins
         };
         let (all, merged) = (of(&boxes), of(&boxes[..100]).merge(&of(&boxes[100..])));
