@@ -5,7 +5,7 @@ use std::path::Path;
 
 use phong_scene::Diagnostic;
 
-use crate::report;
+use crate::{interrupt, report};
 
 /// Why a command did not do what was asked.
 #[derive(Debug)]
@@ -24,6 +24,8 @@ pub(crate) enum Failure {
     Told,
     /// Something else went wrong. Exit code 3.
     System(String),
+    /// The user interrupted the work. Exit code 130.
+    Interrupted,
     /// Whoever read standard output has had enough. Nothing to say; exit code 0.
     ReaderGone,
 }
@@ -69,7 +71,7 @@ impl Failure {
             Self::Input(diagnostics) => {
                 diagnostics.first().map(ToString::to_string).unwrap_or_default()
             }
-            Self::No | Self::Told | Self::ReaderGone => String::new(),
+            Self::No | Self::Told | Self::Interrupted | Self::ReaderGone => String::new(),
         }
     }
 
@@ -89,6 +91,10 @@ impl Failure {
             Self::System(message) => {
                 report::error(&message, None);
                 3
+            }
+            Self::Interrupted => {
+                interrupt::say();
+                interrupt::CODE
             }
             Self::ReaderGone => 0,
         }

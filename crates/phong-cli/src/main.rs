@@ -9,6 +9,7 @@ mod command;
 mod compile;
 mod failure;
 mod input;
+mod interrupt;
 mod memory;
 mod output;
 mod plan;
@@ -21,7 +22,7 @@ use clap::Parser;
 
 fn main() -> ExitCode {
     let cli = args::Cli::parse();
-    output::clean_up_on_interrupt();
+    interrupt::expect();
     match command::run(cli.command) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => ExitCode::from(failure.tell()),

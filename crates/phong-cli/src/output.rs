@@ -21,20 +21,13 @@ fn temporaries() -> MutexGuard<'static, Vec<PathBuf>> {
     TEMPORARIES.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Removes what is half-written and ends the program with 130, whenever it is interrupted.
-pub(crate) fn clean_up_on_interrupt() {
-    // Without a handler an interrupt still ends the program, only less tidily.
-    let _ = ctrlc::set_handler(|| {
-        let held = temporaries();
-        for path in held.iter() {
-            let _ = fs::remove_file(path);
-        }
-        if report::is_watched() {
-            report::say("\ninterrupted");
-        }
-        // The lock is kept: no file gets its name any more.
-        std::process::exit(130);
-    });
+/// Removes what is half-written; no file gets its name after that.
+pub(crate) fn remove_temporaries() {
+    let held = temporaries();
+    for path in held.iter() {
+        let _ = fs::remove_file(path);
+    }
+    std::mem::forget(held);
 }
 
 /// A file, or standard output, that is being written.

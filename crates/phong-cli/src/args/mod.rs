@@ -84,6 +84,17 @@ pub(crate) struct InputArgs {
     pub(crate) strict: bool,
 }
 
+/// A question about an input, for people or for programs.
+#[derive(Args, Clone, Debug)]
+pub(crate) struct QuestionArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
+
+    /// One JSON object on standard output
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
 /// How a bare model is looked at; a scene's camera is moved by the same words.
 #[derive(Args, Clone, Debug, Default)]
 #[command(next_help_heading = "View")]

@@ -12,7 +12,7 @@ use phong_bvh::{Hit, Ray};
 use rayon::prelude::*;
 use serde_json::{Map, Value as Json, json};
 
-use crate::args::InputArgs;
+use crate::args::QuestionArgs;
 use crate::compile::compile;
 use crate::failure::Failure;
 use crate::progress::rate;
@@ -28,14 +28,10 @@ Examples:
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
     #[command(flatten)]
-    pub(crate) input: InputArgs,
-
-    /// One JSON object on standard output
-    #[arg(long)]
-    pub(crate) json: bool,
+    question: QuestionArgs,
 }
 
-pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+pub(crate) fn run(Args { question: args }: &Args) -> Result<(), Failure> {
     let started = Instant::now();
     let input = input::open(&args.input, false)?;
     let read = started.elapsed().as_secs_f64();

@@ -3,7 +3,7 @@
 use phong_scene::{Diagnostic, Place, Severity, Span};
 use serde_json::json;
 
-use crate::args::InputArgs;
+use crate::args::QuestionArgs;
 use crate::failure::Failure;
 use crate::{input, report};
 
@@ -18,14 +18,10 @@ Examples:
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
     #[command(flatten)]
-    pub(crate) input: InputArgs,
-
-    /// One JSON object on standard output
-    #[arg(long)]
-    pub(crate) json: bool,
+    question: QuestionArgs,
 }
 
-pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+pub(crate) fn run(Args { question: args }: &Args) -> Result<(), Failure> {
     let (reading, _) = input::read(&args.input)?;
     let ok = reading.scene.is_some();
     if args.json {

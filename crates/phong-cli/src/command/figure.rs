@@ -1,13 +1,14 @@
 //! `phong figure`: the lecture's figures.
 
-use std::ffi::OsStr;
-use std::io::{self, Write};
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::builder::PossibleValuesParser;
 use phong::figures::{self, CATALOGUE, Finish};
 
 use crate::failure::Failure;
+use crate::output::Output;
+use crate::report;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -54,32 +55,19 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 fn list() -> Result<(), Failure> {
-    let mut out = io::stdout().lock();
-    CATALOGUE
-        .iter()
-        .try_for_each(|entry| writeln!(out, "{:<12} {}", entry.name, entry.line))
-        .map_err(|error| Failure::stdout(&error))
+    let mut text = String::new();
+    for entry in &CATALOGUE {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{:<12} {}", entry.name, entry.line);
+    }
+    report::data(text.as_bytes())
 }
 
 /// Writes a file whole or not at all, and says so.
 fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let whole = || -> io::Result<()> {
-        let folder = path.parent().unwrap_or(Path::new("."));
-        let mut builder = tempfile::Builder::new();
-        let name = path.file_name().unwrap_or(OsStr::new("figure"));
-        builder.prefix(name);
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt;
-            // Temporary files are their owner's alone; this one becomes a file like any other.
-            builder.permissions(std::fs::Permissions::from_mode(0o666));
-        }
-        let mut file = builder.tempfile_in(folder)?;
-        file.write_all(bytes)?;
-        file.persist(path)?;
-        Ok(())
-    };
-    whole().map_err(|error| Failure::writing(path, &error))?;
-    let _ = writeln!(io::stderr(), "{}", path.display());
+    let mut output = Output::create(path)?;
+    output.write(|out| out.write_all(bytes))?;
+    Output::commit(vec![output])?;
+    report::say(&path.display().to_string());
     Ok(())
 }

@@ -6,7 +6,7 @@ use std::time::Instant;
 use phong_bvh::{Geometry, Stats};
 use serde_json::json;
 
-use crate::args::InputArgs;
+use crate::args::QuestionArgs;
 use crate::compile::compile;
 use crate::failure::Failure;
 use crate::memory::{self, readable};
@@ -22,14 +22,10 @@ Examples:
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
     #[command(flatten)]
-    pub(crate) input: InputArgs,
-
-    /// One JSON object on standard output
-    #[arg(long)]
-    pub(crate) json: bool,
+    question: QuestionArgs,
 }
 
-pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+pub(crate) fn run(Args { question: args }: &Args) -> Result<(), Failure> {
     let input = input::open(&args.input, false)?;
     let format = input::format(&args.input).map(|format| format.to_string());
     let bounds = input.scene.bounds();

@@ -14,6 +14,7 @@ use crate::checkpoint::Checkpoint;
 use crate::compile::compile;
 use crate::failure::Failure;
 use crate::input;
+use crate::interrupt;
 use crate::memory;
 use crate::output::keep_inputs_safe;
 use crate::plan::Plan;
@@ -160,10 +161,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         }
     };
     let film = film.unwrap_or_else(|| settings.empty_film());
-    let Rendered { film, rays } =
-        render::resume(&scene, &options, film, &watch, &render::Cancel::new())
-            .map_err(|cancelled| Failure::System(cancelled.to_string()))?;
+    let rendered =
+        interrupt::heeding(|cancel| render::resume(&scene, &options, film, &watch, cancel));
     meter.finish();
+    let Rendered { film, rays } = rendered.map_err(|_cancelled| Failure::Interrupted)?;
     clock.lap("trace");
 
     outputs.write(&film, &settings)?;

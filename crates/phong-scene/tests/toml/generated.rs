@@ -23,7 +23,7 @@ proptest! {
 struct Make(u64);
 
 impl Make {
-    /// SplitMix64.
+    /// `SplitMix64`.
     fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -77,7 +77,7 @@ impl Make {
     }
 
     fn scene(&mut self) -> Scene {
-        let materials: Vec<_> = (0..1 + self.below(5)).map(|i| self.material(i)).collect();
+        let materials: Vec<_> = (0..=self.below(5)).map(|i| self.material(i)).collect();
         let mut groups: Vec<Group> = Vec::new();
         for i in 0..self.below(3) {
             let objects = self.objects(materials.len(), i);
