@@ -200,8 +200,8 @@ pub(super) fn rounded<F: Real>(p: [F; 3], ng: [F; 3], curvature: F, slack: [F; 3
     let rounding = [p[0].size() * ROUNDING, p[1].size() * ROUNDING, p[2].size() * ROUNDING];
     let along2 = dot(rounding, rounding) * 9.0;
     let bend = curvature * along2 * 0.5;
-    // No deeper than it is along.
-    let bend = (bend * bend).above(along2, along2.root(), bend);
+    // No deeper than it is along, at the apex of a cone neither: 0 × ∞ is no number.
+    let bend = along2.above(bend * bend, bend, along2.root());
     let p_error = [
         rounding[0] + bend + slack[0],
         rounding[1] + bend + slack[1],

@@ -45,6 +45,7 @@ impl Landing {
             let found = [eight.p[axis][5], eight.p_error[axis][5], eight.ng[axis][5]];
             prop_assert_eq!(found, [p[axis], p_error[axis], ng[axis]], "eight are not as one");
         }
+        prop_assert!(p.is_finite() && p_error.is_finite() && ng.is_finite());
         let scale = p.as_dvec3().length() + size;
         prop_assert!(f64::from(p_error.length()) < 3e-6 * scale, "{p_error} is no tight bound");
         let along = self.ray.at(self.hit.t);
