@@ -7,8 +7,8 @@ mod flatten;
 mod geometry;
 
 use glam::{DVec3, Vec3};
-use phong_bvh::{BuildError, BuildOptions, Bvh, Coordinates, Geometry, Hit, Ray, Surface};
-use phong_scene::{MaterialId, Place, Rgb, Scene};
+use phong_bvh::{BuildError, BuildOptions, Bvh, Coordinates, Geometry, Hit, Preset, Ray, Surface};
+use phong_scene::{Image, MaterialId, Place, Rgb, Scene};
 use thiserror::Error;
 
 use crate::camera::Camera;
@@ -61,8 +61,8 @@ pub(crate) struct Dressed {
 /// How to compile.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CompileOptions {
-    /// How to build the hierarchy.
-    pub build: BuildOptions,
+    /// How to build the hierarchy; `None`: as it draws the scene's own picture soonest.
+    pub build: Option<BuildOptions>,
     /// The most bytes that the compiled scene may take, estimated before anything is built;
     /// `None`: no limit.
     pub max_bytes: Option<u64>,
@@ -87,6 +87,20 @@ pub enum CompileError {
     TooLarge(f64),
 }
 
+/// The way to build that draws the scene's own picture soonest.
+fn soonest(scene: &Scene) -> BuildOptions {
+    let primitives = |object: &phong_scene::Object| match &object.shape {
+        phong_scene::Shape::Mesh(mesh) => mesh.indices.len() as u64,
+        phong_scene::Shape::Points(points) => points.spheres.len() as u64,
+        _ => 1,
+    };
+    let primitives = scene.objects.iter().map(primitives).sum();
+    let Image { size: [width, height], samples, .. } = scene.image;
+    let paths = u64::from(width) * u64::from(height) * u64::from(samples);
+    let rays = paths.saturating_mul(1 + scene.lights.len() as u64);
+    BuildOptions { preset: Preset::for_rays(primitives, rays), ..BuildOptions::default() }
+}
+
 impl CompiledScene {
     /// Compiles a scene, taking its bulk geometry by value, in the current rayon pool.
     ///
@@ -105,6 +119,7 @@ impl CompiledScene {
             return Err(CompileError::TooLarge(extent));
         }
         let center = geometry::center(bounds);
+        let build = options.build.unwrap_or_else(|| soonest(&scene));
         let Scene { image: _, camera, ambient, lights, materials, objects, groups } = scene;
         let leaves = flatten::flatten(objects, &groups);
         drop(groups);
@@ -129,7 +144,7 @@ impl CompiledScene {
             written_lights: lights,
             materials,
             written_materials,
-            bvh: Bvh::build(geometry, options.build)?,
+            bvh: Bvh::build(geometry, build)?,
             parts,
             objects,
         })

@@ -203,7 +203,7 @@ fn the_simd_level_and_the_preset_of_the_build_change_no_bit() {
     assert!(!levels.is_empty());
     for case in CASES.iter() {
         let held = |level, preset| {
-            let build = BuildOptions { level, preset };
+            let build = Some(BuildOptions { level, preset });
             let options = CompileOptions { build, ..CompileOptions::default() };
             let scene = CompiledScene::new(case.written.clone(), options).expect("compiles");
             let film = drawn(&scene, &case.options, 2);
