@@ -112,6 +112,11 @@ pub(crate) fn look(scene: &mut Scene, bare: bool, args: &ViewArgs) -> Result<(),
     let eye = args.eye.map(DVec3::from_array);
     let look_at = args.look_at.map(DVec3::from_array);
     let up = args.up.map(DVec3::from_array);
+    let is_fisheye = !bare && matches!(scene.camera.kind, CameraKind::Fisheye { .. });
+    if args.fov.is_some_and(|degrees| degrees >= 180.0 && !is_fisheye) {
+        return Err(Failure::usage("--fov: this camera sees less than 180 degrees")
+            .with_help("a scene's camera of kind \"fisheye\" sees up to 360"));
+    }
     if bare {
         let default = phong_scene::View::default();
         scene.frame(&phong_scene::View {

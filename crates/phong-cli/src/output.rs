@@ -87,7 +87,7 @@ impl Output {
         let cannot = |why: &str, help: &str| {
             Failure::usage(format!("cannot write {}: {why}", path.display())).with_help(help)
         };
-        let look = "look at its folder, or give another file with -o";
+        let look = "look at its folder, or give another file to write";
         // A link is written through.
         let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
         match fs::metadata(&path) {

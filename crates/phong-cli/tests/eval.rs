@@ -31,6 +31,18 @@ fn good_queries_have_values_and_exit_code_0() {
 }
 
 #[test]
+fn a_grain_along_the_normal_is_no_grain() {
+    let (out, code) = answers(
+        r#"{"id": 1, "model": "ward_brdf", "N": [0,0,1], "L": [0.6,0,0.8], "E": [0,0,1],
+            "params": {"ks": 0.5, "ax": 0.1, "ay": 0.3, "X": [0,0,-1]}}"#
+            .replace('\n', " ")
+            .as_str(),
+    );
+    assert!(out.contains("X is along N"), "{out}");
+    assert_eq!(code, 2);
+}
+
+#[test]
 fn one_bad_query_is_exit_code_2_and_all_are_answered() {
     let (out, code) = answers(&format!("{GOOD}\n{BAD}\n{GOOD}"));
     let lines: Vec<&str> = out.lines().collect();

@@ -86,6 +86,19 @@ fn a_ray_that_meets_nothing_is_told_but_has_no_vectors_to_draw() {
 }
 
 #[test]
+fn no_drawing_and_no_page_is_written_over_what_is_read() {
+    let mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    let scene = format!("{BALLS}\n[[mesh]]\nfile = \"k.obj\"\n");
+    let folder = given(&[("a.toml", &scene), ("k.obj", mesh)]);
+    for words in ["20 15 --svg a.toml", "--html a.toml", "20 15 --svg k.obj", "--html k.obj"] {
+        let told = ["write over the input", "give another file"];
+        folder.when(&format!("explain a.toml {words}")).is_refused(&told);
+    }
+    assert_eq!(text(folder.bytes("a.toml")), scene);
+    assert_eq!(text(folder.bytes("k.obj")), mesh);
+}
+
+#[test]
 fn what_cannot_be_explained_is_refused_with_the_way_out() {
     let folder = balls();
     let refused = |words: &str, told: &[&str]| folder.when(words).is_refused(told);

@@ -8,6 +8,15 @@ use std::process::Stdio;
 use support::{BALLS, Then, given};
 
 #[test]
+fn how_wide_a_camera_sees_depends_on_its_kind() {
+    let fisheye =
+        BALLS.replace("[camera]\n", "[camera]\nkind = \"fisheye\"\n").replace("fov = 40\n", "");
+    let folder = given(&[("a.toml", BALLS), ("f.toml", &fisheye)]);
+    folder.when("render a.toml --fov 200 -o a.png").is_refused(&["--fov", "less than 180"]);
+    folder.done("render f.toml --fov 220 -o f.png");
+}
+
+#[test]
 fn a_mistyped_command_is_corrected() {
     given(&[]).when("rendr").is_refused(&["rendr", "render"]);
 }

@@ -91,11 +91,11 @@ pub(crate) fn up(text: &str) -> Result<Vec3Arg, String> {
     }
 }
 
-/// Degrees in (0, 180).
+/// Degrees in (0, 360]; how many of them a camera can see depends on its kind.
 pub(crate) fn fov(text: &str) -> Result<f64, String> {
-    finite(text)
-        .filter(|&degrees| degrees > 0.0 && degrees < 180.0)
-        .ok_or_else(|| "write degrees, more than 0 and less than 180".to_owned())
+    finite(text).filter(|&degrees| degrees > 0.0 && degrees <= 360.0).ok_or_else(|| {
+        "write degrees, more than 0 and less than 180 (360 for a fisheye)".to_owned()
+    })
 }
 
 /// Stops within what f32 can hold.
@@ -209,7 +209,7 @@ mod tests {
     fn numbers_must_be_finite() {
         assert!(vector("1,nan,2").is_err());
         assert!(vector("inf,0,2").is_err());
-        assert!(fov("180").is_err());
+        assert!(fov("361").is_err() && fov("0").is_err());
         assert!(exposure("1000").is_err());
     }
 }

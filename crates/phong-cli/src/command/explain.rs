@@ -15,7 +15,7 @@ use crate::command::render::ImageArgs;
 use crate::compile::compile;
 use crate::failure::Failure;
 use crate::memory::readable;
-use crate::output::Output;
+use crate::output::{Output, keep_inputs_safe};
 use crate::{input, plan, report};
 
 const EXAMPLES: &str = "\
@@ -77,7 +77,9 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut svg = args.svg.as_deref().map(Output::create).transpose()?;
     let mut html = args.html.as_deref().map(Output::create).transpose()?;
+    keep_inputs_safe(svg.iter().chain(&html), [&args.input.input])?;
     let mut input = input::open(&args.input, false)?;
+    keep_inputs_safe(svg.iter().chain(&html), input.files())?;
     let mut options = plan::settle(&args.image, &args.view, &mut input)?;
     if let Some(sample) = args.sample.filter(|&sample| sample > options.samples) {
         let samples = options.samples;

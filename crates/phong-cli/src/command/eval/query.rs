@@ -159,7 +159,7 @@ impl<'a> Fields<'a> {
             "ward_brdf" => Query::WardBrdf {
                 at: self.directions()?,
                 k_s: self.number("ks")?,
-                x: unit("X", self.param("X")?)?,
+                x: self.grain()?,
                 a_x: self.number("ax")?,
                 a_y: self.number("ay")?,
                 form: self.choice(
@@ -276,6 +276,15 @@ impl<'a> Fields<'a> {
 
     fn directions(&self) -> Result<Directions, String> {
         Ok(Directions { n: self.vector("N")?, l: self.vector("L")?, e: self.vector("E")? })
+    }
+
+    /// The direction X of a brushed surface's grain, which must have a share along the surface.
+    fn grain(&mut self) -> Result<Dir3, String> {
+        let (n, x) = (self.vector("N")?, unit("X", self.param("X")?)?);
+        if n.to_vec().cross(x.to_vec()).length() < SLACK as f32 {
+            return Err("X is along N: it must lead along the surface".to_owned());
+        }
+        Ok(x)
     }
 
     /// One of N, L, E.
