@@ -272,6 +272,27 @@ fn a_tree_does_not_depend_on_the_number_of_threads() {
 }
 
 #[test]
+fn a_hundred_thousand_primitives_in_order_are_all_found() {
+    // Heaps of as many boxes as one thread parts, here and there, as the pieces of a mesh may be.
+    let place = |i: usize| {
+        let (heap, within) = (i >> 14, i & 0x3fff);
+        let (row, column) = (within >> 7, within & 0x7f);
+        Vec3::new((heap * 3 % 8) as f32 + row as f32 * 0.007, column as f32 * 0.01, 0.0)
+    };
+    let count = 120_000;
+    let spheres = (0..count).map(|i| Sphere { center: place(i), radius: 0.004 }).collect();
+    let geometry = vec![Geometry::Spheres(spheres)];
+    for preset in [Preset::Fast, Preset::Balanced] {
+        let options = BuildOptions { preset, level: None };
+        let bvh = Bvh::build(geometry.clone(), options).expect("few primitives");
+        for i in 0..count {
+            let ray = Ray::new(place(i) + Vec3::Z, Vec3::NEG_Z);
+            assert_eq!(bvh.intersect(&ray).prim, i as u32, "{preset:?}");
+        }
+    }
+}
+
+#[test]
 fn no_ray_slips_between_the_triangles_of_a_closed_mesh() {
     // An octahedron, split four times: rays from within towards corners, edges and middles.
     let mut triangles = Vec::new();
