@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
-"""The whole road, from a scene's text to a picture on disk, against Tachyon, POV-Ray and Mitsuba 3.
+"""The whole road, from a scene's text to a picture on disk, against Tachyon, POV-Ray, Mitsuba 3 and OSPRay.
 
     cargo build --release && python3 bench/road.py [--scenes slide,mesh,...] [--ply dragon.ply.gz] [--runs 5]
+                                                 [--ovito PYTHON]
 
 Writes the scenes (bench/scenes.py, needs numpy), runs every program that is installed on the very same scene, one after
 the other in rounds so that a busy machine disturbs all alike, and prints medians as a Markdown table. Ratios are to
 phong: above 1, phong took less. Before measuring it holds the pictures against each other, for a program that draws
-something else is not compared. (Mitsuba has no Phong material: it draws the same view, lights and shadows, diffuse.)
+something else is not compared. (Mitsuba has no Phong material: it draws the same view, lights and shadows, diffuse.
+OSPRay draws the same view by its own materials and one of the two lights; see the head of each one's file.)
 """
 
 import argparse
@@ -25,7 +27,7 @@ SCENES = "slide slide-16 mesh spheres-100k spheres-1m spheres-5m spheres-20m".sp
 SIZE = 1920, 1080
 
 
-def commands(phong, name, folder, threads):
+def commands(phong, ovito, name, folder, threads):
     """What each program is called with, and where it leaves its picture. All write linear 8-bit PNG.
 
     `slide-16` is the slide with 16 samples a pixel; a scene too large for a program has no file for it.
@@ -43,10 +45,13 @@ def commands(phong, name, folder, threads):
                    *(["+A0.0", "+AM1", "+R4"] if many else ["-A"]), "-D", f"+WT{threads}", "File_Gamma=1.0"],
         # Its spheres are objects one by one: for a mesh, and for few of them.
         "mitsuba": [sys.executable, str(ROOT / "bench/mitsuba_peer.py"), at("toml"), picture("mitsuba")],
+        "ospray": [ovito, str(ROOT / "bench/ospray_peer.py"), at("toml"), picture("ospray")],
     }  # fmt: skip
     if many or name.startswith("spheres") or importlib.util.find_spec("mitsuba") is None:
         del all_of_them["mitsuba"]
-    inputs = {"phong": at("toml"), "tachyon": at("dat"), "povray": at("pov"), "mitsuba": at("toml")}
+    if many or ovito is None:
+        del all_of_them["ospray"]
+    inputs = {"phong": at("toml"), "tachyon": at("dat"), "povray": at("pov"), "mitsuba": at("toml"), "ospray": at("toml")}
     runs = lambda program: shutil.which(all_of_them[program][0]) and os.path.exists(inputs[program])
     return {program: line for program, line in all_of_them.items() if runs(program)}, picture
 
@@ -71,6 +76,8 @@ def main():
     parser.add_argument("--runs", type=int, default=5, help="default: %(default)s")
     parser.add_argument("--threads", type=int, default=os.cpu_count(), help="default: all")
     parser.add_argument("--phong", default=str(ROOT / "target/release/phong"), help="the program")
+    here = sys.executable if importlib.util.find_spec("ovito") else None
+    parser.add_argument("--ovito", default=here, help="a Python that has OVITO, for OSPRay (default: this one if it has)")
     parser.add_argument("--folder", type=Path, default=ROOT / "target/road", help="where scenes and pictures go")
     options = parser.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
@@ -82,7 +89,7 @@ def main():
         # In a process of its own: a child's peak memory begins with its parent's.
         write = [sys.executable, ROOT / "bench/scenes.py", name.removesuffix("-16"), options.folder, *([options.ply] if options.ply else [])]
         subprocess.run(write, check=True)
-        lines, picture = commands(options.phong, name, options.folder, options.threads)
+        lines, picture = commands(options.phong, options.ovito, name, options.folder, options.threads)
         apart = {}
         for program, line in lines.items():  # unmeasured: files into the cache, pictures for the comparison
             measure(line)
