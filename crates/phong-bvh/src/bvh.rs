@@ -73,8 +73,12 @@ impl Preset {
 /// Why a hierarchy could not be built.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum BuildError {
-    /// More primitives than numbers: the caller's fault.
-    #[error("{0} primitives are more than the {max} that can be numbered", max = u32::MAX - 1)]
+    /// More primitives than numbers, in one geometry or in all: the caller's fault.
+    #[error(
+        "{0} primitives are too many: one mesh or cloud holds at most {of_one}, all together {all}",
+        of_one = build::MOST_OF_ONE,
+        all = u32::MAX - 1
+    )]
     TooMany(u64),
     /// The level asked for is not one of this machine: the caller's fault.
     #[error("this machine has no level {0:?}; leave the level out to use its fastest")]

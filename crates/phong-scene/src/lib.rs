@@ -21,6 +21,7 @@ mod mesh;
 mod scene;
 mod shape;
 mod source;
+mod transform;
 mod wording;
 
 pub use bounds::Bounds;
@@ -41,4 +42,6 @@ pub use material::{
 pub use mesh::{Mesh, NO_INDEX, Points};
 pub use scene::{Background, FilterKind, Group, GroupId, Image, Object, Reading, Scene};
 pub use shape::Shape;
-pub use source::{Blob, Folder, Memory, Source};
+pub use source::{Blob, Folder, Memory, Source, trouble};
+pub use transform::{cofactor, even_scale};
+pub use wording::closest;

@@ -17,6 +17,34 @@ pub trait Source: fmt::Debug + Send + Sync {
     fn open(&self, path: &str) -> io::Result<Box<dyn Blob>>;
 }
 
+/// What the system says of a file that cannot be opened, read or written, in plain words: a clause
+/// about the file, without a number of the system's.
+///
+/// ```
+/// let error = std::fs::read("no/such/scene.toml").unwrap_err();
+/// assert_eq!(phong_scene::trouble(&error), "there is no such file");
+/// ```
+pub fn trouble(error: &io::Error) -> String {
+    use io::ErrorKind as Kind;
+    let said = error.to_string();
+    let said = said.split(" (os error").next().unwrap_or_default();
+    if error.get_ref().is_some() {
+        return said.to_owned(); // not the system's words, but a source's own
+    }
+    match error.kind() {
+        Kind::NotFound => "there is no such file",
+        Kind::PermissionDenied => "the system does not permit it",
+        Kind::IsADirectory => "it is a folder",
+        Kind::NotADirectory => "what should be its folder is a file",
+        Kind::StorageFull | Kind::QuotaExceeded => "there is no room left for it",
+        Kind::ReadOnlyFilesystem => "nothing can be written there",
+        Kind::InvalidFilename => "no file can have that name",
+        Kind::FileTooLarge => "the system takes no file that large",
+        _ => said,
+    }
+    .to_owned()
+}
+
 /// An open file: sized, and readable at any position by several threads at once.
 #[allow(clippy::len_without_is_empty, reason = "an empty file is a file like any other")]
 pub trait Blob: Send + Sync {
@@ -56,7 +84,7 @@ impl Source for Folder {
         let file = File::open(PathBuf::from(path))?;
         let meta = file.metadata()?;
         if meta.is_dir() {
-            return Err(io::Error::new(io::ErrorKind::IsADirectory, "is a folder"));
+            return Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder"));
         }
         #[cfg(not(unix))]
         let file = std::sync::Mutex::new(file);
@@ -117,7 +145,7 @@ impl Source for Memory {
     fn open(&self, path: &str) -> io::Result<Box<dyn Blob>> {
         match self.files.get(path) {
             Some(bytes) => Ok(Box::new(Bytes(Arc::clone(bytes)))),
-            None => Err(io::Error::new(io::ErrorKind::NotFound, "no such file")),
+            None => Err(io::Error::new(io::ErrorKind::NotFound, "there is no such file")),
         }
     }
 }
@@ -134,5 +162,22 @@ impl Blob for Bytes {
         let n = buffer.len().min(self.0.len() - from);
         buffer[..n].copy_from_slice(&self.0[from..from + n]);
         Ok(n)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_the_system_says_is_told_in_words_without_its_numbers() {
+        let told = |code| trouble(&io::Error::from_raw_os_error(code));
+        for code in 1..=133 {
+            assert!(!told(code).contains("os error"), "{}", told(code));
+        }
+        #[cfg(unix)]
+        assert_eq!([told(2), told(21)], ["there is no such file", "it is a folder"]);
+        let own = io::Error::new(io::ErrorKind::NotFound, "it is not in the archive");
+        assert_eq!(trouble(&own), "it is not in the archive");
     }
 }

@@ -5,8 +5,15 @@ use strsim::damerau_levenshtein;
 /// Longest text, in characters, that a message repeats or a near miss is looked for.
 const LONGEST: usize = 60;
 
-/// The known word that `word` most likely means: differs in at most a third of its letters.
-pub(crate) fn closest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+/// The known word that `word` most likely means: differs in about a third of its letters at most.
+///
+/// Case counts for nothing, and neither do dashes, blanks and underlines. `None`: none is near.
+///
+/// ```
+/// assert_eq!(phong_scene::closest("fong", ["lambert", "phong"]), Some("phong"));
+/// assert_eq!(phong_scene::closest("gouraud", ["lambert", "phong"]), None);
+/// ```
+pub fn closest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     if word.chars().count() > LONGEST {
         return None; // comparing takes time and memory by the product of the lengths
     }
@@ -14,7 +21,7 @@ pub(crate) fn closest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) 
     known
         .into_iter()
         .map(|candidate| (damerau_levenshtein(&plain(word), &plain(candidate)), candidate))
-        .filter(|&(distance, candidate)| distance <= (candidate.chars().count() / 3).max(1))
+        .filter(|&(distance, candidate)| distance <= ((candidate.chars().count() + 1) / 3).max(1))
         .filter(|&(distance, candidate)| distance < candidate.chars().count())
         .min_by_key(|&(distance, _)| distance)
         .map(|(_, candidate)| candidate)
@@ -61,6 +68,8 @@ mod tests {
         assert_eq!(closest("centre", known), Some("center"));
         assert_eq!(closest("radus", known), Some("radius"));
         assert_eq!(closest("colour", known), None);
+        assert_eq!(closest("fong", ["lambert", "phong", "ggx"]), Some("phong"));
+        assert_eq!(closest("file", ["size", "seed"]), None);
     }
 
     #[test]

@@ -69,6 +69,9 @@ impl Settings {
     }
 }
 
+/// Most primitives of one geometry.
+pub(crate) const MOST_OF_ONE: usize = boxes::MOST;
+
 /// Builds the tree over all geometry that has bounds.
 pub(crate) fn build(
     geometry: &[Geometry],

@@ -60,6 +60,19 @@ impl Format {
         (Self::Nff, &["nff"]),
     ];
 
+    /// The formats that are read; the others are known by name only.
+    pub const READ: [Self; 3] = [Self::Toml, Self::Obj, Self::Ply];
+
+    /// The formats that are written.
+    pub const WRITTEN: [Self; 3] = [Self::Toml, Self::Obj, Self::Ply];
+
+    /// The usual ending of its files, without the dot.
+    #[must_use]
+    pub fn ending(self) -> &'static str {
+        let own = Self::ENDINGS.iter().find(|(format, _)| *format == self);
+        own.map_or("", |(_, endings)| endings[0])
+    }
+
     /// The format that the ending of a path stands for, in capitals or not.
     #[must_use]
     pub fn of_path(path: &str) -> Option<Self> {
@@ -124,7 +137,7 @@ pub fn read(path: &str, format: Option<Format>, source: &dyn Source, limits: &Li
     let Some(format) = format.or_else(|| Format::of_path(path)) else {
         let span = Span { place, ..Span::default() };
         let message = "its name does not say what the file is written in";
-        let help = "names end in .toml, .obj or .ply; or the format is given";
+        let help = format!("names end in {}; or the format is given", endings(&Format::READ, "or"));
         return refused(Diagnostic::error(message, span).with_help(help));
     };
     if format == Format::Toml {
@@ -157,12 +170,27 @@ pub(crate) fn read_model(
                 Format::Toml => "a scene is not a model".to_owned(),
                 _ => format!("{format} files are not read yet"),
             };
-            let help = "models are read from OBJ and PLY files";
+            let help = models_are_read_from();
             let span = Span { place, ..Span::default() };
             out.push(Diagnostic::error(message, span).with_help(help));
             None
         }
     }
+}
+
+/// The formats of bare models that are read.
+const MODELS: [Format; 2] = [Format::Obj, Format::Ply];
+
+/// `.obj and .ply`, as prose.
+fn endings(formats: &[Format], last: &str) -> String {
+    let all: Vec<_> = formats.iter().map(|format| format!(".{}", format.ending())).collect();
+    all.split_last()
+        .map_or_else(String::new, |(end, rest)| format!("{} {last} {end}", rest.join(", ")))
+}
+
+/// What models are read from, as a way out.
+pub(crate) fn models_are_read_from() -> String {
+    format!("models are read from {} files", endings(&MODELS, "and"))
 }
 
 /// No scene, for this reason alone.
@@ -198,6 +226,17 @@ mod tests {
             let reading = read(path, None, &Memory::new().with(path, *b""), &Limits::default());
             let said = reading.diagnostics[0].to_string();
             assert!(reading.scene.is_none() && said.contains("not read yet"), "{said}");
+        }
+    }
+
+    #[test]
+    fn the_formats_that_are_read_are_those_that_do_not_say_not_yet() {
+        for (format, [ending, ..]) in Format::ENDINGS.map(|(f, e)| (f, [e[0], ""])) {
+            assert_eq!(format.ending(), ending);
+            let path = format!("a.{ending}");
+            let reading = read(&path, None, &Memory::new().with(&*path, *b""), &Limits::default());
+            let refused = reading.diagnostics.iter().any(|d| d.message.contains("not read yet"));
+            assert_ne!(refused, Format::READ.contains(&format), "{ending}");
         }
     }
 

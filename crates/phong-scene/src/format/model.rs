@@ -29,3 +29,11 @@ pub(crate) enum Part {
         points: Points,
     },
 }
+
+/// What is said of a mesh in which no triangle has an area.
+pub(crate) fn flat(triangles: usize) -> String {
+    match triangles {
+        1 => "nothing can be seen: its one triangle has no area".to_owned(),
+        n => format!("nothing can be seen: none of its {n} triangles has an area"),
+    }
+}

@@ -1,6 +1,6 @@
 //! What files hold and a [`Mesh`] must not: normals without a direction, triangles without area.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use super::{Mesh, NO_INDEX, Points};
@@ -14,7 +14,7 @@ impl Mesh {
                 return 0;
             }
             let unit = n.as_dvec3().try_normalize();
-            *n = unit.map_or(Vec3::ZERO, glam::DVec3::as_vec3);
+            *n = unit.map_or(Vec3::ZERO, DVec3::as_vec3);
             u64::from(unit.is_none())
         };
         let zeros = self.normals.par_iter_mut().with_min_len(1 << 12).map(mend).sum();
@@ -48,6 +48,20 @@ impl Mesh {
         retain(&mut self.uv_indices, &keep);
         retain(&mut self.face_materials, &keep);
         count as u64
+    }
+
+    /// Whether there are triangles, and none of them has an area: then nothing of it can be seen.
+    pub(crate) fn is_flat(&self) -> bool {
+        // Corners are rounded to 24 bits: a smaller sine than this is no angle.
+        let least = f64::from(f32::EPSILON) * 2.0;
+        let corner = |i: u32| self.positions.get(i as usize).map_or(DVec3::ZERO, |p| p.as_dvec3());
+        let on_a_line = |t: &[u32; 3]| {
+            let [a, b, c] = t.map(corner);
+            let (ab, ac) = (b - a, c - a);
+            ab.cross(ac).length() <= least * ab.length() * ac.length()
+        };
+        let indices = self.indices.par_iter().with_min_len(1 << 12);
+        !self.indices.is_empty() && indices.all(on_a_line)
     }
 
     /// Bytes that the arrays take in memory.
@@ -86,6 +100,20 @@ mod tests {
         assert_eq!(mesh.mend_normals(), 1);
         assert_eq!(mesh.normal_indices, [[NO_INDEX, 1, 2]]);
         assert_eq!(mesh.normals[1..], [Vec3::Z, Vec3::Z]);
+    }
+
+    #[test]
+    fn a_mesh_is_flat_if_all_corners_of_every_triangle_lie_on_a_line() {
+        let mut mesh = Mesh {
+            positions: [0.0, 0.1, 0.3, 0.1].map(|x| Vec3::new(1.0, 2.0, 3.3) * x).into(),
+            indices: vec![[0, 1, 2], [0, 1, 3]],
+            ..Mesh::default()
+        };
+        assert!(mesh.is_flat());
+        mesh.positions.push(Vec3::Y);
+        mesh.indices.push([0, 1, 4]);
+        assert!(!mesh.is_flat());
+        assert!(!Mesh::default().is_flat());
     }
 
     #[test]

@@ -97,7 +97,9 @@ fn a_text_beyond_the_limits_is_refused_and_so_are_many_small_ones() {
     let limits = Limits { text_bytes: text_bytes + 1000, ..Limits::default() };
     assert_refused(&read_files(&files, &limits), "`b.toml` cannot be read: it has 4100 bytes");
     let limits = Limits { bytes: 85 * text_bytes, ..Limits::default() };
-    assert_refused(&read_files(&files, &limits), "within the memory allowed");
+    let told =
+        format!("{} bytes of memory; {} are allowed", 85 * (text_bytes + 1), 85 * text_bytes);
+    assert_refused(&read_files(&files, &limits), &told);
 }
 
 #[test]
@@ -107,8 +109,8 @@ fn thousands_of_wrong_names_among_thousands_of_right_ones_are_told_in_time() {
         format!("[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"x{i}\"\n")
     });
     let reading = read_text(&format!("{HEAD}{materials}{balls}"));
-    assert_refused(&reading, "there is no material \"x999\"");
-    assert_refused(&reading, "and 2000 more errors");
+    assert_refused(&reading, "there is no material \"x2999\"");
+    assert_eq!(reading.diagnostics.iter().filter(|d| d.is_error()).count(), 3000);
 }
 
 #[test]
@@ -119,14 +121,15 @@ fn thousands_of_lights_and_balls_are_checked_in_time() {
 }
 
 #[test]
-fn a_thousand_mistakes_are_told_and_the_rest_counted() {
+fn a_hundred_thousand_mistakes_are_told_and_the_rest_counted() {
     let scene = "version = 1\n[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\n[image]\n";
     let reading = read_text(&(scene.to_owned() + &numbered(300_000, |i| format!("k{i} = {i}\n"))));
     assert!(reading.scene.is_none());
     let told: Vec<_> = reading.diagnostics.iter().map(ToString::to_string).collect();
-    assert_eq!(told.len(), 1001);
+    assert_eq!(told.len(), 100_001);
     assert!(told[0].contains(":6:1: error: unknown key \"k0\""), "{}", told[0]);
-    assert!(told[1000].ends_with("error: and 299000 more errors"), "{}", told[1000]);
+    let rest = "and 200000 more errors, beyond the first 100000 problems, which are told";
+    assert!(told[100_000].ends_with(rest), "{}", told[100_000]);
 }
 
 #[test]

@@ -4,7 +4,9 @@ use std::mem::size_of;
 
 use glam::{DAffine3, DMat3, DVec2, DVec3, Vec2, Vec3};
 use phong_bvh::{Canonical, Geometry, Hit, Plane, Solid, Sphere};
-use phong_scene::{Bounds, MaterialId, Mesh, NO_INDEX, Object, Points, Rgb, Scene, Shape};
+use phong_scene::{
+    Bounds, MaterialId, Mesh, NO_INDEX, Object, Points, Rgb, Scene, Shape, cofactor, even_scale,
+};
 use rayon::prelude::*;
 
 use super::ObjectRecord;
@@ -406,30 +408,7 @@ fn sphere_solid(center: DVec3, radius: f64, to_world: DAffine3) -> Solid {
     Solid { shape: Canonical::Sphere, to_world: to_world * own }
 }
 
-/// The factor of a matrix that is one scale and a rotation or mirroring; `None` if it is not.
-fn even_scale(m: DMat3) -> Option<f64> {
-    let square = m.x_axis.length_squared();
-    let close = |a: f64, b: f64| (a - b).abs() <= 1e-12 * square;
-    let even = close(m.y_axis.length_squared(), square)
-        && close(m.z_axis.length_squared(), square)
-        && close(m.x_axis.dot(m.y_axis), 0.0)
-        && close(m.x_axis.dot(m.z_axis), 0.0)
-        && close(m.y_axis.dot(m.z_axis), 0.0);
-    even.then(|| square.sqrt())
-}
-
 /// Whether a matrix is a scale and nothing else.
 fn is_scale(m: DMat3, scale: f64) -> bool {
     m.abs_diff_eq(DMat3::from_diagonal(DVec3::splat(scale)), 1e-12 * scale)
-}
-
-/// What turns normals when `m` turns points: the matrix of cofactors, of the sign that keeps
-/// outward normals outward.
-fn cofactor(m: DMat3) -> DMat3 {
-    let c = DMat3::from_cols(
-        m.y_axis.cross(m.z_axis),
-        m.z_axis.cross(m.x_axis),
-        m.x_axis.cross(m.y_axis),
-    );
-    if m.determinant() < 0.0 { -c } else { c }
 }

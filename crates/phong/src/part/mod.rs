@@ -38,7 +38,7 @@ pub struct Part {
 #[derive(Debug, Error)]
 pub enum PartError {
     /// The system's word.
-    #[error(transparent)]
+    #[error("{}", phong_scene::trouble(.0))]
     Io(#[from] io::Error),
     /// It is no part file at all.
     #[error("this is no part file")]

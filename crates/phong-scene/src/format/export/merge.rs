@@ -6,7 +6,9 @@ use std::collections::BTreeMap;
 use glam::{DAffine3, DMat3, DVec2, DVec3, Vec3};
 
 use crate::format::origin::origin_of;
-use crate::{Diagnostic, Group, Mesh, NO_INDEX, Object, Points, Rgb, Scene, Shape};
+use crate::{
+    Diagnostic, Group, Mesh, NO_INDEX, Object, Points, Rgb, Scene, Shape, cofactor, even_scale,
+};
 
 /// A scene's triangles.
 #[derive(Debug, Default)]
@@ -298,23 +300,4 @@ pub(super) fn spheres(scene: &Scene, colors: bool, uneven: &mut BTreeMap<String,
         }
     });
     out
-}
-
-/// The factor of a matrix that keeps spheres round.
-fn even_scale(m: DMat3) -> Option<f64> {
-    let square = m.x_axis.length_squared();
-    let close = |a: f64, b: f64| (a - b).abs() <= 1e-12 * square;
-    let even = close(m.y_axis.length_squared(), square)
-        && close(m.z_axis.length_squared(), square)
-        && close(m.x_axis.dot(m.y_axis), 0.0)
-        && close(m.x_axis.dot(m.z_axis), 0.0)
-        && close(m.y_axis.dot(m.z_axis), 0.0);
-    even.then(|| square.sqrt())
-}
-
-/// What turns normals when `m` turns points, outward ones outward.
-fn cofactor(m: DMat3) -> DMat3 {
-    let (x, y, z) = (m.x_axis, m.y_axis, m.z_axis);
-    let c = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
-    if m.determinant() < 0.0 { -c } else { c }
 }

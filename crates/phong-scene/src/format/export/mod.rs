@@ -147,6 +147,11 @@ impl Scene {
         if options.bare && options.format == Format::Toml {
             account
                 .map("camera, lights and background are those a bare model is shown with".into());
+            let [width, height] = self.image.size;
+            account.map(format!(
+                "the camera stands where the model fills a picture of {width} × {height}; one of \
+                 narrower shape cuts off its sides"
+            ));
         }
         let files = match options.format {
             Format::Toml => write_toml(self, name, options.ply, &mut account)?,
@@ -154,7 +159,7 @@ impl Scene {
             Format::Ply => flat::write_ply(self, options, name, &mut account)?,
             other => {
                 let message = format!("{other} files are not written yet");
-                let help = "write .toml, .obj or .ply";
+                let help = format!("write {}", super::endings(&Format::WRITTEN, "or"));
                 return Err(Box::new(Diagnostic::error(message, None).with_help(help)));
             }
         };

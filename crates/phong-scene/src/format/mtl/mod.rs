@@ -43,7 +43,7 @@ pub(crate) use write::{Difference, write as write_material};
 
 use self::draft::Draft;
 use super::text::{Cursor, Decimal, Findings, Piece, blame, read_text, whole};
-use crate::{Diagnostic, Limits, Material, Rgb, Source};
+use crate::{Diagnostic, Limits, Material, Rgb, Source, trouble};
 
 /// Reads an MTL file: its materials in order, those before an error included.
 pub(crate) fn read_mtl(
@@ -56,7 +56,10 @@ pub(crate) fn read_mtl(
     let text = match read_text(source, path, limits) {
         Ok(text) => text,
         Err(error) => {
-            out.push(Diagnostic::warning(format!("cannot be read: {error}"), whole(&file)));
+            out.push(Diagnostic::warning(
+                format!("cannot be read: {}", trouble(&error)),
+                whole(&file),
+            ));
             return Vec::new();
         }
     };

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::block::{BAD_INDEX, Block, Context, Indices, Mark, NO_COLOR};
-use crate::format::model::{Model, Part};
+use crate::format::model::{Model, Part, flat};
 use crate::format::text::{Cursor, Findings, Piece, TOLD, whole};
 use crate::mesh::cut_polygons;
 use crate::{Blob, Limits, Material, Mesh, NO_INDEX, Span};
@@ -183,6 +183,9 @@ impl Assembly {
                 "there is nothing to draw: no face is left".to_owned()
             });
             return (None, findings);
+        }
+        if mesh.is_flat() {
+            findings.warning("flat models", at_file, || flat(mesh.indices.len()));
         }
         let model = Model { parts: vec![Part::Mesh { name: String::new(), mesh }], materials };
         (Some(model), findings)

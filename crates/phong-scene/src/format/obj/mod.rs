@@ -34,7 +34,7 @@ use self::block::{Block, Context};
 use super::model::Model;
 use super::origin::{SAMPLES, origin_of};
 use super::text::{Cursor, Decimal, Lines, Piece, open_text, whole};
-use crate::{Blob, Diagnostic, Limits, Source};
+use crate::{Blob, Diagnostic, Limits, Source, trouble};
 
 #[cfg(test)]
 mod tests;
@@ -75,7 +75,10 @@ pub(crate) fn read_obj(
             model.filter(|_| sound)
         }
         Err(error) => {
-            out.push(Diagnostic::error(format!("cannot be read: {error}"), whole(&file)));
+            out.push(Diagnostic::error(
+                format!("cannot be read: {}", trouble(&error)),
+                whole(&file),
+            ));
             None
         }
     }

@@ -100,7 +100,7 @@ fn data_far_from_the_origin_keep_their_detail() {
 fn a_missing_file_says_so() {
     let mut out = Vec::new();
     assert!(read_obj("b.obj", &Memory::new(), &Limits::default(), &mut out).is_none());
-    assert_eq!(out[0].to_string(), "b.obj: error: cannot be read: no such file");
+    assert_eq!(out[0].to_string(), "b.obj: error: cannot be read: there is no such file");
 }
 
 proptest! {

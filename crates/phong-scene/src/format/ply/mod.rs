@@ -43,10 +43,10 @@ use std::sync::Arc;
 use self::body::{Body, Contents, face_kind};
 use self::header::{Encoding, Header};
 use self::vertices::{Plan, RADIUS};
-use super::model::{Model, Part};
+use super::model::{Model, Part, flat};
 use super::text::{Findings, whole};
 use crate::mesh::cut_polygons;
-use crate::{Diagnostic, Limits, Source};
+use crate::{Diagnostic, Limits, Source, trouble};
 
 /// Reads a PLY file; `None` if a diagnostic is an error. A file without faces is a cloud of
 /// points, drawn as spheres of `default_radius` where the file gives none.
@@ -68,7 +68,10 @@ pub(crate) fn read_ply(
             model.filter(|_| sound)
         }
         Err(error) => {
-            out.push(Diagnostic::error(format!("cannot be read: {error}"), whole(&file)));
+            out.push(Diagnostic::error(
+                format!("cannot be read: {}", trouble(&error)),
+                whole(&file),
+            ));
             None
         }
     }
@@ -187,6 +190,9 @@ impl Body<'_> {
                 || "there is nothing to draw: no face is left".to_owned(),
             );
             return None;
+        }
+        if mesh.is_flat() {
+            self.warn("flat models", || flat(mesh.indices.len()));
         }
         Some(Part::Mesh { name: String::new(), mesh })
     }

@@ -7,8 +7,8 @@ use super::reader::Reader;
 use super::table::Values;
 use super::text::{self, Spot, Text};
 use crate::format::model::Part;
-use crate::format::{Format, read_model};
-use crate::{Mesh, Points, Shape, wording};
+use crate::format::{Format, models_are_read_from, read_model};
+use crate::{Mesh, Points, Shape, trouble, wording};
 
 /// Most files that a scene may include, those included by others too: a file that includes the
 /// next one twice, and so on, would otherwise double the work at every step.
@@ -133,7 +133,7 @@ impl Reader<'_> {
             return None;
         }
         if let Err(e) = self.source.open(&file) {
-            let message = format!("{} cannot be read: {}", wording::path(&file), text::trouble(&e));
+            let message = format!("{} cannot be read: {}", wording::path(&file), trouble(&e));
             self.notes.error(spot, message);
             return None;
         }
@@ -155,7 +155,7 @@ impl Reader<'_> {
 
     fn say_format(&mut self, spot: Spot, message: &str) {
         self.notes.error(spot, message).help =
-            Some("models are read from .obj and .ply files; scenes by `[[include]]`".to_owned());
+            Some(format!("{}; scenes by `[[include]]`", models_are_read_from()));
     }
 }
 

@@ -1,7 +1,7 @@
 //! Our own scene text.
 //!
 //! Reading gives everything there is to say in one go, in the order of the text (at most 20 syntax
-//! errors a file and 1000 diagnostics in all; beyond that their number):
+//! errors a file, and 100,000 diagnostics in all, to bound memory; beyond that their number):
 //! `syntax` tells all syntax errors and takes the faulty statements out, `table` and `value` hold
 //! every table against its table of [`keys`](crate::keys), the concepts' files (`settings light
 //! material shape file`) say what only several keys together can be wrong about, `resolve` and

@@ -6,9 +6,9 @@ use std::sync::Arc;
 use super::text::{Spot, Text};
 use crate::{Diagnostic, Place, Severity, Span};
 
-/// Most diagnostics that are told; the rest is counted. A generated file may be wrong a million
-/// times in the same way.
-const MOST: usize = 1000;
+/// Most diagnostics that are told; the rest is counted, and said to be. A generated file may be
+/// wrong a million times in the same way, and each takes some 700 bytes to tell.
+const MOST: usize = 100_000;
 
 /// The files read and everything said about them.
 #[derive(Debug, Default)]
@@ -129,11 +129,15 @@ impl Notes {
         let [warnings, errors] = self.untold;
         let place = Place { file: Arc::clone(&self.texts[0].file), ..Place::default() };
         let span = Span { place, ..Span::default() };
+        let more = |n: usize, what: &str| {
+            let s = if n == 1 { "" } else { "s" };
+            format!("and {n} more {what}{s}, beyond the first {MOST} problems, which are told")
+        };
         if errors > 0 {
-            all.push(Diagnostic::error(format!("and {errors} more errors"), span.clone()));
+            all.push(Diagnostic::error(more(errors, "error"), span.clone()));
         }
         if warnings > 0 {
-            all.push(Diagnostic::warning(format!("and {warnings} more warnings"), span));
+            all.push(Diagnostic::warning(more(warnings, "warning"), span));
         }
         all
     }

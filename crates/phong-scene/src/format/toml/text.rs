@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::{Limits, Place, Source, Span};
+use crate::{Limits, Place, Source, Span, trouble};
 
 /// Longest excerpt of a line, in characters; longer lines are cut around the place.
 const EXCERPT: usize = 160;
@@ -115,17 +115,6 @@ fn cut_around(line: &str, at: usize) -> (usize, &str) {
     (before, &rest[..end])
 }
 
-/// What the system says of a file that cannot be opened or read, in words.
-pub(super) fn trouble(error: &std::io::Error) -> String {
-    use std::io::ErrorKind;
-    match error.kind() {
-        ErrorKind::NotFound => "there is no such file".to_owned(),
-        ErrorKind::PermissionDenied => "it may not be read".to_owned(),
-        ErrorKind::IsADirectory => "it is a folder".to_owned(),
-        _ => error.to_string(),
-    }
-}
-
 /// Reads a whole text file.
 ///
 /// # Errors
@@ -133,10 +122,16 @@ pub(super) fn trouble(error: &std::io::Error) -> String {
 pub(super) fn load(path: &str, source: &dyn Source, limits: &Limits) -> Result<String, String> {
     let blob = source.open(path).map_err(|e| trouble(&e))?;
     let len = blob.len();
-    let most = MOST_BYTES.min(limits.text_bytes).min(limits.bytes / BYTES_PER_BYTE);
-    let too_large =
-        || format!("it has {len} bytes; at most {most} are read within the memory allowed");
+    let most = MOST_BYTES.min(limits.text_bytes);
+    let needed = len.saturating_mul(BYTES_PER_BYTE);
     if len > most {
+        return Err(format!("it has {len} bytes; scene text has at most {most}"));
+    }
+    let too_large = || {
+        let allowed = limits.bytes;
+        format!("to read its {len} bytes may take {needed} bytes of memory; {allowed} are allowed")
+    };
+    if needed > limits.bytes {
         return Err(too_large());
     }
     let mut bytes = Vec::new();
