@@ -55,6 +55,50 @@ fn a_whole_class_is_graded_in_one_go() {
 }
 
 #[test]
+fn a_picture_that_cannot_be_graded_takes_no_verdict_from_the_others() {
+    let folder = handed_in();
+    fs::write(folder.path("text.png"), "no picture").unwrap();
+    folder.done("render a.toml --size 20x30 -o small.png --quiet");
+    let then = folder.when("grade a.toml text.png right.png small.png nowhere.png wrong.png");
+    then.is_refused(&[
+        "text.png: this is no PNG",
+        "small.png: the picture is 20 × 30",
+        "nowhere.png",
+    ]);
+    let text = String::from_utf8(then.out).unwrap();
+    assert!(text.contains("right.png: pass") && text.contains("wrong.png: fail"), "{text}");
+
+    let then = folder.when("grade a.toml text.png right.png small.png wrong.png --json");
+    assert_eq!(then.code, Some(2), "{}", then.err);
+    let told = then.json();
+    assert_eq!(told["pass"], false);
+    let images = told["images"].as_array().unwrap();
+    let verdicts: Vec<_> = images.iter().map(|one| one["verdict"].as_str()).collect();
+    assert_eq!(verdicts, [None, Some("pass"), None, Some("fail")]);
+    assert_eq!(images[0]["image"], "text.png");
+    assert!(images[0]["error"].as_str().unwrap().contains("no PNG"), "{images:?}");
+    assert!(images[2]["error"].as_str().unwrap().contains("20 × 30"), "{images:?}");
+    let told = folder.when("grade a.toml small.png --json").json();
+    assert!(told["error"].as_str().unwrap().contains("small.png"), "{told}");
+}
+
+#[test]
+fn our_own_pictures_pass_whatever_their_curve_and_depth() {
+    // Dark, where 8 linear bits leave little.
+    let dark = BALLS.replace("position = [3, 4, 5]\n", "position = [3, 4, 5]\ncolor = 0.02\n");
+    let dark = dark.replace("[camera]", "[ambient]\ncolor = 0.05\n[camera]");
+    for scene in [BALLS, &dark] {
+        let folder = given(&[("a.toml", scene)]);
+        for words in ["", "--linear", "--bits 16", "--linear --bits 16"] {
+            folder.done(&format!("render a.toml --samples 1 {words} -o a.png --quiet"));
+            let told = folder.done("grade a.toml a.png --json").json();
+            let off = told["worst"]["difference"].as_f64().unwrap();
+            assert!(told["verdict"] == "pass" && off < 0.51 / 255.0, "{words}: {told}");
+        }
+    }
+}
+
+#[test]
 fn a_picture_of_something_else_is_said_to_be_unknown() {
     let folder = handed_in();
     let other = BALLS.replace("eye = [0, 1, 5]", "eye = [4, 3, -3]");

@@ -3,7 +3,8 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use phong::grade::{Grade, MISTAKES, grade};
+use phong::grade::{Grade, GradeError, MISTAKES, grade};
+use phong_scene::Scene;
 use serde_json::{Value, json};
 
 use super::compare;
@@ -18,7 +19,7 @@ Examples:
 
 Give the scene the size of the pictures; one sample a pixel, through its centre, is expected, but
 pixels at edges are left out, so smoothed edges do no harm. Exit code 0: every picture passes; 1:
-one does not; 2: no comparison is possible.";
+one does not; 2: one cannot be graded, which takes no verdict from the others.";
 
 /// Hold somebody else's rendering against ours, term by term: names the term that is wrong
 #[derive(Debug, clap::Args)]
@@ -47,16 +48,21 @@ fn causes() -> String {
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
-    let pictures =
-        args.images.iter().map(|path| compare::read(path)).collect::<Result<Vec<_>, Failure>>()?;
     let scene = input::open(&args.input, false)?.scene;
     let mut answers = Vec::new();
-    let mut all_pass = true;
-    for (path, picture) in args.images.iter().zip(&pictures) {
-        let graded = grade(&scene, picture).map_err(|error| {
-            let failure = Failure::usage(format!("{}: {error}", path.display()));
-            failure.with_help("grade takes pictures of the scene's own size")
-        })?;
+    let (mut all_pass, mut all_graded) = (true, true);
+    // One picture at a time; what is wrong with one takes no verdict from the others.
+    for path in &args.images {
+        let graded = match one(&scene, path) {
+            Ok(graded) => graded,
+            Err(failure) => {
+                all_graded = false;
+                let error = failure.summary();
+                failure.tell();
+                answers.push(json!({ "image": path.to_string_lossy(), "error": error }));
+                continue;
+            }
+        };
         all_pass &= graded.pass;
         if args.json {
             answers.push(as_json(path, &graded));
@@ -67,10 +73,30 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     if args.json {
         match <[Value; 1]>::try_from(answers) {
             Ok([answer]) => report::json(&answer)?,
-            Err(answers) => report::json(&json!({ "pass": all_pass, "images": answers }))?,
+            Err(answers) => {
+                let pass = all_pass && all_graded;
+                report::json(&json!({ "pass": pass, "images": answers }))?;
+            }
         }
     }
-    if all_pass { Ok(()) } else { Err(Failure::No) }
+    match (all_graded, all_pass) {
+        (false, _) => Err(Failure::Told),
+        (true, false) => Err(Failure::No),
+        (true, true) => Ok(()),
+    }
+}
+
+fn one(scene: &Scene, path: &Path) -> Result<Grade, Failure> {
+    let picture = compare::read(path)?;
+    grade(scene, &picture).map_err(|error| {
+        let failure = Failure::usage(format!("{}: {error}", path.display()));
+        match error {
+            GradeError::Size { .. } => {
+                failure.with_help("grade takes pictures of the scene's own size")
+            }
+            GradeError::NoColor | GradeError::Compile(_) => failure,
+        }
+    })
 }
 
 fn as_json(path: &Path, graded: &Grade) -> Value {

@@ -8,7 +8,7 @@ fn picture(transfer: Transfer, planes: &[(&str, &[f32])]) -> Picture {
         .iter()
         .map(|&(name, values)| Plane { name: name.to_owned(), values: values.to_vec() })
         .collect();
-    Picture { size: [2, 1], planes, transfer }
+    Picture { size: [2, 1], planes, transfer, levels: None }
 }
 
 fn grey(values: &[f32]) -> Picture {

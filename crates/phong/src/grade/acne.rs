@@ -4,7 +4,7 @@ use phong_scene::Rgb;
 
 use super::Prepared;
 use super::mistakes::Curve;
-use super::picture::{Residual, Theirs, encode, residual};
+use super::picture::{Level, Residual, Theirs, encode, residual};
 use super::shade::{Wrong, shade};
 
 /// At least this share of a dark point's lit neighbours is lit: strewn, not a shadow.
@@ -22,8 +22,8 @@ pub(super) fn look(right: &Prepared, theirs: &Theirs) -> Option<(Residual, Strin
         .iter()
         .map(|point| shade(&right.scene, point, &Wrong::default()).total())
         .collect();
-    let differs = |a: [f32; 3], b: [f32; 3]| {
-        a.iter().zip(b).any(|(a, b)| f64::from((a - b).abs()) > Residual::NOTICED)
+    let differs = |ours: [f32; 3], theirs: [Level; 3]| {
+        ours.iter().zip(theirs).any(|(ours, theirs)| theirs.apart(*ours) > Residual::NOTICED)
     };
     // The value a point has with some of its lights missing, if that is what they drew.
     let darkened = |i: usize| -> Option<[f32; 3]> {

@@ -8,7 +8,8 @@ use super::points::{Point, Surface};
 use crate::image::{Picture, Transfer};
 use crate::math::wide;
 
-/// How far two pictures are apart, in encoded values (1 is white), over all but edge pixels.
+/// How far two pictures are apart, in encoded values (1 is white), over all but edge pixels, beyond
+/// what rounding coarser than to 8 bits on the curve explains.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Residual {
     /// Root of the mean square, all channels.
@@ -34,7 +35,25 @@ impl Residual {
 
 /// Their picture, encoded. NaN stays NaN, and is compared with nothing.
 pub(super) struct Theirs {
-    values: Vec<[f32; 3]>,
+    values: Vec<[Level; 3]>,
+}
+
+/// A value of their picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Level {
+    /// On the sRGB curve; 1 is white.
+    pub(super) value: f32,
+    /// How much further their file's rounding may have moved it than the rounding to 8 bits on the
+    /// curve, which every threshold here allows for: half a step of linear values is much in the
+    /// dark, where the curve is steep.
+    pub(super) rounding: f32,
+}
+
+impl Level {
+    /// How far from `ours` it was drawn at least.
+    pub(super) fn apart(self, ours: f32) -> f64 {
+        ((f64::from(ours) - f64::from(self.value)).abs() - f64::from(self.rounding)).max(0.0)
+    }
 }
 
 /// Pixels with a value that is no number.
@@ -49,20 +68,27 @@ impl Theirs {
     pub(super) fn new(picture: &Picture) -> Option<Self> {
         let [r, g, b] = picture.rgb()?;
         let alpha = picture.plane("A");
-        let at = |i: usize| {
-            let color = Rgb::new(r[i], g[i], b[i]);
-            match picture.transfer {
-                Transfer::Srgb => color.to_array(),
-                Transfer::Linear => encode(color, Curve::Right),
+        let half = picture.levels.map_or(0.0, |levels| 0.5 / f64::from(levels));
+        let level = |drawn: f32| match picture.transfer {
+            Transfer::Srgb => Level { value: drawn, rounding: beyond_usual(half) },
+            Transfer::Linear => {
+                let drawn = f64::from(drawn).clamp(0.0, 1.0);
+                let [below, value, above] =
+                    [drawn - half, drawn, drawn + half].map(|v| srgb_encode(v.clamp(0.0, 1.0)));
+                let rounding = beyond_usual((value - below).max(above - value));
+                Level { value: value as f32, rounding }
             }
-            .map(|v| if alpha.is_some_and(|a| a[i] == 0.0) { 0.0 } else { v })
+        };
+        let at = |i: usize| {
+            let clear = alpha.is_some_and(|a| a[i] == 0.0);
+            [r[i], g[i], b[i]].map(|v| if clear { Level::default() } else { level(v) })
         };
         Some(Self { values: (0..r.len()).map(at).collect() })
     }
 
     /// The pixels with a value that is no number; `None`: there are none.
     pub(super) fn not_numbers(&self) -> Option<NotNumbers> {
-        let is_nan = |value: &[f32; 3]| value.iter().any(|v| v.is_nan());
+        let is_nan = |pixel: &[Level; 3]| pixel.iter().any(|level| level.value.is_nan());
         let first = self.values.iter().position(is_nan)?;
         Some(NotNumbers { count: self.values.iter().filter(|v| is_nan(v)).count(), first })
     }
@@ -73,7 +99,7 @@ impl Theirs {
         i: usize,
         [width, height]: [u32; 2],
         layout: Option<Layout>,
-    ) -> [f32; 3] {
+    ) -> [Level; 3] {
         let (w, h) = (width as usize, height as usize);
         let (x, y) = (i % w, i / w);
         match layout {
@@ -103,12 +129,17 @@ pub(super) fn encode(color: Rgb, curve: Curve) -> [f32; 3] {
     })
 }
 
+/// What half a step of a file is more than half a step of 8 bits.
+fn beyond_usual(half: f64) -> f32 {
+    (half - 0.5 / 255.0).max(0.0) as f32
+}
+
 /// How far two pictures are apart where `inner` says to look.
 pub(super) fn residual(
     [width, _]: [u32; 2],
     inner: &[bool],
     ours: impl Fn(usize) -> [f32; 3] + Send + Sync,
-    theirs: impl Fn(usize) -> [f32; 3] + Sync,
+    theirs: impl Fn(usize) -> [Level; 3] + Sync,
 ) -> Residual {
     let ours: Vec<[f32; 3]> = (0..inner.len()).into_par_iter().map(ours).collect();
     let row = |y: usize| {
@@ -116,12 +147,12 @@ pub(super) fn residual(
         let from = y * width as usize;
         for i in (from..from + width as usize).filter(|&i| inner[i]) {
             let (a, b) = (ours[i], theirs(i));
-            if b.iter().any(|v| v.is_nan()) {
+            if b.iter().any(|level| level.value.is_nan()) {
                 continue;
             }
-            let off: [f64; 3] = std::array::from_fn(|c| f64::from(a[c]) - f64::from(b[c]));
+            let off: [f64; 3] = std::array::from_fn(|c| b[c].apart(a[c]));
             out.rms += off.iter().map(|d| d * d).sum::<f64>();
-            let worst = off.iter().fold(0.0, |worst: f64, d| worst.max(d.abs()));
+            let worst = off.iter().fold(0.0, |worst: f64, d| worst.max(*d));
             let noticed = worst > Residual::NOTICED
                 && worst
                     > Residual::NOTICED

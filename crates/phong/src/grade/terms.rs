@@ -22,7 +22,7 @@ pub(super) fn fit(right: &Prepared, theirs: &Theirs) -> [(&'static str, Option<f
             [sum.ambient, sum.diffuse, sum.specular, sum.secondary].map(phong_scene::Rgb::to_array);
         let drawn = theirs.at(i, right.size, None);
         for channel in 0..3 {
-            let level = f64::from(drawn[channel]);
+            let level = f64::from(drawn[channel].value);
             if level.is_nan() || level > 0.995 {
                 continue;
             }

@@ -142,5 +142,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<Picture, ReadError> {
     if planes.iter().any(|plane| plane.values.len() != width * height) {
         return Err(ReadError::Broken("OpenEXR: subsampled channels are not read".to_owned()));
     }
-    Ok(Picture { size: [width as u32, height as u32], planes, transfer: Transfer::Linear })
+    Ok(Picture {
+        size: [width as u32, height as u32],
+        planes,
+        transfer: Transfer::Linear,
+        levels: None,
+    })
 }

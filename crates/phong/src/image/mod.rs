@@ -120,7 +120,7 @@ impl Content {
 #[derive(Debug, Error)]
 pub enum WriteError {
     /// The disc, the pipe.
-    #[error(transparent)]
+    #[error("{}", phong_scene::trouble(.0))]
     Io(#[from] std::io::Error),
     /// The film has no such layer, or the format cannot hold it: the caller's fault.
     #[error("{0}")]

@@ -62,6 +62,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Picture, ReadError> {
         size: [width, height],
         planes: names.iter().enumerate().map(plane).collect(),
         transfer: Transfer::Linear,
+        levels: None,
     })
 }
 

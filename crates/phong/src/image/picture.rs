@@ -18,6 +18,9 @@ pub struct Picture {
     pub planes: Vec<Plane>,
     /// What the values are.
     pub transfer: Transfer,
+    /// The whole number that stands for 1 in the file, to which values were rounded: 255 or 65535
+    /// in a PNG, less in one of few bits; `None`: they are floats.
+    pub levels: Option<u16>,
 }
 
 /// One channel of a picture.
@@ -96,7 +99,12 @@ impl Picture {
         if alpha.is_some_and(|alpha| alpha.values.iter().any(|&a| a != 1.0)) {
             planes.extend(layer(LayerKind::Alpha, &["A"]));
         }
-        Self { size: [film.width(), film.height()], planes, transfer: Transfer::Linear }
+        Self {
+            size: [film.width(), film.height()],
+            planes,
+            transfer: Transfer::Linear,
+            levels: None,
+        }
     }
 
     /// The plane of that name.

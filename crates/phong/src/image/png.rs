@@ -176,6 +176,13 @@ pub(super) fn read(bytes: &[u8]) -> Result<Picture, ReadError> {
     let frame = reader.next_frame(&mut data).map_err(broken)?;
     let linear = reader.info().srgb.is_none()
         && reader.info().gama_chunk.is_some_and(|gamma| gamma.into_scaled() == 100_000);
+    let levels = match (reader.info().color_type, reader.info().bit_depth) {
+        (ColorType::Indexed, _) | (_, BitDepth::Eight) => 255,
+        (_, BitDepth::One) => 1,
+        (_, BitDepth::Two) => 3,
+        (_, BitDepth::Four) => 15,
+        (_, BitDepth::Sixteen) => 65535,
+    };
     let names: &[&str] = match frame.color_type {
         ColorType::Grayscale => &["Y"],
         ColorType::GrayscaleAlpha => &["Y", "A"],
@@ -198,5 +205,6 @@ pub(super) fn read(bytes: &[u8]) -> Result<Picture, ReadError> {
         size: [width, height],
         planes: names.iter().enumerate().map(plane).collect(),
         transfer: if linear { Transfer::Linear } else { Transfer::Srgb },
+        levels: Some(levels),
     })
 }

@@ -126,7 +126,7 @@ fn picture(w: &World, slip: Slip) -> Picture {
         values: levels.iter().map(|level| f32::from(level[channel]) / 255.0).collect(),
     };
     let planes = vec![plane(0, "R"), plane(1, "G"), plane(2, "B")];
-    Picture { size: w.size, planes, transfer: Transfer::Srgb }
+    Picture { size: w.size, planes, transfer: Transfer::Srgb, levels: Some(255) }
 }
 
 fn graded(w: &World, shadows: bool, slip: Slip) -> Grade {
