@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 
 use phong::film::Film;
 use phong::part::{self, Part, Settings};
+use phong_scene::trouble;
 
 use crate::failure::Failure;
 use crate::output::Output;
@@ -44,7 +45,7 @@ impl Checkpoint {
         let file = match File::open(&self.path) {
             Ok(file) => file,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
-            Err(error) => return Err(self.unusable(&error.to_string())),
+            Err(error) => return Err(self.unusable(&trouble(&error))),
         };
         let part = Part::read(&mut BufReader::new(file), self.settings.film_bytes())
             .map_err(|error| self.unusable(&error.to_string()))?;
@@ -85,7 +86,8 @@ impl Checkpoint {
         let trouble = self.state.into_inner().unwrap_or_else(PoisonError::into_inner).trouble;
         match fs::remove_file(&self.path) {
             Err(error) if error.kind() != io::ErrorKind::NotFound => {
-                trouble.or_else(|| Some(format!("cannot remove {}: {error}", self.path.display())))
+                let why = phong_scene::trouble(&error);
+                trouble.or_else(|| Some(format!("cannot remove {}: {why}", self.path.display())))
             }
             _ => trouble,
         }

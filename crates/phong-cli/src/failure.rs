@@ -3,7 +3,7 @@
 use std::io;
 use std::path::Path;
 
-use phong_scene::Diagnostic;
+use phong_scene::{Diagnostic, trouble};
 
 use crate::{interrupt, report};
 
@@ -55,13 +55,13 @@ impl Failure {
     pub(crate) fn stdout(error: &io::Error) -> Self {
         match error.kind() {
             io::ErrorKind::BrokenPipe => Self::ReaderGone,
-            _ => Self::System(format!("cannot write to standard output: {error}")),
+            _ => Self::System(format!("cannot write to standard output: {}", trouble(error))),
         }
     }
 
     /// A file could not be written once work was under way.
     pub(crate) fn writing(path: &Path, error: &io::Error) -> Self {
-        Self::System(format!("cannot write {}: {error}", path.display()))
+        Self::System(format!("cannot write {}: {}", path.display(), trouble(error)))
     }
 
     /// What went wrong, in one line.

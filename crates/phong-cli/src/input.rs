@@ -8,7 +8,7 @@ use std::sync::{Mutex, PoisonError};
 use glam::DVec3;
 use phong_scene::{
     Blob, CameraKind, Diagnostic, Folder, Format, Limits, Memory, Reading, Scene, Severity, Side,
-    Source,
+    Source, closest, trouble,
 };
 
 use crate::args::{InputArgs, View, ViewArgs};
@@ -17,6 +17,9 @@ use crate::report;
 
 /// The most that is read from a pipe, which does not say how long it is.
 const MAX_PIPED: u64 = 4 << 30;
+
+/// The most names of a folder that a misspelt one is compared with.
+const MOST_COMPARED: usize = 10_000;
 
 /// The file system, with `-` for standard input; remembers what was opened.
 #[derive(Debug, Default)]
@@ -72,6 +75,62 @@ pub(crate) fn format(args: &InputArgs) -> Option<Format> {
     args.format.or_else(|| Format::of_path(&args.input))
 }
 
+/// A file that cannot be read, with the way out.
+pub(crate) fn unreadable(path: &Path, error: &io::Error) -> Failure {
+    let failure = Failure::usage(format!("{}: {}", path.display(), trouble(error)));
+    match way_out(path, error) {
+        Some(help) => failure.with_help(help),
+        None => failure,
+    }
+}
+
+/// Opens a file that must be there.
+pub(crate) fn open_file(path: &Path) -> Result<File, Failure> {
+    if let Some(error) = hindrance(path) {
+        return Err(unreadable(path, &error));
+    }
+    File::open(path).map_err(|error| unreadable(path, &error))
+}
+
+/// Why a file cannot be opened; `None`: it can, or it is a pipe, which is not opened a second time.
+fn hindrance(path: &Path) -> Option<io::Error> {
+    match fs::metadata(path) {
+        Err(error) => Some(error),
+        Ok(meta) if meta.is_dir() => Some(io::ErrorKind::IsADirectory.into()),
+        Ok(meta) if meta.is_file() => File::open(path).err(),
+        Ok(_) => None,
+    }
+}
+
+/// What to do about a file that cannot be opened: for a missing one, the name of one like it.
+fn way_out(path: &Path, error: &io::Error) -> Option<String> {
+    match error.kind() {
+        io::ErrorKind::NotFound => {
+            let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+            let folder = folder.unwrap_or(Path::new("."));
+            let Ok(files) = fs::read_dir(folder) else {
+                return Some(format!("there is no folder {} either", folder.display()));
+            };
+            let name = path.file_name()?.to_string_lossy();
+            let files: Vec<_> = files
+                .filter_map(|file| Some(file.ok()?.file_name().to_string_lossy().into_owned()))
+                .take(MOST_COMPARED)
+                .collect();
+            // An ending in common is no likeness.
+            let stem = |name: &str| name.rsplit_once('.').map_or(name, |(stem, _)| stem).to_owned();
+            let alike = |file: &&str| closest(&stem(&name), [&*stem(file)]).is_some();
+            let near = closest(&name, files.iter().map(String::as_str).filter(alike));
+            Some(near.map_or_else(
+                || "look at its name and its folder".to_owned(),
+                |near| format!("did you mean `{}`?", path.with_file_name(near).display()),
+            ))
+        }
+        io::ErrorKind::PermissionDenied => Some("look at its permissions".to_owned()),
+        io::ErrorKind::IsADirectory => Some("name a file in it".to_owned()),
+        _ => None,
+    }
+}
+
 /// Reads INPUT, and all there is to say about it; the files it is made of.
 pub(crate) fn read(args: &InputArgs) -> Result<(Reading, Vec<PathBuf>), Failure> {
     let stdin = args.input == "-";
@@ -83,6 +142,12 @@ pub(crate) fn read(args: &InputArgs) -> Result<(Reading, Vec<PathBuf>), Failure>
     let limits =
         args.max_memory.map_or_else(Limits::default, |bytes| Limits { bytes, ..Limits::default() });
     let mut reading = phong_scene::read(&args.input, args.format, &files, &limits);
+    // Of a file that cannot be opened nothing else is said.
+    if let ([only], false) = (&mut reading.diagnostics[..], stdin) {
+        let path = Path::new(&args.input);
+        let help = only.help.take();
+        only.help = help.or_else(|| hindrance(path).and_then(|error| way_out(path, &error)));
+    }
     if args.strict {
         for diagnostic in &mut reading.diagnostics {
             diagnostic.severity = Severity::Error;

@@ -238,7 +238,7 @@ fn reason(error: &io::Error) -> String {
         io::ErrorKind::NotADirectory => "its folder is no folder".to_owned(),
         io::ErrorKind::PermissionDenied => "its folder may not be written to".to_owned(),
         // Without the temporary file's name, which says nothing to anybody.
-        _ => error.to_string().split(" at path ").next().unwrap_or_default().to_owned(),
+        _ => phong_scene::trouble(error).split(" at path ").next().unwrap_or_default().to_owned(),
     }
 }
 

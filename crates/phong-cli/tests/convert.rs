@@ -24,6 +24,24 @@ fn a_scene_comes_back_as_the_very_picture() {
 }
 
 #[test]
+fn a_bare_model_is_framed_for_the_size_that_is_asked_for_and_the_account_says_so() {
+    let folder = given(&[("a.obj", "v -1 0 0\nv 1 0 0\nv 0 3 0\nf 1 2 3\n")]);
+    let then = folder.done("convert a.obj a.toml --size 30x60 --view front");
+    assert!(then.err.contains("the model fills a picture of 30 × 60"), "{}", then.err);
+    folder.done("render a.toml --samples 2 -o a.png --quiet");
+    folder.done("render a.obj --size 30x60 --view front --samples 2 -o b.png --quiet");
+    assert!(folder.bytes("a.png") == folder.bytes("b.png"));
+}
+
+#[test]
+fn a_model_of_which_nothing_can_be_seen_is_told() {
+    let folder = given(&[("a.obj", "v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\nf 3 2 1\n")]);
+    let then = folder.done("render a.obj --size 4x4 -o a.png");
+    assert!(then.err.contains("a.obj") && then.err.contains("none of its 2 triangles has an area"));
+    folder.when("render a.obj --size 4x4 -o b.png --strict").is_refused(&["has an area"]);
+}
+
+#[test]
 fn the_same_scene_gives_the_same_bytes() {
     let folder = given(&[("a.toml", BALLS)]);
     folder.done("convert a.toml b.toml");

@@ -51,7 +51,7 @@ fn a_name_that_is_nearly_right_is_answered_with_the_right_one() {
 fn a_folder_that_cannot_be_made_is_said_by_name() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("file"), "").unwrap();
-    let answer = phong(&folder, &["figure", "cosine", "-d", "file"]).assert().code(3);
+    let answer = phong(&folder, &["figure", "cosine", "-d", "file"]).assert().code(2);
     let words = String::from_utf8(answer.get_output().stderr.clone()).unwrap();
-    assert!(words.contains("cannot write file"), "{words}");
+    assert!(words.contains("cannot make the folder file"), "{words}");
 }

@@ -98,6 +98,86 @@ fn values_out_of_range_are_refused_with_the_way_out() {
 }
 
 #[test]
+fn negative_values_are_told_their_range() {
+    let folder = given(&[("a.toml", BALLS)]);
+    for (words, told) in [
+        ("--samples -1", "from 1 to 1048576"),
+        ("--depth -3", "from 0 to 1024"),
+        ("--seed -1", "from 0 to 18446744073709551615"),
+        ("--threads -2", "from 1 to 4096"),
+        ("--crop -1,0,1,1", "four whole numbers"),
+        ("--size -4x3", "width and height in pixels"),
+        ("--tile -1/2", "like 0/4"),
+        ("--color -1,0,0", "none below 0"),
+        ("--background -1", "none below 0"),
+        ("--fov -40", "degrees"),
+        ("--max-memory -1", "write bytes"),
+    ] {
+        let then = folder.when(&format!("render a.toml {words}"));
+        then.is_refused(&[words.split(' ').next().unwrap(), told]);
+        assert!(!then.err.contains("unexpected argument"), "{}", then.err);
+    }
+    for words in ["explain a.toml -1 2", "explain a.toml 1 -2", "explain a.toml 1 2 --sample -1"] {
+        folder.when(words).is_refused(&["write a whole number from"]);
+    }
+}
+
+#[test]
+fn a_name_that_is_nearly_right_is_told_the_right_one() {
+    let folder = given(&[
+        ("scene.toml", BALLS),
+        ("fong.toml", &BALLS.replace("[materials.mirror]", "[materials.mirror]\nmodel = \"fong\"")),
+    ]);
+    folder.when("render scene.toml --aov depht").is_refused(&["did you mean `depth`?"]);
+    folder.when("check fong.toml").is_refused(&["fong.toml:13:9", "did you mean `phong`?"]);
+    folder.when("check scene.tml --format toml").is_refused(&["did you mean `scene.toml`?"]);
+    folder
+        .when("compare scene.tml fong.png")
+        .is_refused(&["scene.tml", "did you mean `scene.toml`?"]);
+    folder.when("fit phong:3 blin-phong").is_refused(&["did you mean `blinn-phong`?"]);
+    folder.when("man rendr").is_refused(&["did you mean `render`?"]);
+    folder.when("check scene.toml --format tolm").is_refused(&["did you mean `toml`?"]);
+}
+
+#[test]
+fn what_the_system_says_is_told_in_words() {
+    let folder = given(&[("a.toml", BALLS), ("bad.toml", "[[mesh]]\nfile = \"no.obj\"\n")]);
+    std::fs::create_dir(folder.path("folder.toml")).unwrap();
+    for words in [
+        "render no.toml",
+        "render no.obj",
+        "render no/such.ply",
+        "render a.toml/b.toml",
+        "render folder.toml",
+        "render bad.toml",
+        "compare no.png no.png",
+        "compare folder.toml/ folder.toml/",
+        "grade a.toml no.png",
+        "grade a.toml folder.toml",
+        "merge no.part -o a.png",
+        "merge folder.toml -o a.png",
+        "render a.toml -o a.toml/b.png",
+        "convert a.toml no/such.ply",
+        "figure vectors -d a.toml",
+        "figure vectors -d a.toml/b",
+    ] {
+        let then = folder.when(words);
+        assert_eq!(then.code, Some(2), "{words}: {}", then.err);
+        assert!(!then.err.contains("os error"), "{words}: {}", then.err);
+    }
+    folder.when("render no.toml").is_refused(&["no.toml", "there is no such file", "its folder"]);
+    folder.when("render no/such.ply").is_refused(&["there is no folder no"]);
+    folder.when("render folder.toml").is_refused(&["it is a folder", "name a file in it"]);
+}
+
+#[test]
+fn too_little_memory_for_a_text_is_told_with_what_it_takes() {
+    let folder = given(&[("a.toml", BALLS)]);
+    let needed = format!("may take {} bytes of memory; 1024 are allowed", 85 * BALLS.len());
+    folder.when("render a.toml --max-memory 1k").is_refused(&["a.toml", &needed]);
+}
+
+#[test]
 fn a_picture_that_memory_cannot_hold_is_refused() {
     let folder = given(&[("a.toml", BALLS)]);
     folder

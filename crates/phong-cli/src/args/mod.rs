@@ -9,7 +9,8 @@ use clap::builder::styling::AnsiColor;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 pub(crate) use values::{
-    Crop, PictureSize, ShareOf, Vec3Arg, aov, background, bytes, crop, format, share, size, vector,
+    Crop, PictureSize, ShareOf, Vec3Arg, aov, background, bytes, crop, input_help, share, size,
+    vector, whole, written_format, written_help,
 };
 
 use crate::command;
@@ -67,16 +68,14 @@ pub(crate) enum Command {
 /// What to read, and how.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct InputArgs {
-    /// A .toml scene or a bare model (.obj .ply .stl .gltf .glb .pdb .cif .xyz .dat .nff);
-    /// - reads standard input, with --format
+    #[arg(help = values::input_help())]
     pub(crate) input: String,
 
-    /// What INPUT is, whatever its name says: toml, obj, ply, stl, ...
-    #[arg(long, value_name = "NAME", value_parser = values::format)]
+    #[arg(long, value_name = "NAME", value_parser = values::format, help = values::format_help())]
     pub(crate) format: Option<phong_scene::Format>,
 
     /// Memory to use at most; over it is an error. Plain bytes, or with k, M or G (powers of 1024)
-    #[arg(long, value_name = "BYTES", value_parser = values::bytes)]
+    #[arg(long, value_name = "BYTES", value_parser = values::bytes, allow_hyphen_values = true)]
     pub(crate) max_memory: Option<u64>,
 
     /// Make warnings errors
@@ -116,11 +115,11 @@ pub(crate) struct ViewArgs {
     pub(crate) up: Option<Vec3Arg>,
 
     /// Vertical field of view in degrees
-    #[arg(long, value_name = "DEGREES", value_parser = values::fov)]
+    #[arg(long, value_name = "DEGREES", value_parser = values::fov, allow_hyphen_values = true)]
     pub(crate) fov: Option<f64>,
 
     /// Colour of a bare model: "#rrggbb", a CSS name, or r,g,b (linear)
-    #[arg(long, value_name = "COLOR", value_parser = values::color)]
+    #[arg(long, value_name = "COLOR", value_parser = values::color, allow_hyphen_values = true)]
     pub(crate) color: Option<phong_scene::Rgb>,
 }
 

@@ -1,7 +1,10 @@
 //! Values of options, from text.
 
+use std::fmt::Display;
+use std::str::FromStr;
+
 use phong::aov::Aov;
-use phong_scene::{Background, ColorError, Format, Rgb};
+use phong_scene::{Background, ColorError, Format, Rgb, closest};
 
 /// Three numbers.
 pub(crate) type Vec3Arg = [f64; 3];
@@ -109,6 +112,7 @@ pub(crate) fn exposure(text: &str) -> Result<f64, String> {
 pub(crate) fn bytes(text: &str) -> Result<u64, String> {
     let text = text.trim();
     let end = text.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(text.len());
+    let number: f64 = text[..end].parse().map_err(|_| "write bytes, like 500M or 2G".to_owned())?;
     let shift = match text[end..].trim() {
         "" | "B" | "b" => 0,
         "k" | "K" | "kB" | "KB" | "KiB" => 10,
@@ -117,7 +121,6 @@ pub(crate) fn bytes(text: &str) -> Result<u64, String> {
         "T" | "t" | "TB" | "TiB" => 40,
         unit => return Err(format!("`{unit}` is no unit: k, M, G or T (powers of 1024)")),
     };
-    let number: f64 = text[..end].parse().map_err(|_| "write bytes, like 500M or 2G".to_owned())?;
     Ok((number * (1_u64 << shift) as f64) as u64)
 }
 
@@ -142,17 +145,74 @@ pub(crate) fn background(text: &str) -> Result<Background, String> {
     color(text).map(Background::Color)
 }
 
-/// The name of an arbitrary output variable.
-pub(crate) fn aov(text: &str) -> Result<Aov, String> {
-    Aov::from_name(text.trim())
-        .ok_or_else(|| format!("write one of {}", Aov::ALL.map(Aov::name).join(", ")))
+/// A whole number from `least` to `most`.
+pub(crate) fn whole<T>(least: T, most: T) -> impl Fn(&str) -> Result<T, String> + Clone
+where
+    T: FromStr + PartialOrd + Display + Copy,
+{
+    move |text| {
+        let number = text.trim().parse().ok().filter(|number| (least..=most).contains(number));
+        number.ok_or_else(|| format!("write a whole number from {least} to {most}"))
+    }
 }
 
-/// A format's usual ending, with or without its dot.
+/// The name of an arbitrary output variable.
+pub(crate) fn aov(text: &str) -> Result<Aov, String> {
+    let names = Aov::ALL.map(Aov::name);
+    Aov::from_name(text.trim()).ok_or_else(|| one_of(text, &names))
+}
+
+/// A format's ending, with or without its dot. One that is known but not read is the reader's to
+/// refuse.
 pub(crate) fn format(text: &str) -> Result<Format, String> {
-    Format::of_ending(text.trim_start_matches('.')).ok_or_else(|| {
-        "write one of toml, obj, ply, stl, gltf, glb, pdb, cif, xyz, dat, nff".to_owned()
-    })
+    known_format(text, &Format::READ)
+}
+
+/// The same, where it is one to write.
+pub(crate) fn written_format(text: &str) -> Result<Format, String> {
+    known_format(text, &Format::WRITTEN)
+}
+
+fn known_format(text: &str, usual: &[Format]) -> Result<Format, String> {
+    let text = text.trim_start_matches('.');
+    let names: Vec<&str> = usual.iter().map(|format| format.ending()).collect();
+    Format::of_ending(text).ok_or_else(|| one_of(text, &names))
+}
+
+/// What INPUT may be.
+pub(crate) fn input_help() -> String {
+    let models = Format::READ.iter().filter(|format| format.is_bare());
+    let models: Vec<_> = models.map(|format| format!(".{}", format.ending())).collect();
+    format!(
+        "A .toml scene or a bare model ({}); - reads standard input, with --format",
+        models.join(" ")
+    )
+}
+
+/// What `--format` may be.
+pub(crate) fn format_help() -> String {
+    format!("What INPUT is, whatever its name says: {}", alternatives(&Format::READ))
+}
+
+/// What `--to` may be.
+pub(crate) fn written_help() -> String {
+    format!("What OUT is, whatever its name says: {}", alternatives(&Format::WRITTEN))
+}
+
+/// `toml, obj or ply`.
+fn alternatives(formats: &[Format]) -> String {
+    let names: Vec<&str> = formats.iter().map(|format| format.ending()).collect();
+    names
+        .split_last()
+        .map_or_else(String::new, |(last, rest)| format!("{} or {last}", rest.join(", ")))
+}
+
+/// What is said of a word that is none of those known.
+fn one_of(text: &str, names: &[&str]) -> String {
+    match closest(text, names.iter().copied()) {
+        Some(name) => format!("did you mean `{name}`? There are {}", names.join(", ")),
+        None => format!("write one of {}", names.join(", ")),
+    }
 }
 
 fn finite(text: &str) -> Option<f64> {
@@ -203,6 +263,22 @@ mod tests {
         assert_eq!(up("1,2,-3"), Ok([1.0, 2.0, -3.0]));
         assert!(up("0,0,0").is_err());
         assert!(up("w").is_err());
+    }
+
+    #[test]
+    fn a_whole_number_is_told_its_range() {
+        let samples = whole(1_u32, 9);
+        assert_eq!((samples("1"), samples("9")), (Ok(1), Ok(9)));
+        for wrong in ["0", "10", "-1", "1.5", "", "4294967297", "x"] {
+            assert_eq!(samples(wrong).unwrap_err(), "write a whole number from 1 to 9");
+        }
+    }
+
+    #[test]
+    fn a_misspelt_name_is_told_the_nearest() {
+        assert!(aov("depht").unwrap_err().starts_with("did you mean `depth`?"));
+        assert!(aov("beauty").unwrap_err().starts_with("write one of depth, "));
+        assert!(format("tmol").unwrap_err().starts_with("did you mean `toml`?"));
     }
 
     #[test]

@@ -16,6 +16,7 @@ use serde_json::{Value, json};
 use super::fit::trouble;
 use super::render::ImageArgs;
 use crate::failure::Failure;
+use crate::input::unreadable;
 use crate::output::Output;
 use crate::report;
 
@@ -63,7 +64,7 @@ pub(crate) struct Args {
     pub(crate) json: bool,
 
     /// Memory to use at most, as for render
-    #[arg(long, value_name = "BYTES", value_parser = crate::args::bytes)]
+    #[arg(long, value_name = "BYTES", value_parser = crate::args::bytes, allow_hyphen_values = true)]
     pub(crate) max_memory: Option<u64>,
 
     /// Make warnings of scenes errors
@@ -204,7 +205,7 @@ fn hold(a: &str, b: &str, [one, two]: &[Picture; 2]) -> Result<Comparison, Failu
 /// An image, read.
 pub(crate) fn read(path: &Path) -> Result<Picture, Failure> {
     let at_fault = |why: String| Failure::usage(format!("{}: {why}", path.display()));
-    let bytes = fs::read(path).map_err(|error| at_fault(error.to_string()))?;
+    let bytes = fs::read(path).map_err(|error| unreadable(path, &error))?;
     Picture::read(&bytes).map_err(|error| at_fault(error.to_string()))
 }
 

@@ -10,7 +10,7 @@ use phong_scene::{
 use serde_json::json;
 
 use super::check;
-use crate::args::{InputArgs, ViewArgs, format};
+use crate::args::{InputArgs, PictureSize, ViewArgs, size, written_format, written_help};
 use crate::failure::Failure;
 use crate::output::{Output, keep_inputs_safe};
 use crate::progress::Meter;
@@ -19,6 +19,7 @@ use crate::{input, memory, report};
 const EXAMPLES: &str = "\
 Examples:
   phong convert dragon.ply dragon.toml --view front    # a scene to go on with: camera, lights
+  phong convert dragon.ply dragon.toml --size 600x800  # framed for a picture on end
   phong convert scene.toml scene.obj                   # and scene.mtl, with what MTL can hold
   phong convert model.obj model.ply --strict           # refused if anything would be lost
   phong convert scene.toml - --to ply > scene.ply
@@ -37,16 +38,16 @@ pub(crate) struct Args {
     #[arg(value_name = "OUT")]
     output: PathBuf,
 
-    /// What OUT is, whatever its name says: toml, obj or ply
-    #[arg(long, value_name = "NAME", value_parser = format)]
+    #[arg(long, value_name = "NAME", value_parser = written_format, help = written_help())]
     to: Option<Format>,
 
     /// PLY files as text instead of binary
     #[arg(long)]
     ascii: bool,
 
-    #[command(flatten)]
-    view: ViewArgs,
+    /// Width and height of the scene's picture, which a bare model is framed for
+    #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true)]
+    size: Option<PictureSize>,
 
     /// The report as one JSON object on standard output
     #[arg(long)]
@@ -55,6 +56,10 @@ pub(crate) struct Args {
     /// No talk but errors
     #[arg(short, long)]
     quiet: bool,
+
+    // Last: its heading holds for all that follows.
+    #[command(flatten)]
+    view: ViewArgs,
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
@@ -69,6 +74,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 
     let meter = Meter::new(args.quiet, "reading");
     let mut input = input::open(&args.input, args.quiet)?;
+    let image = &mut input.scene.image;
+    image.size = args.size.map_or(image.size, |size| size.0);
     input::look(&mut input.scene, input.bare, &args.view)?;
     meter.stage("converting");
     let ply = if args.ascii { PlyEncoding::Ascii } else { PlyEncoding::Binary };
@@ -133,7 +140,7 @@ fn output_format(args: &Args) -> Result<Format, Failure> {
     let format = args.to.or_else(|| Format::of_path(&args.output.to_string_lossy()));
     let help = "end OUT in .toml, .obj or .ply, or give --to";
     match format {
-        Some(format @ (Format::Toml | Format::Obj | Format::Ply)) => Ok(format),
+        Some(format) if Format::WRITTEN.contains(&format) => Ok(format),
         Some(other) => {
             Err(Failure::usage(format!("{other} files are not written yet")).with_help(help))
         }

@@ -10,7 +10,7 @@ use phong::film::{LayerKind, Window};
 use phong::image::{self, Content, Encoding, Format};
 use phong::render::{Cancel, RenderOptions, render};
 
-use crate::args::{InputArgs, ViewArgs};
+use crate::args::{self, InputArgs, ViewArgs};
 use crate::command::render::ImageArgs;
 use crate::compile::compile;
 use crate::failure::Failure;
@@ -30,16 +30,23 @@ X runs to the right and Y down from 0, 0 at the upper left.";
 
 /// Why is this pixel this colour: every vector, term, shadow test and ray, with numbers
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(
+    after_help = EXAMPLES,
+    override_usage = "phong explain [OPTIONS] <INPUT> <X> <Y>\n       \
+                      phong explain [OPTIONS] <INPUT> --html <FILE>"
+)]
 pub(crate) struct Args {
     #[command(flatten)]
     pub(crate) input: InputArgs,
 
     /// Column of the pixel, from 0 at the left
-    #[arg(required_unless_present = "html", requires = "y")]
+    #[arg(required_unless_present = "html", requires = "y", value_parser = place())]
+    #[arg(allow_negative_numbers = true)]
     pub(crate) x: Option<u32>,
 
     /// Row of the pixel, from 0 at the top
+    #[arg(required_unless_present = "html", value_parser = place())]
+    #[arg(allow_negative_numbers = true)]
     pub(crate) y: Option<u32>,
 
     /// One JSON object on standard output
@@ -60,7 +67,7 @@ pub(crate) struct Args {
     pub(crate) html: Option<PathBuf>,
 
     /// Which sample to tell in full, from 1 [default: the first; text tells all of up to 2]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", value_parser = args::whole(1, u32::MAX), allow_hyphen_values = true)]
     pub(crate) sample: Option<u32>,
 
     /// Tell mirror and glass rays too that bring less than half a level
@@ -107,6 +114,11 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         write_page(args, &scene, &mut options, output, path)?;
     }
     Output::commit(svg.into_iter().chain(html).collect())
+}
+
+/// A column or a row.
+fn place() -> impl Fn(&str) -> Result<u32, String> + Clone {
+    args::whole(0, u32::MAX)
 }
 
 /// The sample to tell in full, from 0.

@@ -1,6 +1,7 @@
 //! `phong figure`: the lecture's figures.
 
 use std::fmt::Write as _;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use clap::builder::PossibleValuesParser;
@@ -39,7 +40,13 @@ fn names() -> PossibleValuesParser {
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let Some(name) = &args.name else { return list() };
     let folder = &args.folder;
-    std::fs::create_dir_all(folder).map_err(|error| Failure::writing(folder, &error))?;
+    std::fs::create_dir_all(folder).map_err(|error| match error.kind() {
+        ErrorKind::AlreadyExists | ErrorKind::NotADirectory | ErrorKind::PermissionDenied => {
+            Failure::usage(format!("cannot make the folder {}", folder.display()))
+                .with_help("give another one with --dir, where you may write")
+        }
+        _ => Failure::writing(folder, &error),
+    })?;
     let mut drawn = Vec::new();
     for entry in CATALOGUE.iter().filter(|entry| name == ALL || name == entry.name) {
         let figure = entry.draw(Finish::Slide);

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use phong::fit::plot::svg;
 use phong::fit::{Fit, FitError, Lobe, Model, fit, hold};
+use phong_scene::closest;
 use serde_json::{Value as Json, json};
 
 use crate::failure::Failure;
@@ -82,10 +83,9 @@ fn find(from: &str, to: &str) -> Result<Fit, FitError> {
 pub(super) fn trouble(error: &FitError) -> Failure {
     let failure = Failure::usage(error.to_string());
     let FitError::UnknownModel { name } = error else { return failure };
-    let near = |model: &Model| strsim::damerau_levenshtein(name, model.name());
-    match Model::ALL.iter().min_by_key(|model| near(model)) {
-        Some(model) if near(model) <= 2 => failure.with_help(format!("did you mean `{model}`?")),
-        _ => failure,
+    match closest(name, Model::ALL.iter().map(|model| model.name())) {
+        Some(name) => failure.with_help(format!("did you mean `{name}`?")),
+        None => failure,
     }
 }
 

@@ -1,9 +1,8 @@
 //! `phong man`: the manual page.
 
-use std::io;
-
 use clap::CommandFactory;
 use clap_mangen::Man;
+use phong_scene::{closest, trouble};
 
 use crate::args::Cli;
 use crate::failure::Failure;
@@ -27,17 +26,25 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut program = Cli::command();
     program.build();
     let page = match &args.command {
-        None => program,
-        Some(name) => program.find_subcommand(name).cloned().ok_or_else(|| {
-            Failure::usage(format!("there is no command `{name}`"))
-                .with_help("`phong --help` lists the commands")
-        })?,
+        None => Man::new(program),
+        Some(name) => page_of(&program, name)?,
     };
     let mut troff = Vec::new();
-    render(page, &mut troff).map_err(|e| Failure::System(format!("no manual page: {e}")))?;
+    page.source(concat!("phong ", env!("CARGO_PKG_VERSION")))
+        .render(&mut troff)
+        .map_err(|e| Failure::System(format!("no manual page: {}", trouble(&e))))?;
     report::data(&troff)
 }
 
-fn render(page: clap::Command, out: &mut Vec<u8>) -> io::Result<()> {
-    Man::new(page).render(out)
+/// A command's own page, called as one looks it up: `phong-render`.
+fn page_of(program: &clap::Command, name: &str) -> Result<Man, Failure> {
+    let found = program.find_subcommand(name).cloned().ok_or_else(|| {
+        let names = program.get_subcommands().map(clap::Command::get_name);
+        let help = closest(name, names).map_or_else(
+            || "`phong --help` lists the commands".to_owned(),
+            |name| format!("did you mean `{name}`?"),
+        );
+        Failure::usage(format!("there is no command `{name}`")).with_help(help)
+    })?;
+    Ok(Man::new(found).title(format!("phong-{name}")))
 }

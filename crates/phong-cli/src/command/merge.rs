@@ -1,6 +1,5 @@
 //! `phong merge`: shares of a picture put together.
 
-use std::fs::File;
 use std::io::BufReader;
 use std::path::PathBuf;
 
@@ -8,6 +7,7 @@ use phong::part::{Join, Part};
 
 use crate::args::EncodingArgs;
 use crate::failure::Failure;
+use crate::input::open_file;
 use crate::memory;
 use crate::output::keep_inputs_safe;
 use crate::plan::Outputs;
@@ -39,7 +39,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut join = Join::default();
     for path in &args.parts {
         let at_fault = |why: String| Failure::usage(format!("{}: {why}", path.display()));
-        let file = File::open(path).map_err(|error| at_fault(error.to_string()))?;
+        let file = open_file(path)?;
         let part = Part::read(&mut BufReader::with_capacity(1 << 18, file), limit)
             .map_err(|error| at_fault(error.to_string()))?;
         let joined = join.add(&path.display().to_string(), part);

@@ -70,19 +70,19 @@ pub(crate) struct Args {
 #[command(next_help_heading = "Picture")]
 pub(crate) struct ImageArgs {
     /// Width and height in pixels
-    #[arg(long, value_name = "WxH", value_parser = args::size)]
+    #[arg(long, value_name = "WxH", value_parser = args::size, allow_hyphen_values = true)]
     pub(crate) size: Option<PictureSize>,
 
     /// Samples a pixel
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    #[arg(long, value_name = "N", value_parser = args::whole(1_u32, 1 << 20), allow_hyphen_values = true)]
     pub(crate) samples: Option<u32>,
 
     /// Seed of the sampling pattern
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = args::whole(0, u64::MAX), allow_hyphen_values = true)]
     pub(crate) seed: Option<u64>,
 
     /// Mirror and glass bounces; beyond it a ray brings black
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(..=1 << 10))]
+    #[arg(long, value_name = "N", value_parser = args::whole(0_u32, 1 << 10), allow_hyphen_values = true)]
     pub(crate) depth: Option<u32>,
 
     /// Every light reaches everything
@@ -90,11 +90,11 @@ pub(crate) struct ImageArgs {
     pub(crate) no_shadows: bool,
 
     /// What rays see that hit nothing: a colour as for --color, or transparent
-    #[arg(long, value_name = "COLOR", value_parser = args::background)]
+    #[arg(long, value_name = "COLOR", value_parser = args::background, allow_hyphen_values = true)]
     pub(crate) background: Option<phong_scene::Background>,
 
     /// Only these pixels; X1 and Y1 lie outside, and the file has the size of the crop
-    #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = args::crop)]
+    #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = args::crop, allow_hyphen_values = true)]
     pub(crate) crop: Option<Crop>,
 }
 
@@ -103,11 +103,11 @@ pub(crate) struct ImageArgs {
 #[command(next_help_heading = "Work")]
 pub(crate) struct WorkArgs {
     /// Threads to use [default: all cores]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    #[arg(long, value_name = "N", value_parser = args::whole(1_u32, 4096), allow_hyphen_values = true)]
     pub(crate) threads: Option<u32>,
 
     /// Only share I (from 0) of N; OUT becomes a part, which `phong merge` takes
-    #[arg(long, value_name = "I/N", value_parser = args::share)]
+    #[arg(long, value_name = "I/N", value_parser = args::share, allow_hyphen_values = true)]
     pub(crate) tile: Option<ShareOf>,
 
     /// Keep a checkpoint OUT.part while rendering, and go on from it if there is one

@@ -3,7 +3,7 @@
 use phong::eval::{Directions, Lobe, Query};
 use phong::math::Dir3;
 use phong::reflectance::{Distribution, Fresnel, Incident, OrenNayarForm, Shadowing, WardForm};
-use phong_scene::Rgb;
+use phong_scene::{Rgb, closest};
 use serde_json::{Map, Value as Json};
 
 /// Every model by name.
@@ -43,7 +43,7 @@ const SLACK: f64 = 1e-3;
 /// given as one number each.
 pub(super) fn read(object: &Map<String, Json>) -> Result<(Query, bool), String> {
     if let Some(key) = object.keys().find(|key| !KEYS.contains(&key.as_str())) {
-        let way_out = nearest(key, &KEYS)
+        let way_out = closest(key, KEYS)
             .map_or_else(|| format!("it has id, {}", KEYS.join(", ")), did_you_mean);
         return Err(format!("a query has no `{key}`; {way_out}"));
     }
@@ -169,7 +169,7 @@ impl<'a> Fields<'a> {
                 )?,
             },
             unknown => {
-                let way_out = nearest(unknown, &MODELS)
+                let way_out = closest(unknown, MODELS)
                     .map_or_else(|| "`phong eval --help` lists them".to_owned(), did_you_mean);
                 return Err(format!("no model `{unknown}`; {way_out}"));
             }
@@ -361,7 +361,7 @@ impl<'a> Fields<'a> {
         let Some(key) = self.params.keys().find(|key| !self.asked.contains(&key.as_str())) else {
             return Ok(());
         };
-        let way_out = match (nearest(key, &self.asked), self.asked.is_empty()) {
+        let way_out = match (closest(key, self.asked.iter().copied()), self.asked.is_empty()) {
             (Some(name), _) => did_you_mean(name),
             (None, true) => "it has none".to_owned(),
             (None, false) => format!("it has {}", self.asked.join(", ")),
@@ -419,13 +419,6 @@ fn kind(value: &Json) -> &'static str {
         Json::Array(_) => "a list",
         Json::Object(_) => "an object",
     }
-}
-
-/// The name that was probably meant.
-fn nearest<'n>(typed: &str, names: &[&'n str]) -> Option<&'n str> {
-    let distance = |name: &str| strsim::damerau_levenshtein(typed, name);
-    let best = names.iter().copied().min_by_key(|name| distance(name))?;
-    (distance(best) <= best.len().div_ceil(3)).then_some(best)
 }
 
 fn did_you_mean(name: &str) -> String {
