@@ -2,16 +2,15 @@
 
 use std::ops::Range;
 
-use fearless_simd::Simd;
 use thiserror::Error;
 
 use crate::{
-    Coordinates, Geometry, Hit, Level, Plane, Ray, Surface,
+    Coordinates, Geometry, Hit, Hits8, Level, Ray, Rays8, Surface,
     build::{self, Tree},
     level::{Kernel, Token},
     reference,
     surface::{self, Surfaces, Surfaces8},
-    traverse::{Best, Meter, World},
+    traverse::{Best, Meter, Planes, World},
 };
 
 /// A built hierarchy, with the geometry it was built from.
@@ -184,17 +183,6 @@ impl Bvh {
         })
     }
 
-    /// Calls `met` with the number of a ray, the distance and the primitive for each ray and each of
-    /// the planes that it meets.
-    fn planes_of_many(&self, rays: &[Ray], mut met: impl FnMut(usize, f32, u32)) {
-        for &index in &self.planes {
-            if let Geometry::Plane(plane) = &self.geometry[index] {
-                let prim = self.first[index];
-                self.token.run(PlaneOfMany { plane, rays, met: |i, t| met(i, t, prim) });
-            }
-        }
-    }
-
     fn world(&self) -> World<'_> {
         World::new(&self.tree, &self.geometry, &self.first, self.token)
     }
@@ -212,13 +200,8 @@ impl Bvh {
     pub fn intersect_bundle(&self, rays: &[Ray], hits: &mut [Hit]) {
         assert_eq!(rays.len(), hits.len(), "one hit for each ray");
         for (ray, hit) in rays.iter().zip(&mut *hits) {
-            *hit = Best::new(ray.t_max).0;
+            *hit = self.outside(ray, &mut ()).0;
         }
-        self.planes_of_many(rays, |i, t, prim| {
-            let mut best = Best(hits[i]);
-            best.offer(t, prim, 0.0, 0.0);
-            hits[i] = best.0;
-        });
         self.world().closest_of_many(rays, hits);
         for hit in hits {
             *hit = Best(*hit).hit();
@@ -231,9 +214,33 @@ impl Bvh {
     /// If `blocked` has not the length of `rays`.
     pub fn occluded_bundle(&self, rays: &[Ray], blocked: &mut [bool]) {
         assert_eq!(rays.len(), blocked.len(), "one answer for each ray");
-        blocked.fill(false);
-        self.planes_of_many(rays, |i, _, _| blocked[i] = true);
+        for (ray, blocked) in rays.iter().zip(&mut *blocked) {
+            *blocked = self.blocked_outside(ray);
+        }
         self.world().any_of_many(rays, blocked);
+    }
+
+    /// [`Bvh::intersect`] for each ray of a bundle of eights: the same bits. Where few things are in
+    /// the scene it is faster than one behind the other; those that are missing hit nothing.
+    ///
+    /// # Panics
+    /// If `hits` has not the length of `rays`.
+    pub fn intersect_eights(&self, rays: &[Rays8], hits: &mut [Hits8]) {
+        assert_eq!(rays.len(), hits.len(), "eight hits for eight rays");
+        self.world().closest_of_eights(self.outside_of_tree(), rays, hits);
+    }
+
+    /// [`Bvh::occluded`] for each ray of a bundle of eights, a bit each, the lowest for the first.
+    ///
+    /// # Panics
+    /// If `blocked` has not the length of `rays`.
+    pub fn occluded_eights(&self, rays: &[Rays8], blocked: &mut [u32]) {
+        assert_eq!(rays.len(), blocked.len(), "an answer for eight rays");
+        self.world().any_of_eights(self.outside_of_tree(), rays, blocked);
+    }
+
+    fn outside_of_tree(&self) -> Planes<'_> {
+        Planes { geometry: &self.geometry, which: &self.planes, first: &self.first }
     }
 
     /// [`Bvh::intersect`] with what it cost.
@@ -255,13 +262,13 @@ impl Bvh {
         surface::surface(self, ray, hit)
     }
 
-    /// [`Bvh::surface`] of up to eight rays of a bundle, `of` being their numbers: the same bits.
+    /// [`Bvh::surface`] of a bundle of eights: the same bits, and 0 for rays without a hit.
     ///
     /// # Panics
-    /// If one of them has no hit, or there are more than eight.
-    pub fn surface8(&self, rays: &[Ray], hits: &[Hit], of: &[u32]) -> Surfaces8 {
-        assert!(of.len() <= 8, "{} rays are more than eight", of.len());
-        self.token.run(Surfaces { bvh: self, rays, hits, of })
+    /// If `hits` or `surfaces` has not the length of `rays`.
+    pub fn surface_eights(&self, rays: &[Rays8], hits: &[Hits8], surfaces: &mut [Surfaces8]) {
+        assert_eq!((rays.len(), rays.len()), (hits.len(), surfaces.len()), "one for each");
+        self.token.run(Surfaces { bvh: self, rays, hits, surfaces });
     }
 
     /// Where on its surface a hit of `ray` is.
@@ -288,35 +295,5 @@ impl Bvh {
     #[cfg(test)]
     pub(crate) fn tree(&self) -> &Tree {
         &self.tree
-    }
-}
-
-/// A plane met by many rays.
-struct PlaneOfMany<'a, F> {
-    plane: &'a Plane,
-    rays: &'a [Ray],
-    met: F,
-}
-
-impl<F: FnMut(usize, f32)> Kernel for PlaneOfMany<'_, F> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<S: Simd>(self, simd: S) {
-        let Self { plane, rays, mut met } = self;
-        let (fours, rest) = rays.as_chunks::<4>();
-        for (i, [a, b, c, d]) in fours.iter().enumerate() {
-            let (mut hit, t) = plane.intersect4(simd, [a, b, c, d]);
-            while hit != 0 {
-                let lane = hit.trailing_zeros() as usize;
-                hit &= hit - 1;
-                met(4 * i + lane, t[lane]);
-            }
-        }
-        for (i, ray) in rest.iter().enumerate() {
-            if let Some(t) = plane.intersect(ray) {
-                met(4 * fours.len() + i, t);
-            }
-        }
     }
 }

@@ -9,6 +9,7 @@
 mod aabb;
 mod build;
 mod bvh;
+mod eights;
 mod geometry;
 mod level;
 mod node8;
@@ -23,6 +24,7 @@ mod validate;
 
 pub use aabb::Aabb;
 pub use bvh::{BuildError, BuildOptions, Bvh, Cost, Preset, Stats};
+pub use eights::{Hits8, Rays8, lanes};
 pub use geometry::{Canonical, Geometry, Plane, Solid, Sphere};
 pub use level::{Kernel, Level};
 pub use ray::{Coordinates, Hit, Ray, Surface};

@@ -3,7 +3,8 @@
 
 use glam::{DAffine3, DVec3, Vec3};
 use phong_bvh::{
-    BuildOptions, Bvh, Canonical, Geometry, Hit, Level, Plane, Preset, Ray, Solid, Sphere,
+    BuildOptions, Bvh, Canonical, Geometry, Hit, Hits8, Level, Plane, Preset, Ray, Rays8, Solid,
+    Sphere,
 };
 use proptest::prelude::*;
 
@@ -149,6 +150,13 @@ fn agrees_with_brute_force(geometry: &[Geometry], rays: &[Ray]) {
         let mut blocked = vec![false; rays.len()];
         bvh.intersect_bundle(rays, &mut hits);
         bvh.occluded_bundle(rays, &mut blocked);
+        let mut eights = Rays8::of(rays);
+        // A gap in each.
+        eights.iter_mut().for_each(|rays| rays.there &= !0b100);
+        let mut hits8 = vec![Hits8::NONE; eights.len()];
+        let mut blocked8 = vec![0; eights.len()];
+        bvh.intersect_eights(&eights, &mut hits8);
+        bvh.occluded_eights(&eights, &mut blocked8);
         for (i, (ray, want)) in rays.iter().zip(expected).enumerate() {
             let one = bvh.intersect(ray);
             assert_eq!(bits(one), bits(*want), "{ray:?} {one:?} {want:?} {options:?}");
@@ -156,6 +164,10 @@ fn agrees_with_brute_force(geometry: &[Geometry], rays: &[Ray]) {
             assert_eq!(bits(bvh.intersect_counted(ray).0), bits(*want), "counted");
             assert_eq!(bvh.occluded(ray), want.is_some(), "occluded: {ray:?} {options:?}");
             assert_eq!(blocked[i], want.is_some(), "occluded bundle: {ray:?} {options:?}");
+            let want = if i % 8 == 2 { Hit::NONE } else { *want };
+            assert_eq!(bits(hits8[i / 8].get(i % 8)), bits(want), "eights: {ray:?} {options:?}");
+            let blocked = blocked8[i / 8] >> (i % 8) & 1 != 0;
+            assert_eq!(blocked, want.is_some(), "occluded eights: {ray:?} {options:?}");
         }
     }
 }

@@ -1,10 +1,13 @@
 //! From a place in the picture to a ray.
 
-use fearless_simd::Simd;
+use std::ops::{Add, Div, Mul};
+
+use fearless_simd::{Simd, f64x4, prelude::*};
 use glam::{DVec2, DVec3, Vec3};
-use phong_bvh::{Bvh, Kernel, Ray};
+use phong_bvh::{Ray, Rays8};
 use phong_scene::CameraKind;
 
+use crate::math::lanes::store3;
 use crate::math::{Dir3, wide};
 
 /// A camera set up in f64, in the compiled scene's space.
@@ -67,7 +70,7 @@ impl Camera {
     #[inline]
     pub fn ray(&self, place: DVec2, size: [u32; 2], lens: [f32; 2]) -> Option<Ray> {
         let (width, height) = (f64::from(size[0]), f64::from(size[1]));
-        let [x, y] = from_the_middle(place, width, height);
+        let [x, y] = from_the_middle(place.to_array(), width, height);
         let (origin, dir) = match self.kind {
             CameraKind::Perspective { .. } if self.aperture == 0.0 => {
                 return Some(Ray::new(self.eye.as_vec3(), Vec3::from(self.pinhole(x, y))));
@@ -97,30 +100,46 @@ impl Camera {
         matches!(self.kind, CameraKind::Perspective { .. }) && self.aperture == 0.0
     }
 
-    /// [`Camera::ray`] through many places, of a camera that [is a pinhole](Camera::is_pinhole).
-    pub(crate) fn pinhole_rays(
+    /// The rays of [`Camera::ray`] through eight places, of a camera that
+    /// [is a pinhole](Camera::is_pinhole).
+    #[inline(always)]
+    pub(crate) fn pinhole_rays<S: Simd>(
         &self,
-        bvh: &Bvh,
-        places: &[DVec2],
+        simd: S,
+        [x, y]: [[f64x4<S>; 2]; 2],
         size: [u32; 2],
-        rays: &mut Vec<Ray>,
-    ) {
-        bvh.run(PinholeRays { camera: self, places, size, rays });
+    ) -> Rays8 {
+        let (width, height) = (f64::from(size[0]), f64::from(size[1]));
+        let four = |x: f64x4<S>, y: f64x4<S>| {
+            let [x, y] = from_the_middle([x, y], width, height);
+            let [x, y, z] = self.toward(x, y);
+            let inverse = f64x4::splat(simd, 1.0) / (x * x + y * y + z * z).sqrt();
+            [x * inverse, y * inverse, z * inverse]
+        };
+        let (low, high) = (four(x[0], y[0]), four(x[1], y[1]));
+        let dir = [low[0].narrow(high[0]), low[1].narrow(high[1]), low[2].narrow(high[2])];
+        let Vec3 { x, y, z } = self.eye.as_vec3();
+        Rays8 { origin: [[x; 8], [y; 8], [z; 8]], dir: store3(dir), there: 0xff, ..Rays8::NONE }
     }
 
     /// The direction through a place, half heights off the picture's middle: unit, since no
     /// direction is shorter than `forward`.
-    #[inline(always)]
     fn pinhole(&self, x: f64, y: f64) -> [f32; 3] {
-        let Self { right, up, forward, half, .. } = self;
-        let toward = |r: f64, u: f64, f: f64| half * (x * r + y * u) + f;
-        let (x, y, z) = (
-            toward(right.x, up.x, forward.x),
-            toward(right.y, up.y, forward.y),
-            toward(right.z, up.z, forward.z),
-        );
+        let [x, y, z] = self.toward(x, y);
         let inverse = 1.0 / (x * x + y * y + z * z).sqrt();
         [(x * inverse) as f32, (y * inverse) as f32, (z * inverse) as f32]
+    }
+
+    /// A place of the picture, half heights off its middle, seen from the eye.
+    #[inline(always)]
+    fn toward<F: Wide>(&self, x: F, y: F) -> [F; 3] {
+        let Self { right, up, forward, half, .. } = self;
+        let along = |r: f64, u: f64, f: f64| (x * r + y * u) * *half + f;
+        [
+            along(right.x, up.x, forward.x),
+            along(right.y, up.y, forward.y),
+            along(right.z, up.z, forward.z),
+        ]
     }
 
     /// The direction at a place of the image circle, whose radius is 1; `None` outside.
@@ -155,38 +174,23 @@ impl Camera {
     }
 }
 
+/// A number in f64, or four: what a place in the picture is worked out in.
+trait Wide:
+    Copy
+    + Add<Output = Self>
+    + Add<f64, Output = Self>
+    + Mul<f64, Output = Self>
+    + Div<f64, Output = Self>
+{
+}
+
+impl Wide for f64 {}
+impl<S: Simd> Wide for f64x4<S> {}
+
 /// A place from the picture's middle, in half heights; y up.
 #[inline(always)]
-fn from_the_middle(place: DVec2, width: f64, height: f64) -> [f64; 2] {
-    [(2.0 * place.x - width) / height, (height - 2.0 * place.y) / height]
-}
-
-struct PinholeRays<'a> {
-    camera: &'a Camera,
-    places: &'a [DVec2],
-    size: [u32; 2],
-    rays: &'a mut Vec<Ray>,
-}
-
-impl Kernel for PinholeRays<'_> {
-    type Output = ();
-
-    /// Plain code: what is done here for eight at a time is the compiler's work.
-    #[inline(always)]
-    fn run<S: Simd>(self, _: S) {
-        let Self { camera, places, size, rays } = self;
-        let (width, height) = (f64::from(size[0]), f64::from(size[1]));
-        let eye = camera.eye.as_vec3();
-        for places in places.chunks(8) {
-            let mut dirs = [[0.0; 8]; 3];
-            for (lane, &place) in places.iter().enumerate() {
-                let [x, y] = from_the_middle(place, width, height);
-                [dirs[0][lane], dirs[1][lane], dirs[2][lane]] = camera.pinhole(x, y);
-            }
-            let dir = |lane: usize| Vec3::new(dirs[0][lane], dirs[1][lane], dirs[2][lane]);
-            rays.extend((0..places.len()).map(|lane| Ray::new(eye, dir(lane))));
-        }
-    }
+fn from_the_middle<F: Wide>([x, y]: [F; 2], width: f64, height: f64) -> [F; 2] {
+    [(x * 2.0 + -width) / height, (y * -2.0 + height) / height]
 }
 
 /// A point of the unit disc from one of the unit square, areas kept (Shirley and Chiu 1997).
@@ -251,13 +255,19 @@ mod tests {
             DVec3::new(0.25, 0.0, 0.0),
         );
         assert!(camera.is_pinhole());
-        let places: Vec<_> =
-            (0..43).map(|i| DVec2::new(0.93 * f64::from(i), 0.41 * f64::from(i))).collect();
-        let mut many = Vec::new();
-        let bvh = Bvh::build(Vec::new(), phong_bvh::BuildOptions::default()).unwrap();
-        camera.pinhole_rays(&bvh, &places, SIZE, &mut many);
-        let one: Vec<_> = places.iter().map(|&p| camera.ray(p, SIZE, MIDDLE).unwrap()).collect();
-        assert_eq!(many, one);
+        let simd = fearless_simd::Fallback::new();
+        for i in 0..6 {
+            let place = |lane: usize| DVec2::new(0.93, 0.41) * (8 * i + lane) as f64;
+            let column = |axis: usize, from: usize| -> f64x4<_> {
+                let at = |k: usize| place(from + k)[axis];
+                [at(0), at(1), at(2), at(3)].simd_into(simd)
+            };
+            let places = [[column(0, 0), column(0, 4)], [column(1, 0), column(1, 4)]];
+            let rays = camera.pinhole_rays(simd, places, SIZE);
+            for lane in 0..8 {
+                assert_eq!(Some(rays.get(lane)), camera.ray(place(lane), SIZE, MIDDLE));
+            }
+        }
     }
 
     #[test]

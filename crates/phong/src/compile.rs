@@ -6,8 +6,11 @@
 mod flatten;
 mod geometry;
 
+use fearless_simd::{Simd, f32x8, mask32x8, prelude::*, u32x8};
 use glam::{DVec3, Vec3};
-use phong_bvh::{BuildError, BuildOptions, Bvh, Coordinates, Geometry, Hit, Preset, Ray, Surface};
+use phong_bvh::{
+    BuildError, BuildOptions, Bvh, Coordinates, Geometry, Hit, Hits8, Preset, Ray, Surface, lanes,
+};
 use phong_scene::{Image, MaterialId, Place, Rgb, Scene};
 use thiserror::Error;
 
@@ -16,6 +19,7 @@ use crate::interaction::SurfaceInteraction;
 use crate::light::Light;
 use crate::material::Material;
 use crate::math::Dir3;
+use crate::math::lanes::{Lanes3, dot, load3, select3, set, splat3, store3};
 use geometry::Part;
 
 /// A scene that rays can meet. Immutable; shared freely between threads.
@@ -56,6 +60,19 @@ pub(crate) struct Dressed {
     pub(crate) material: u32,
     /// The diffuse colour.
     pub(crate) color: Rgb,
+}
+
+/// What belongs to eight surfaces besides their geometry: [`Dressed`], number by number.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(32))]
+pub(crate) struct Dressed8 {
+    pub(crate) n: Lanes3,
+    pub(crate) color: Lanes3,
+    pub(crate) material: [u32; 8],
+}
+
+impl Dressed8 {
+    pub(crate) const NONE: Self = Self { n: [[0.0; 8]; 3], color: [[0.0; 8]; 3], material: [0; 8] };
 }
 
 /// How to compile.
@@ -241,19 +258,66 @@ impl CompiledScene {
 
     /// What belongs to the surface at a hit besides its geometry; its normal is `ng`, and `e` leads
     /// to the eye.
-    #[inline(always)]
-    pub(crate) fn dressed(&self, hit: &Hit, ng: Dir3, e: Dir3) -> Dressed {
+    fn dressed(&self, hit: &Hit, ng: Dir3, e: Dir3) -> Dressed {
         let (index, local) = self.bvh.locate(hit.prim);
         let part = &self.parts[index];
         let material = part.material(local);
         let own = self.materials[material as usize].color;
-        if part.is_plain() {
-            return Dressed { n: ng.facing(e), material, color: own };
-        }
         let corners = self.corners(index, local);
         let n = corners.and_then(|c| part.normal(local, c, hit)).unwrap_or(ng);
         let color = part.color(local, corners, hit).unwrap_or(own);
         Dressed { n: n.facing(e), material, color }
+    }
+
+    /// [`CompiledScene::dressed`] of those of eight surfaces that were met, a bit each: the same bits.
+    #[inline(always)]
+    pub(crate) fn dress<S: Simd>(
+        &self,
+        simd: S,
+        hits: &Hits8,
+        ng: [f32x8<S>; 3],
+        e: [f32x8<S>; 3],
+        dressed: &mut Dressed8,
+    ) {
+        let Dressed8 { n, color, material } = dressed;
+        let zero = f32x8::splat(simd, 0.0);
+        *n = store3(ng);
+        let mut left = hits.mask();
+        while left != 0 {
+            // Neighbours are mostly of one part.
+            let first = left.trailing_zeros() as usize & 7;
+            let (index, local) = self.bvh.locate(hits.prim[first]);
+            let (part, start) = (&self.parts[index], hits.prim[first] - local);
+            let len = self.bvh.geometry()[index].len() as u32;
+            let mut same = 0;
+            for (lane, &prim) in hits.prim.iter().enumerate() {
+                same |= u32::from(prim.wrapping_sub(start) < len) << lane;
+            }
+            same &= left;
+            left &= !same;
+            if let (Some(number), true) = (part.only_material(), part.is_plain()) {
+                let own = splat3(simd, self.materials[number as usize].color.to_array());
+                let lanes = mask32x8::from_bitmask(simd, same.into());
+                *color = store3(select3(lanes, own, load3(simd, color)));
+                let old = u32x8::load_array_ref(simd, material);
+                lanes.select(u32x8::splat(simd, number), old).store_array(material);
+                continue;
+            }
+            for lane in lanes(same) {
+                let (hit, local) = (hits.get(lane), hits.prim[lane] - start);
+                let corners = self.corners(index, local);
+                let own = part.material(local);
+                material[lane] = own;
+                let own = self.materials[own as usize].color;
+                set(color, lane, part.color(local, corners, &hit).unwrap_or(own).to_array());
+                if let Some(normal) = corners.and_then(|c| part.normal(local, c, &hit)) {
+                    set(n, lane, normal.to_array());
+                }
+            }
+        }
+        let up = load3(simd, n);
+        let away = dot(up, e).simd_lt(zero);
+        *n = store3(select3(away, [-up[0], -up[1], -up[2]], up));
     }
 
     /// Where on its surface a hit of `ray` is: a mesh's own texture coordinates, if it has some.

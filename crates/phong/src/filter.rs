@@ -35,8 +35,19 @@ impl Filter {
         Self { shape }
     }
 
+    /// [`Filter::sample`] of eight points: the offsets across, those down, and the weights.
+    #[inline(always)]
+    pub(crate) fn sample8(&self, [u, v]: [[f32; 8]; 2]) -> [[f32; 8]; 3] {
+        let mut out = [[0.0; 8]; 3];
+        for lane in 0..8 {
+            let FilterSample { offset: [x, y], weight } = self.sample([u[lane], v[lane]]);
+            (out[0][lane], out[1][lane], out[2][lane]) = (x, y, weight);
+        }
+        out
+    }
+
     /// Draws a sample from a point of the unit square; (½, ½) is the pixel's centre.
-    #[inline]
+    #[inline(always)]
     pub fn sample(&self, [u, v]: [f32; 2]) -> FilterSample {
         let Some(table) = &self.shape else {
             return FilterSample { offset: [u - 0.5, v - 0.5], weight: 1.0 };

@@ -67,6 +67,20 @@ impl Material {
         }
     }
 
+    /// [`Material::ambient`] of eight surfaces.
+    #[inline(always)]
+    pub(crate) fn ambient8<S: Simd>(&self, color: [f32x8<S>; 3], ambient: Rgb) -> [f32x8<S>; 3] {
+        let like = |c: Rgb| [color[0].like(c.r), color[0].like(c.g), color[0].like(c.b)];
+        match self.ambient_rule {
+            AmbientRule::Once | AmbientRule::Both => {
+                let [r, g, b] = self.ambient_color.map_or(color, like);
+                let k_a = self.k_a;
+                [r * ambient.r * k_a, g * ambient.g * k_a, b * ambient.b * k_a]
+            }
+            AmbientRule::PerLight => like(Rgb::BLACK),
+        }
+    }
+
     /// Whether mirror or glass rays go on from it.
     pub fn bounces(&self) -> bool {
         !(self.reflection.is_black() && self.transmission.is_black())

@@ -54,19 +54,6 @@ impl Sampler {
         if self.centred { [0.5, 0.5] } else { self.scrambled(purpose) }
     }
 
-    /// [`Sampler::pair`] of eight samplers of as many samples: straight code, which the compiler
-    /// makes vector code of.
-    #[inline(always)]
-    pub(crate) fn pair8(samplers: &[Self; 8], purpose: Use) -> [[f32; 8]; 2] {
-        let mut out = [[0.5; 8]; 2];
-        if !samplers[0].centred {
-            for (lane, sampler) in samplers.iter().enumerate() {
-                [out[0][lane], out[1][lane]] = sampler.scrambled(purpose);
-            }
-        }
-        out
-    }
-
     #[inline(always)]
     fn scrambled(&self, purpose: Use) -> [f32; 2] {
         let dimension = match purpose {
@@ -81,6 +68,53 @@ impl Sampler {
         let x = scramble(index.reverse_bits(), hash(key ^ 0x68bc_21eb));
         let y = scramble(sobol(index), hash(key ^ 0x02e5_be93));
         [unit(x), unit(y)]
+    }
+}
+
+/// Eight samplers of pictures with as many samples, side by side.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(32))]
+pub struct Samplers8 {
+    key: [u32; 8],
+    index: [u32; 8],
+    centred: bool,
+}
+
+impl Samplers8 {
+    /// The same one eight times.
+    pub fn splat(Sampler { key, index, centred }: Sampler) -> Self {
+        Self { key: [key; 8], index: [index; 8], centred }
+    }
+
+    /// Puts another into one lane, below 8, of a picture with as many samples.
+    #[inline]
+    pub fn set(&mut self, lane: usize, sampler: Sampler) {
+        (self.key[lane], self.index[lane]) = (sampler.key, sampler.index);
+    }
+
+    /// The one in a lane, below 8.
+    #[inline]
+    pub fn get(&self, lane: usize) -> Sampler {
+        Sampler { key: self.key[lane], index: self.index[lane], centred: self.centred }
+    }
+
+    /// [`Sampler::at`] of each.
+    #[inline]
+    #[must_use]
+    pub fn at(&self, index: u32) -> Self {
+        Self { index: [index; 8], ..*self }
+    }
+
+    /// [`Sampler::pair`] of each: straight code, which the compiler makes vector code of.
+    #[inline(always)]
+    pub(crate) fn pair(&self, purpose: Use) -> [[f32; 8]; 2] {
+        let mut out = [[0.5; 8]; 2];
+        if !self.centred {
+            for lane in 0..8 {
+                [out[0][lane], out[1][lane]] = self.get(lane).scrambled(purpose);
+            }
+        }
+        out
     }
 }
 
@@ -192,11 +226,12 @@ mod tests {
     #[test]
     fn eight_pairs_have_the_bits_of_one() {
         for count in [1, 16] {
-            let samplers =
-                std::array::from_fn(|i| Sampler::new([i as u32, 9], i as u32 % 3, count, 5));
-            let [x, y] = Sampler::pair8(&samplers, Use::Pixel);
-            for (i, sampler) in samplers.iter().enumerate() {
-                assert_eq!([x[i], y[i]], sampler.pair(Use::Pixel));
+            let own = |i: usize| Sampler::new([i as u32, 9], i as u32 % 3, count, 5);
+            let mut samplers = Samplers8::splat(own(0));
+            (0..8).for_each(|i| samplers.set(i, own(i)));
+            let [x, y] = samplers.pair(Use::Pixel);
+            for i in 0..8 {
+                assert_eq!([x[i], y[i]], own(i).pair(Use::Pixel));
             }
         }
     }

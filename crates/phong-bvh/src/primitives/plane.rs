@@ -3,10 +3,10 @@
 //! With `p = o + t d`: `t = (point − o) · normal / (d · normal)`. A ray within the plane, or along
 //! it, meets nothing. A plane has no bounds, so it stays out of every tree.
 
-use fearless_simd::{Simd, f32x4, f64x4, prelude::*};
+use fearless_simd::{Simd, f32x8, f64x4, mask32x8, prelude::*};
 use glam::DVec3;
 
-use crate::{Plane, Ray};
+use crate::{Plane, Ray, Rays8};
 
 impl Plane {
     /// The distance at which `ray` meets the plane, or none; both sides count.
@@ -24,26 +24,27 @@ impl Plane {
         (point - o).dot(*normal) / d.dot(*normal)
     }
 
-    /// [`Plane::intersect`] for four rays: the lanes that are hit, and where.
+    /// [`Plane::intersect`] for eight rays: the lanes that are hit, and where.
     #[inline(always)]
-    pub(crate) fn intersect4<S: Simd>(&self, simd: S, [a, b, c, d]: [&Ray; 4]) -> (u32, [f32; 4]) {
+    pub(crate) fn intersect8<S: Simd>(&self, simd: S, rays: &Rays8) -> (mask32x8<S>, f32x8<S>) {
+        let load = |lanes: &[f32; 8]| f32x8::load_array_ref(simd, lanes);
+        let Rays8 { origin: [ox, oy, oz], dir: [dx, dy, dz], t_min, t_max, .. } = rays;
+        let (o, d) = ([load(ox), load(oy), load(oz)], [load(dx), load(dy), load(dz)]);
+        let (ox, oy, oz) = (o[0].widen(), o[1].widen(), o[2].widen());
+        let (dx, dy, dz) = (d[0].widen(), d[1].widen(), d[2].widen());
+        let low = self.solve4([ox.0, oy.0, oz.0], [dx.0, dy.0, dz.0]);
+        let high = self.solve4([ox.1, oy.1, oz.1], [dx.1, dy.1, dz.1]);
+        let t: f32x8<S> = low.narrow(high);
+        (load(t_min).simd_lt(t) & t.simd_lt(load(t_max)), t)
+    }
+
+    /// [`Plane::solve`] for four rays.
+    #[inline(always)]
+    fn solve4<S: Simd>(&self, o: [f64x4<S>; 3], d: [f64x4<S>; 3]) -> f64x4<S> {
         let Self { point, normal } = self;
-        let four =
-            |f: &dyn Fn(&Ray) -> f32| -> f32x4<S> { [f(a), f(b), f(c), f(d)].simd_into(simd) };
-        let wide = |f: &dyn Fn(&Ray) -> f32| -> f64x4<S> {
-            [f(a).into(), f(b).into(), f(c).into(), f(d).into()].simd_into(simd)
-        };
-        let off = (point.x - wide(&|r| r.origin.x)) * normal.x
-            + (point.y - wide(&|r| r.origin.y)) * normal.y
-            + (point.z - wide(&|r| r.origin.z)) * normal.z;
-        let along = wide(&|r| r.dir.x) * normal.x
-            + wide(&|r| r.dir.y) * normal.y
-            + wide(&|r| r.dir.z) * normal.z;
-        let t: [f64; 4] = (off / along).into();
-        let t = [t[0] as f32, t[1] as f32, t[2] as f32, t[3] as f32];
-        let t4: f32x4<S> = t.simd_into(simd);
-        let hit = four(&|r| r.t_min).simd_lt(t4) & t4.simd_lt(four(&|r| r.t_max));
-        (hit.to_bitmask() as u32, t)
+        let off =
+            (point.x - o[0]) * normal.x + (point.y - o[1]) * normal.y + (point.z - o[2]) * normal.z;
+        off / (d[0] * normal.x + d[1] * normal.y + d[2] * normal.z)
     }
 
     /// Two unit vectors that span the plane: along growing u and v, with `u × v = normal`.
@@ -76,7 +77,7 @@ mod tests {
     }
 
     #[test]
-    fn four_rays_take_the_steps_of_one() {
+    fn eight_rays_take_the_steps_of_one() {
         let plane =
             Plane { point: DVec3::new(0.1, -2.0, 0.7), normal: DVec3::new(0.6, -0.48, 0.64) };
         let ray = |i: u32| {
@@ -85,12 +86,11 @@ mod tests {
             Ray { t_max: 3.0 + x(7), ..Ray::new(3.0 * Vec3::new(x(1), x(2), x(3)), dir) }
         };
         let mut met = 0;
-        for i in (0..400).step_by(4) {
-            let rays = [ray(i), ray(i + 1), ray(i + 2), ray(i + 3)];
-            let [a, b, c, d] = &rays;
-            let (hit, t) = plane.intersect4(fearless_simd::Fallback::new(), [a, b, c, d]);
+        let rays: Vec<Ray> = (0..400).map(ray).collect();
+        for (rays, eight) in rays.chunks(8).zip(Rays8::of(&rays)) {
+            let (hit, t) = plane.intersect8(fearless_simd::Fallback::new(), &eight);
             for (lane, ray) in rays.iter().enumerate() {
-                let found = (hit >> lane & 1 != 0).then_some(t[lane]);
+                let found = (hit.to_bitmask() >> lane & 1 != 0).then_some(t[lane]);
                 assert_eq!(found, plane.intersect(ray));
                 met += u32::from(found.is_some());
             }

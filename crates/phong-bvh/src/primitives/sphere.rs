@@ -10,9 +10,9 @@
 //! The first of the two `t` that the ray counts is the hit: from within, the far side.
 //! One lane and eight lanes take the same steps in f32, so they agree bit for bit.
 
-use fearless_simd::{Simd, f32x8, prelude::*};
+use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 
-use crate::{Sphere, node8::Row, primitives::splat3, ray::Ray};
+use crate::{Rays8, Sphere, node8::Row, primitives::splat3, ray::Ray};
 
 /// What the test needs of a ray.
 #[derive(Clone, Copy, Debug)]
@@ -82,25 +82,18 @@ impl<S: Simd> Closest8<S> {
         }
     }
 
-    /// Up to eight rays, one in each lane; lanes beyond the last repeat it.
+    /// Eight rays, one in each lane.
     #[inline(always)]
-    pub(crate) fn of_rays(simd: S, rays: &[Ray]) -> Self {
-        let (mut origin, mut dir) = ([[0.0; 8]; 3], [[0.0; 8]; 3]);
-        let (mut t_min, mut t_max) = ([0.0; 8], [0.0; 8]);
-        for lane in 0..8 {
-            let ray = &rays[lane.min(rays.len() - 1)];
-            (origin[0][lane], origin[1][lane], origin[2][lane]) = ray.origin.into();
-            (dir[0][lane], dir[1][lane], dir[2][lane]) = ray.dir.into();
-            (t_min[lane], t_max[lane]) = (ray.t_min, ray.t_max);
-        }
+    pub(crate) fn of_rays(simd: S, rays: &Rays8) -> Self {
         let load = |lanes: &[f32; 8]| f32x8::load_array_ref(simd, lanes);
+        let Rays8 { origin, dir, t_min, t_max, .. } = rays;
         let [x, y, z] = [load(&dir[0]), load(&dir[1]), load(&dir[2])];
         Self {
             origin: [load(&origin[0]), load(&origin[1]), load(&origin[2])],
             dir: [x, y, z],
             scale: f32x8::splat(simd, 1.0) / (x * x + y * y + z * z),
-            t_min: load(&t_min),
-            t_max: load(&t_max),
+            t_min: load(t_min),
+            t_max: load(t_max),
         }
     }
 
@@ -108,23 +101,30 @@ impl<S: Simd> Closest8<S> {
     #[inline(always)]
     pub(crate) fn intersect(&self, simd: S, block: &[Row; BLOCK]) -> (u32, f32x8<S>) {
         let load = |row: usize| f32x8::load_array_ref(simd, &block[row].0);
-        self.meet(simd, [load(0), load(1), load(2)], load(3))
+        let met = self.meet(simd, [load(0), load(1), load(2)], load(3));
+        met.map_or((0, f32x8::splat(simd, 0.0)), |(hit, t)| (hit.to_bitmask() as u32, t))
     }
 
-    /// The lanes that are hit, and where: eight rays against the sphere in one lane of a block.
+    /// The lanes that are hit, and where: eight rays against the sphere in one lane of a block. None
+    /// where all of them miss it widely.
     #[inline(always)]
     pub(crate) fn intersect_one(
         &self,
         simd: S,
         block: &[Row; BLOCK],
         lane: usize,
-    ) -> (u32, f32x8<S>) {
+    ) -> Option<(mask32x8<S>, f32x8<S>)> {
         let splat = |row: usize| f32x8::splat(simd, block[row].0[lane]);
         self.meet(simd, [splat(0), splat(1), splat(2)], splat(3))
     }
 
     #[inline(always)]
-    fn meet(&self, simd: S, center: [f32x8<S>; 3], radius: f32x8<S>) -> (u32, f32x8<S>) {
+    fn meet(
+        &self,
+        simd: S,
+        center: [f32x8<S>; 3],
+        radius: f32x8<S>,
+    ) -> Option<(mask32x8<S>, f32x8<S>)> {
         let [dx, dy, dz] = self.dir;
         let cx = center[0] - self.origin[0];
         let cy = center[1] - self.origin[1];
@@ -137,12 +137,12 @@ impl<S: Simd> Closest8<S> {
         let inside = radius * radius - (fx * fx + fy * fy + fz * fz);
         let hit = inside.simd_ge(zero);
         if !hit.any_true() {
-            return (0, zero);
+            return None;
         }
         let h = (inside.max(zero) * self.scale).sqrt();
         let (enter, leave) = (b - h, b + h);
         let t = enter.simd_gt(self.t_min).select(enter, leave);
-        ((hit & t.simd_gt(self.t_min) & t.simd_lt(self.t_max)).to_bitmask() as u32, t)
+        Some((hit & t.simd_gt(self.t_min) & t.simd_lt(self.t_max), t))
     }
 }
 

@@ -19,14 +19,16 @@
 
 mod point;
 
-use fearless_simd::{Simd, f64x4, prelude::*};
+use std::ops::Range;
+
+use fearless_simd::{Simd, f32x8, f64x4, mask32x8, prelude::*};
 use glam::{DVec2, DVec3, Vec3};
 
 use self::point::{
     Point, corners, flat, line, on_plane, on_sphere, rounded, sphere, triangle, unit,
 };
 use crate::{
-    Bvh, Coordinates, Geometry, Hit, Kernel, Ray, Sphere, Surface,
+    Bvh, Coordinates, Geometry, Hit, Hits8, Kernel, Ray, Rays8, Sphere, Surface, lanes,
     primitives::{ellipsoid, solid::Patch},
 };
 
@@ -96,98 +98,164 @@ pub struct Surfaces8 {
     pub ng: [[f32; 8]; 3],
 }
 
-/// [`surface`] of up to eight rays, `of` being their numbers.
+impl Surfaces8 {
+    fn set(&mut self, lane: usize, Surface { p, p_error, ng }: Surface) {
+        for axis in 0..3 {
+            self.p[axis][lane] = p[axis];
+            self.p_error[axis][lane] = p_error[axis];
+            self.ng[axis][lane] = ng[axis];
+        }
+    }
+}
+
+/// [`surface`] of a bundle of eights.
 pub(crate) struct Surfaces<'a> {
     pub(crate) bvh: &'a Bvh,
-    pub(crate) rays: &'a [Ray],
-    pub(crate) hits: &'a [Hit],
-    pub(crate) of: &'a [u32],
+    pub(crate) rays: &'a [Rays8],
+    pub(crate) hits: &'a [Hits8],
+    pub(crate) surfaces: &'a mut [Surfaces8],
 }
 
 impl Kernel for Surfaces<'_> {
-    type Output = Surfaces8;
+    type Output = ();
 
     #[inline(always)]
-    fn run<S: Simd>(self, simd: S) -> Surfaces8 {
-        let Self { bvh, rays, hits, of } = self;
-        let mut out = Surfaces8::default();
-        let geometry = |of: u32| bvh.locate(hits[of as usize].prim).0;
-        let Some(first) = of.first().map(|&of| geometry(of)) else { return out };
-        let plain = !matches!(bvh.geometry()[first], Geometry::Solid(_));
-        if !plain || of.iter().any(|&of| geometry(of) != first) {
-            for (lane, &of) in of.iter().enumerate() {
-                let Surface { p, p_error, ng } =
-                    surface(bvh, &rays[of as usize], &hits[of as usize]);
-                for axis in 0..3 {
-                    out.p[axis][lane] = p[axis];
-                    out.p_error[axis][lane] = p_error[axis];
-                    out.ng[axis][lane] = ng[axis];
+    fn run<S: Simd>(self, simd: S) {
+        let Self { bvh, rays, hits, surfaces } = self;
+        for ((rays, hits), out) in rays.iter().zip(hits).zip(surfaces) {
+            *out = Surfaces8::default();
+            let mut left = hits.mask();
+            while left != 0 {
+                // Neighbours are mostly of one geometry.
+                let first = hits.prim[left.trailing_zeros() as usize & 7];
+                let (index, local) = bvh.locate(first);
+                let same = left & within(&hits.prim, &bvh.primitives(index));
+                left &= !same;
+                match &bvh.geometry()[index] {
+                    Geometry::Solid(_) => {
+                        for lane in lanes(same) {
+                            out.set(lane, surface(bvh, &rays.get(lane), &hits.get(lane)));
+                        }
+                    }
+                    geometry => {
+                        // The other lanes repeat the first.
+                        let mut locals = [local as usize; 8];
+                        for (lane, own) in locals.iter_mut().enumerate() {
+                            if same >> lane & 1 != 0 {
+                                *own = (hits.prim[lane] - (first - local)) as usize;
+                            }
+                        }
+                        let met = eight(simd, geometry, &locals, rays, hits);
+                        let same = mask32x8::from_bitmask(simd, same.into());
+                        put(simd, &mut out.p, same, met.p);
+                        put(simd, &mut out.p_error, same, met.p_error);
+                        put(simd, &mut out.ng, same, met.ng);
+                    }
                 }
             }
-            return out;
         }
-        let base = bvh.primitives(first).start;
-        // The lanes beyond the last repeat it.
-        let of = |lane: usize| of[lane.min(of.len() - 1)] as usize;
-        let low = four(simd, &bvh.geometry()[first], base, rays, hits, of);
-        let high = four(simd, &bvh.geometry()[first], base, rays, hits, |lane| of(lane + 4));
-        for axis in 0..3 {
-            out.p[axis] = low.p[axis].narrow(high.p[axis]).into();
-            out.p_error[axis] = low.p_error[axis].narrow(high.p_error[axis]).into();
-            out.ng[axis] = low.ng[axis].narrow(high.ng[axis]).into();
-        }
-        out
     }
 }
 
-/// The surfaces of four rays that met one geometry.
+/// The numbers that are in a range, a bit each.
 #[inline(always)]
-fn four<S: Simd>(
+fn within(prim: &[u32; 8], range: &Range<u32>) -> u32 {
+    let mut mask = 0;
+    for (lane, &prim) in prim.iter().enumerate() {
+        mask |= u32::from(prim.wrapping_sub(range.start) < range.end - range.start) << lane;
+    }
+    mask
+}
+
+#[inline(always)]
+fn put<S: Simd>(simd: S, to: &mut [[f32; 8]; 3], lanes: mask32x8<S>, value: [f32x8<S>; 3]) {
+    for axis in 0..3 {
+        let old = f32x8::load_array_ref(simd, &to[axis]);
+        lanes.select(value[axis], old).store_array(&mut to[axis]);
+    }
+}
+
+/// The surfaces of eight rays that met primitives of one geometry.
+#[inline(always)]
+fn eight<S: Simd>(
     simd: S,
     geometry: &Geometry,
-    base: u32,
-    rays: &[Ray],
-    hits: &[Hit],
-    of: impl Fn(usize) -> usize,
-) -> Point<f64x4<S>> {
-    let [a, b, c, d] = [of(0), of(1), of(2), of(3)];
-    let wide = |v: [f32; 4]| -> f64x4<S> {
-        [f64::from(v[0]), f64::from(v[1]), f64::from(v[2]), f64::from(v[3])].simd_into(simd)
-    };
-    let wide3 = |a: Vec3, b: Vec3, c: Vec3, d: Vec3| {
-        [wide([a.x, b.x, c.x, d.x]), wide([a.y, b.y, c.y, d.y]), wide([a.z, b.z, c.z, d.z])]
-    };
-    let local = |of: usize| (hits[of].prim - base) as usize;
-    match geometry {
+    locals: &[usize; 8],
+    rays: &Rays8,
+    hits: &Hits8,
+) -> Point<f32x8<S>> {
+    let load = |lanes: &[f32; 8]| f32x8::load_array_ref(simd, lanes).widen();
+    let Rays8 { origin: [ox, oy, oz], dir: [dx, dy, dz], .. } = rays;
+    let (ox, oy, oz) = (load(ox), load(oy), load(oz));
+    let (dx, dy, dz) = (load(dx), load(dy), load(dz));
+    let (low_o, high_o) = ([ox.0, oy.0, oz.0], [ox.1, oy.1, oz.1]);
+    let (low_d, high_d) = ([dx.0, dy.0, dz.0], [dx.1, dy.1, dz.1]);
+    let [a, b, c, d, e, f, g, h] = *locals;
+    let (low, high) = match geometry {
         Geometry::Triangles { positions, indices } => {
-            let [ia, ib, ic, id] =
-                [indices[local(a)], indices[local(b)], indices[local(c)], indices[local(d)]];
-            let at = |i: u32| positions[i as usize];
-            let corners = [
-                wide3(at(ia[0]), at(ib[0]), at(ic[0]), at(id[0])),
-                wide3(at(ia[1]), at(ib[1]), at(ic[1]), at(id[1])),
-                wide3(at(ia[2]), at(ib[2]), at(ic[2]), at(id[2])),
-            ];
-            let u = wide([hits[a].u, hits[b].u, hits[c].u, hits[d].u]);
-            let v = wide([hits[a].v, hits[b].v, hits[c].v, hits[d].v]);
-            triangle(corners, u, v)
+            let (u, v) = (load(&hits.u), load(&hits.v));
+            let four = |of| corners_of_four(simd, positions, indices, of);
+            (triangle(four([a, b, c, d]), u.0, v.0), triangle(four([e, f, g, h]), u.1, v.1))
         }
         Geometry::Spheres(spheres) => {
-            let [sa, sb, sc, sd] =
-                [spheres[local(a)], spheres[local(b)], spheres[local(c)], spheres[local(d)]];
-            let o = wide3(rays[a].origin, rays[b].origin, rays[c].origin, rays[d].origin);
-            let d3 = wide3(rays[a].dir, rays[b].dir, rays[c].dir, rays[d].dir);
-            let t = wide([hits[a].t, hits[b].t, hits[c].t, hits[d].t]);
-            let center = wide3(sa.center, sb.center, sc.center, sd.center);
-            sphere(center, wide([sa.radius, sb.radius, sc.radius, sd.radius]), o, d3, t)
+            let t = load(&hits.t);
+            let (center, radius) = four_spheres(simd, spheres, [a, b, c, d]);
+            let low = sphere(center, radius, low_o, low_d, t.0);
+            let (center, radius) = four_spheres(simd, spheres, [e, f, g, h]);
+            (low, sphere(center, radius, high_o, high_d, t.1))
         }
-        Geometry::Plane(plane) => {
-            let o = wide3(rays[a].origin, rays[b].origin, rays[c].origin, rays[d].origin);
-            let d3 = wide3(rays[a].dir, rays[b].dir, rays[c].dir, rays[d].dir);
-            flat(plane, o, d3)
-        }
+        Geometry::Plane(plane) => (flat(plane, low_o, low_d), flat(plane, high_o, high_d)),
         Geometry::Solid(_) => unreachable!("solids are worked out one by one"),
+    };
+    let join = |l: [f64x4<S>; 3], h: [f64x4<S>; 3]| -> [f32x8<S>; 3] {
+        [l[0].narrow(h[0]), l[1].narrow(h[1]), l[2].narrow(h[2])]
+    };
+    Point {
+        p: join(low.p, high.p),
+        p_error: join(low.p_error, high.p_error),
+        ng: join(low.ng, high.ng),
     }
+}
+
+#[inline(always)]
+fn wide<S: Simd>(simd: S, v: [f32; 4]) -> f64x4<S> {
+    [f64::from(v[0]), f64::from(v[1]), f64::from(v[2]), f64::from(v[3])].simd_into(simd)
+}
+
+#[inline(always)]
+fn wide3<S: Simd>(simd: S, [a, b, c, d]: [Vec3; 4]) -> [f64x4<S>; 3] {
+    [
+        wide(simd, [a.x, b.x, c.x, d.x]),
+        wide(simd, [a.y, b.y, c.y, d.y]),
+        wide(simd, [a.z, b.z, c.z, d.z]),
+    ]
+}
+
+#[inline(always)]
+fn four_spheres<S: Simd>(
+    simd: S,
+    spheres: &[Sphere],
+    [a, b, c, d]: [usize; 4],
+) -> ([f64x4<S>; 3], f64x4<S>) {
+    let [a, b, c, d] = [spheres[a], spheres[b], spheres[c], spheres[d]];
+    let center = wide3(simd, [a.center, b.center, c.center, d.center]);
+    (center, wide(simd, [a.radius, b.radius, c.radius, d.radius]))
+}
+
+#[inline(always)]
+fn corners_of_four<S: Simd>(
+    simd: S,
+    positions: &[Vec3],
+    indices: &[[u32; 3]],
+    [a, b, c, d]: [usize; 4],
+) -> [[f64x4<S>; 3]; 3] {
+    let [a, b, c, d] = [indices[a], indices[b], indices[c], indices[d]];
+    let at = |i: u32| positions[i as usize];
+    [
+        wide3(simd, [at(a[0]), at(b[0]), at(c[0]), at(d[0])]),
+        wide3(simd, [at(a[1]), at(b[1]), at(c[1]), at(d[1])]),
+        wide3(simd, [at(a[2]), at(b[2]), at(c[2]), at(d[2])]),
+    ]
 }
 
 /// Where on its surface a hit of `ray` is.

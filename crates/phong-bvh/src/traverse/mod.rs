@@ -2,27 +2,30 @@
 
 mod coherent;
 mod columns;
+mod eights;
 mod errand;
 mod frustum;
-mod handful;
 mod interleaved;
 mod leaves;
 mod single;
 mod slabs;
 mod walk;
 
+pub(crate) use self::eights::Planes;
+
 use std::{cell::RefCell, marker::PhantomData, ops::Range};
 
 use self::{
     coherent::{Entries, Entry, Together, is_coherent, same_octant},
+    eights::{AnyOfFew, ClosestOfFew},
     errand::{Any, Closest, Errand},
-    handful::{AnyOfHandful, ClosestOfHandful},
     interleaved::{Many, RAYS, Stacks},
     leaves::{Anything, Content, OnlySpheres, OnlyTriangles},
 };
 use crate::{
-    Cost, Geometry, Hit, Ray,
+    Cost, Geometry, Hit, Hits8, Ray, Rays8,
     build::Tree,
+    lanes,
     level::Token,
     node8::{Kind, Ref, Row, rows},
     primitives::sphere,
@@ -64,10 +67,6 @@ impl<'a> World<'a> {
 
     /// The closest hit of each ray; `hits` come with the best outside the tree.
     pub(crate) fn closest_of_many(&self, rays: &[Ray], hits: &mut [Hit]) {
-        if let Some(block) = self.handful() {
-            self.token.run(ClosestOfHandful { block, rays, hits });
-            return;
-        }
         match self.only {
             Some(Kind::Triangles) => self.many_in::<OnlyTriangles, _>(rays, Closest(hits)),
             Some(Kind::Spheres) => self.many_in::<OnlySpheres, _>(rays, Closest(hits)),
@@ -77,10 +76,6 @@ impl<'a> World<'a> {
 
     /// Whether each ray hits anything; those already `blocked` stay so.
     pub(crate) fn any_of_many(&self, rays: &[Ray], blocked: &mut [bool]) {
-        if let Some(block) = self.handful() {
-            self.token.run(AnyOfHandful { block, rays, blocked });
-            return;
-        }
         match self.only {
             Some(Kind::Triangles) => self.many_in::<OnlyTriangles, _>(rays, Any(blocked)),
             Some(Kind::Spheres) => self.many_in::<OnlySpheres, _>(rays, Any(blocked)),
@@ -88,10 +83,54 @@ impl<'a> World<'a> {
         }
     }
 
-    /// The only leaf, if the tree is one and holds spheres.
-    fn handful(&self) -> Option<&'a [Row; sphere::BLOCK]> {
-        let leaf = self.root.filter(|root| root.kind() == Some(Kind::Spheres))?;
-        Some(rows(self.rows, leaf.row()))
+    /// The closest hit of each ray, `planes` being the geometry outside the tree.
+    pub(crate) fn closest_of_eights(&self, planes: Planes<'a>, rays: &[Rays8], hits: &mut [Hits8]) {
+        let few = self.few();
+        self.token.run(ClosestOfFew { planes, block: few.unwrap_or(None), rays, hits });
+        if few.is_none() {
+            GATHERED.with_borrow_mut(|Gathered { rays: alone, hits: found, .. }| {
+                gather(rays, alone);
+                found.clear();
+                found.extend(all(rays).map(|(i, lane)| hits[i].get(lane)));
+                self.closest_of_many(alone, found);
+                for ((i, lane), &hit) in all(rays).zip(&*found) {
+                    hits[i].set(lane, hit);
+                }
+            });
+        }
+        for hits in hits {
+            for (t, prim) in hits.t.iter_mut().zip(hits.prim) {
+                *t = if prim == u32::MAX { f32::INFINITY } else { *t };
+            }
+        }
+    }
+
+    /// Whether each ray hits anything, a bit each.
+    pub(crate) fn any_of_eights(&self, planes: Planes<'a>, rays: &[Rays8], blocked: &mut [u32]) {
+        let few = self.few();
+        self.token.run(AnyOfFew { planes, block: few.unwrap_or(None), rays, blocked });
+        if few.is_none() {
+            GATHERED.with_borrow_mut(|Gathered { rays: alone, blocked: found, .. }| {
+                gather(rays, alone);
+                found.clear();
+                found.extend(all(rays).map(|(i, lane)| blocked[i] >> lane & 1 != 0));
+                self.any_of_many(alone, found);
+                for ((i, lane), &found) in all(rays).zip(&*found) {
+                    blocked[i] |= u32::from(found) << lane;
+                }
+            });
+        }
+    }
+
+    /// What the tree is, if it is a leaf of spheres at most.
+    fn few(&self) -> Option<Option<&'a [Row; sphere::BLOCK]>> {
+        match self.root {
+            None => Some(None),
+            Some(root) if root.kind() == Some(Kind::Spheres) => {
+                Some(Some(rows(self.rows, root.row())))
+            }
+            Some(_) => None,
+        }
     }
 
     /// Whether a ray hits anything.
@@ -159,7 +198,34 @@ thread_local! {
     /// Stacks of a thread: clearing one for each ray would cost a tenth of its time.
     static LONE: RefCell<single::Stack> = const { RefCell::new([0; STACK]) };
     static STACKS: RefCell<Stacks> = const { RefCell::new([walk::Stack::EMPTY; RAYS]) };
+    static GATHERED: RefCell<Gathered> = RefCell::default();
     static ENTRIES: RefCell<Entries> = const { RefCell::new([Entry::NONE; STACK]) };
+}
+
+/// Rays of eights one behind the other, and what they meet.
+#[derive(Default)]
+struct Gathered {
+    rays: Vec<Ray>,
+    hits: Vec<Hit>,
+    blocked: Vec<bool>,
+}
+
+/// The rays there are: the numbers of their eights and lanes.
+fn all(rays: &[Rays8]) -> impl Iterator<Item = (usize, usize)> {
+    rays.iter().enumerate().flat_map(|(i, rays)| lanes(rays.there).map(move |lane| (i, lane)))
+}
+
+fn gather(rays: &[Rays8], alone: &mut Vec<Ray>) {
+    alone.clear();
+    for rays in rays {
+        if rays.there == 0xff {
+            for lane in 0..8 {
+                alone.push(rays.get(lane));
+            }
+        } else {
+            alone.extend(lanes(rays.there).map(|lane| rays.get(lane)));
+        }
+    }
 }
 
 /// A bundle cut into runs: rays that go together, and others.

@@ -2,7 +2,8 @@
 
 use glam::{DVec3, Vec3};
 use phong_bvh::{
-    BuildOptions, Bvh, Canonical, Geometry, Hit, Plane, Ray, Solid, Sphere, Surface, offset_origin,
+    BuildOptions, Bvh, Canonical, Geometry, Hit, Hits8, Plane, Ray, Rays8, Solid, Sphere, Surface,
+    Surfaces8, offset_origin,
 };
 use proptest::prelude::*;
 
@@ -40,10 +41,16 @@ impl Landing {
         let tangent = self.bvh.coordinates(&self.ray, &self.hit).tangent;
         prop_assert!((ng.length() - 1.0).abs() < 1e-6 && (tangent.length() - 1.0).abs() < 1e-6);
         prop_assert!(ng.dot(tangent).abs() < 1e-6);
-        let eight = self.bvh.surface8(&[self.ray], &[self.hit], &[0, 0, 0, 0, 0, 0]);
+        let rays = Rays8::of(&[self.ray; 6]);
+        let (mut hits, mut eight) = ([Hits8::NONE], [Surfaces8::default()]);
+        self.bvh.intersect_eights(&rays, &mut hits);
+        prop_assert_eq!((hits[0].get(5), hits[0].mask()), (self.hit, 0b11_1111));
+        self.bvh.surface_eights(&rays, &hits, &mut eight);
         for axis in 0..3 {
-            let found = [eight.p[axis][5], eight.p_error[axis][5], eight.ng[axis][5]];
-            prop_assert_eq!(found, [p[axis], p_error[axis], ng[axis]], "eight are not as one");
+            let want = [p[axis], p_error[axis], ng[axis]];
+            let [Surfaces8 { p, p_error, ng }] = &eight;
+            let found = [p[axis][5], p_error[axis][5], ng[axis][5]];
+            prop_assert_eq!(found, want, "eight are not as one");
         }
         prop_assert!(p.is_finite() && p_error.is_finite() && ng.is_finite());
         let scale = p.as_dvec3().length() + size;

@@ -69,6 +69,15 @@ impl Part {
         }
     }
 
+    /// The material, where all primitives have the same.
+    #[inline]
+    pub(super) fn only_material(&self) -> Option<u32> {
+        match self.material {
+            Numbers::Same(material) => Some(material),
+            Numbers::Each(_) => None,
+        }
+    }
+
     /// Whether its surfaces have only what the shape and the material give them.
     #[inline]
     pub(super) fn is_plain(&self) -> bool {

@@ -18,10 +18,10 @@ use thiserror::Error;
 
 use crate::compile::CompiledScene;
 use crate::filter::Filter;
-use crate::integrator::{Integrator, Radiance, RayCounts};
+use crate::integrator::{Integrator, Radiance8, RayCounts};
 use crate::math::{Dir3, wide};
 use crate::reflectance::Terms;
-use crate::render::{RenderOptions, Sums, camera_ray};
+use crate::render::{RenderOptions, Sums8, camera_ray};
 use crate::sampling::Sampler;
 use record::Recorder;
 
@@ -232,21 +232,22 @@ pub fn explain(
         shadows: options.shadows,
     };
     let filter = Filter::new(options.filter);
-    let mut sums = Sums::default();
+    let mut sums = [Sums8::NONE];
     let mut samples = Vec::with_capacity(options.samples as usize);
     for index in 0..options.samples {
         let sampler = Sampler::new(pixel, index, options.samples, options.seed);
         let drawn = camera_ray(&integrator, options, &filter, pixel, sampler);
         let mut recorder = Recorder::new(scene);
-        let radiance = drawn.ray.map_or_else(Radiance::default, |ray| {
-            integrator.trace(&ray.into(), &mut RayCounts::default(), &mut recorder)[0]
+        let brought = drawn.ray.map_or(Radiance8::NONE, |ray| {
+            integrator.trace_one(ray, &mut RayCounts::default(), &mut recorder)
         });
-        sums.add(&radiance, drawn.weight);
+        Sums8::add(scene.bvh(), &mut sums, &[brought], &[[drawn.weight; 8]]);
         let place = [drawn.place.x as f32, drawn.place.y as f32];
-        let terms = radiance.terms;
+        let terms = brought.terms.get(0);
         samples.push(Sample { place, weight: drawn.weight, ray: recorder.finish(), terms });
     }
-    let (terms, alpha) = sums.resolve(options.samples, options.background);
+    let (terms, alpha) = sums[0].resolve(scene.bvh(), options.samples, options.background);
+    let (terms, alpha) = (terms.get(0), alpha[0]);
     Ok(Explanation { pixel, size, samples, terms, linear: terms.total(), alpha })
 }
 

@@ -73,7 +73,7 @@ pub(super) fn gather(scene: &CompiledScene, options: &RenderOptions) -> Vec<Poin
             let drawn = camera_ray(&integrator, &centre, &filter, [x, y], sampler);
             let mut listener = Listener { scene, weights: Vec::new(), point: Point::default() };
             if let Some(ray) = drawn.ray {
-                integrator.trace(&ray.into(), &mut RayCounts::default(), &mut listener);
+                integrator.trace_one(ray, &mut RayCounts::default(), &mut listener);
             }
             listener.point
         })

@@ -1,21 +1,32 @@
 //! What lights add to the surfaces met, eight at a time.
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
-use phong_bvh::{Kernel, Ray};
+use phong_bvh::{Kernel, Rays8, Surfaces8, lanes};
 use phong_scene::Rgb;
 
 use super::Integrator;
-use super::met::{Eight, Met, direction, get, set, shadow_ray};
+use super::bundle::Radiance8;
+use super::met::{Met, is_above, origins, same_material, to_eye};
 use crate::light::{Light, LightSample, Reach};
 use crate::math::Dir3;
-use crate::math::lanes::{Lanes3, dot, load3, store3};
-use crate::reflectance::Terms;
-use crate::sampling::{Sampler, Use};
+use crate::math::lanes::{Lanes3, direction, dot, get, load3, select3, set, store3};
+use crate::reflectance::{Terms, Terms8};
+use crate::sampling::{Samplers8, Use};
 use crate::witness::{LightTold, Witness};
 
+/// What a light sends to the surfaces met.
+#[derive(Default)]
+pub(super) struct Light8s {
+    sent: Vec<Sent>,
+    /// The rays that ask whether it is seen.
+    pub(super) shadow_rays: Vec<Rays8>,
+    blocked: Vec<u32>,
+}
+
 /// What a light sends to eight surfaces.
+#[derive(Clone, Copy)]
 #[repr(align(32))]
-pub(super) struct Sent {
+struct Sent {
     /// To the light; 0 where the surface is where the light is.
     l: Lanes3,
     distance: [f32; 8],
@@ -30,6 +41,9 @@ pub(super) struct Sent {
 }
 
 impl Sent {
+    const NONE: Self =
+        Self { l: [[0.0; 8]; 3], distance: [0.0; 8], share: [0.0; 8], above: 0, lit: 0, seen: 0 };
+
     /// What is sent to one surface, in colours; `None` where the light is.
     fn sample(&self, light: &Light, lane: usize) -> Option<LightSample> {
         let reach = Reach {
@@ -41,143 +55,167 @@ impl Sent {
     }
 }
 
-/// The bits of a mask that are set, lowest first.
-fn lanes(mut mask: u32) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
-        (mask != 0).then(|| {
-            let lane = mask.trailing_zeros();
-            mask &= mask - 1;
-            lane as usize
-        })
-    })
-}
-
 impl Integrator<'_> {
-    /// What a light sends to every surface met, and the rays that ask whether it is seen, those of
-    /// each eight in order.
+    /// What a light sends to every surface met, and where it is seen from.
     pub(super) fn send(
         &self,
         number: usize,
+        rays: &[Rays8],
         met: &Met,
-        samplers: &[Sampler],
-    ) -> (Vec<Sent>, Vec<Ray>) {
+        samplers: &[Samplers8],
+        to: &mut Light8s,
+    ) {
         let light = &self.scene.lights()[number];
-        let place = |lane: usize, eight: usize| {
-            let ray = met.rays.get(8 * eight + lane).copied().unwrap_or(0);
-            samplers[ray as usize].pair(Use::Light(number as u32))
-        };
+        let Light8s { sent, shadow_rays, blocked } = to;
+        sent.resize(rays.len(), Sent::NONE);
+        shadow_rays.resize(rays.len(), Rays8::NONE);
         let casts = self.shadows && light.shadows;
-        self.scene.bvh().run(Send { light, met, place, casts })
+        let purpose = Use::Light(number as u32);
+        self.scene.bvh().run(Send {
+            light,
+            purpose,
+            casts,
+            rays,
+            met,
+            samplers,
+            sent,
+            shadow_rays,
+        });
+        if casts {
+            blocked.resize(rays.len(), 0);
+            self.scene.bvh().occluded_eights(shadow_rays, blocked);
+            for (sent, blocked) in sent.iter_mut().zip(blocked) {
+                sent.seen &= !*blocked;
+            }
+        }
     }
 
     /// Adds the light sent to the surfaces it is seen from.
-    pub(super) fn shade(&self, number: usize, rays: &[Ray], sent: &[Sent], met: &mut Met) {
-        let Met { rays: of, hits, eights } = met;
-        let tangent = |k: usize| {
-            let of = of[k] as usize;
-            Dir3::from_unit(self.scene.coordinates(&rays[of], &hits[of]).tangent)
-        };
-        self.scene.bvh().run(Shade { integrator: self, number, sent, eights, tangent });
+    pub(super) fn shade(
+        &self,
+        number: usize,
+        rays: &[Rays8],
+        met: &Met,
+        from: &Light8s,
+        out: &mut [Radiance8],
+    ) {
+        let sent = &from.sent;
+        self.scene.bvh().run(Shade { integrator: self, number, rays, met, sent, out });
     }
 
     /// Tells of what [`Integrator::shade`] is about to add.
     pub(super) fn tell<W: Witness>(
         &self,
         number: usize,
-        rays: &[Ray],
-        sent: &[Sent],
-        shadow_rays: &[Ray],
+        rays: &[Rays8],
         met: &Met,
+        from: &Light8s,
         witness: &mut W,
     ) {
         let light = &self.scene.lights()[number];
-        let mut alone = met.without_light();
-        self.shade(number, rays, sent, &mut alone);
-        let mut shadow_rays = shadow_rays.iter();
-        for k in 0..met.len() {
-            let (at, sent, lane) = (met.at(k), &sent[k / 8], k % 8);
-            let has = |mask: u32| mask >> lane & 1 != 0;
-            let sample = sent.sample(light, lane);
-            let given = &alone.eights[k / 8];
-            witness.lit(&LightTold {
-                light: number,
-                sample,
-                incident: sample.map(|sample| self.material(&at).incident(at.n, at.color, &sample)),
-                above: has(sent.above),
-                shadow: if has(sent.lit) { shadow_rays.next().copied() } else { None },
-                visible: has(sent.seen),
-                terms: Terms {
-                    diffuse: Rgb::from(get(&given.diffuse, lane)),
-                    specular: Rgb::from(get(&given.specular, lane)),
-                    ..Terms::default()
-                },
-            });
+        let mut alone = vec![Radiance8::NONE; rays.len()];
+        self.shade(number, rays, met, from, &mut alone);
+        for (i, sent) in from.sent.iter().enumerate() {
+            for lane in lanes(met.hits[i].mask()) {
+                let at = met.at(rays, i, lane);
+                let has = |mask: u32| mask >> lane & 1 != 0;
+                let sample = sent.sample(light, lane);
+                let asks = &from.shadow_rays[i];
+                let Terms { diffuse, specular, .. } = alone[i].terms.get(lane);
+                let material = self.material(&at);
+                witness.lit(&LightTold {
+                    light: number,
+                    sample,
+                    incident: sample.map(|sample| material.incident(at.n, at.color, &sample)),
+                    above: has(sent.above),
+                    shadow: has(asks.there).then(|| asks.get(lane)),
+                    visible: has(sent.seen),
+                    terms: Terms { diffuse, specular, ..Terms::default() },
+                });
+            }
         }
     }
 
-    /// What a light adds to the ambient term, where a material's rule is per light.
+    /// Adds what a light adds to the ambient term, where a material's rule is per light.
     pub(super) fn ambient_of_light(
         &self,
         number: usize,
-        sent: &[Sent],
         met: &Met,
-        k: usize,
-    ) -> Rgb {
-        let material = &self.scene.materials()[met.material(k)];
-        let sample = sent[k / 8].sample(&self.scene.lights()[number], k % 8);
-        sample.filter(|_| material.takes_ambient_per_light()).map_or(Rgb::BLACK, |sample| {
-            material.ambient_of_light(met.at(k).color, self.scene.ambient(), &sample)
-        })
-    }
-}
-
-/// Takes away the light that something stands in the way of.
-pub(super) fn take_away(sent: &mut [Sent], blocked: &[bool]) {
-    let mut blocked = blocked.iter();
-    for sent in sent {
-        for lane in lanes(sent.lit) {
-            sent.seen &= !(u32::from(blocked.next().copied().unwrap_or(false)) << lane);
-        }
-    }
-}
-
-struct Send<'a, P> {
-    light: &'a Light,
-    met: &'a Met,
-    place: P,
-    casts: bool,
-}
-
-impl<P: Fn(usize, usize) -> [f32; 2]> Kernel for Send<'_, P> {
-    type Output = (Vec<Sent>, Vec<Ray>);
-
-    #[inline(always)]
-    fn run<S: Simd>(self, simd: S) -> Self::Output {
-        let Self { light, met, place, casts } = self;
-        let brightest = f32x8::splat(simd, light.brightest());
-        let mut sent = Vec::with_capacity(met.eights.len());
-        let mut shadow_rays = Vec::with_capacity(if casts { met.len() } else { 0 });
-        for (i, eight) in met.eights.iter().enumerate() {
-            let reach = if light.soft {
-                one_by_one(simd, light, eight, |lane| place(lane, i))
-            } else {
-                light.reach8(simd, load3(simd, &eight.p))
-            };
-            let (l, distance, share) = (store3(reach.l), reach.distance.into(), reach.share.into());
-            let above = eight.is_above(simd, reach.l);
-            // Nothing comes from a spot beyond its edge: nobody need look.
-            let bright = (reach.share * brightest).simd_gt(f32x8::splat(simd, 0.0));
-            let (above, lit) = (above.to_bitmask() as u32, (above & bright).to_bitmask() as u32);
-            if casts && lit != 0 {
-                let origins = store3(eight.origins(simd, reach.l));
-                for lane in lanes(lit) {
-                    let distance: &[f32; 8] = &distance;
-                    shadow_rays.push(shadow_ray(&origins, &l, distance[lane], lane));
+        from: &Light8s,
+        out: &mut [Radiance8],
+    ) {
+        let light = &self.scene.lights()[number];
+        for ((i, sent), out) in from.sent.iter().enumerate().zip(out) {
+            for lane in lanes(met.hits[i].mask()) {
+                let dressed = &met.dressed[i];
+                let material = &self.scene.materials()[dressed.material[lane] as usize];
+                if material.takes_ambient_per_light()
+                    && let Some(sample) = sent.sample(light, lane)
+                {
+                    let color = Rgb::from(get(&dressed.color, lane));
+                    let more = material.ambient_of_light(color, self.scene.ambient(), &sample);
+                    out.terms.add(Terms8::AMBIENT, lane, more);
                 }
             }
-            sent.push(Sent { l, distance, share, above, lit, seen: lit });
         }
-        (sent, shadow_rays)
+    }
+}
+
+struct Send<'a> {
+    light: &'a Light,
+    purpose: Use,
+    /// Whether things stand in its way.
+    casts: bool,
+    rays: &'a [Rays8],
+    met: &'a Met,
+    samplers: &'a [Samplers8],
+    sent: &'a mut [Sent],
+    shadow_rays: &'a mut [Rays8],
+}
+
+impl Kernel for Send<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let Self { light, purpose, casts, rays, met, samplers, sent, shadow_rays } = self;
+        let brightest = f32x8::splat(simd, light.brightest());
+        let Met { hits, surfaces, dressed } = met;
+        let eights = rays.iter().zip(hits).zip(surfaces).zip(dressed).zip(sent).zip(shadow_rays);
+        for (i, (((((rays, hits), surface), dressed), sent), shadow_rays)) in eights.enumerate() {
+            let met = hits.mask();
+            (sent.above, sent.lit, sent.seen, shadow_rays.there) = (0, 0, 0, 0);
+            if met == 0 {
+                continue;
+            }
+            let reach = if light.soft {
+                one_by_one(simd, light, surface, met, samplers[i].pair(purpose))
+            } else {
+                light.reach8(simd, load3(simd, &surface.p))
+            };
+            let (n, ng) = (load3(simd, &dressed.n), load3(simd, &surface.ng));
+            let above = is_above(reach.l, n, ng, to_eye(simd, rays));
+            // Nothing comes from a spot beyond its edge: nobody need look.
+            let bright = (reach.share * brightest).simd_gt(f32x8::splat(simd, 0.0));
+            let lit = met & (above & bright).to_bitmask() as u32;
+            *sent = Sent {
+                l: store3(reach.l),
+                distance: reach.distance.into(),
+                share: reach.share.into(),
+                above: met & above.to_bitmask() as u32,
+                lit,
+                seen: lit,
+            };
+            if casts && lit != 0 {
+                *shadow_rays = Rays8 {
+                    origin: store3(origins(simd, surface, reach.l)),
+                    dir: sent.l,
+                    t_min: [0.0; 8],
+                    t_max: sent.distance,
+                    there: lit,
+                };
+            }
+        }
     }
 }
 
@@ -186,12 +224,13 @@ impl<P: Fn(usize, usize) -> [f32; 2]> Kernel for Send<'_, P> {
 fn one_by_one<S: Simd>(
     simd: S,
     light: &Light,
-    eight: &Eight,
-    place: impl Fn(usize) -> [f32; 2],
+    surface: &Surfaces8,
+    met: u32,
+    [x, y]: [[f32; 8]; 2],
 ) -> Reach<[f32x8<S>; 3], f32x8<S>> {
     let (mut l, mut distance, mut share) = ([[0.0; 8]; 3], [0.0; 8], [0.0; 8]);
-    for lane in 0..8 {
-        if let Some(reach) = light.reach(get(&eight.p, lane).into(), place(lane)) {
+    for lane in lanes(met) {
+        if let Some(reach) = light.reach(get(&surface.p, lane).into(), [x[lane], y[lane]]) {
             set(&mut l, lane, reach.l.to_array());
             (distance[lane], share[lane]) = (reach.distance, reach.share);
         }
@@ -203,57 +242,55 @@ fn one_by_one<S: Simd>(
     }
 }
 
-struct Shade<'a, T> {
+struct Shade<'a> {
     integrator: &'a Integrator<'a>,
     number: usize,
+    rays: &'a [Rays8],
+    met: &'a Met,
     sent: &'a [Sent],
-    eights: &'a mut [Eight],
-    tangent: T,
+    out: &'a mut [Radiance8],
 }
 
-impl<T: Fn(usize) -> Dir3> Kernel for Shade<'_, T> {
+impl Kernel for Shade<'_> {
     type Output = ();
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Self { integrator, number, sent, eights, tangent } = self;
+        let Self { integrator, number, rays, met, sent, out } = self;
         let light = &integrator.scene.lights()[number];
-        for (i, (eight, sent)) in eights.iter_mut().zip(sent).enumerate() {
+        for (i, (sent, out)) in sent.iter().zip(out).enumerate() {
+            let dressed = &met.dressed[i];
             let mut left = sent.seen;
             while left != 0 {
                 // Neighbours are mostly of one material.
-                let number = eight.material[left.trailing_zeros() as usize];
-                let mut same = 0;
-                for (lane, &other) in eight.material.iter().enumerate() {
-                    same |= u32::from(other == number) << lane;
-                }
-                same &= left;
+                let (number, same) = same_material(simd, &dressed.material, left);
                 left &= !same;
-                let material = &integrator.scene.materials()[number as usize];
-                let (n, e, l) =
-                    (load3(simd, &eight.n), load3(simd, &eight.e), load3(simd, &sent.l));
-                if let Some([diffuse, specular]) =
-                    material.reflectance.weights8(n, material.eye8(e), l)
-                {
-                    let color = load3(simd, &eight.color);
+                let material = &integrator.scene.materials()[number];
+                let (n, l) = (load3(simd, &dressed.n), load3(simd, &sent.l));
+                let e = material.eye8(to_eye(simd, &rays[i]));
+                if let Some([diffuse, specular]) = material.reflectance.weights8(n, e, l) {
+                    let color = load3(simd, &dressed.color);
                     let share = f32x8::load_array(simd, sent.share);
                     let [c_d, c_s] = material.incident8(dot(n, l), color, light.colors(), share);
                     let same = mask32x8::from_bitmask(simd, same.into());
-                    add(simd, &mut eight.diffuse, same, diffuse, c_d);
-                    add(simd, &mut eight.specular, same, specular, c_s);
+                    let terms = &mut out.terms.0;
+                    add(simd, &mut terms[Terms8::DIFFUSE], same, diffuse, c_d);
+                    add(simd, &mut terms[Terms8::SPECULAR], same, specular, c_s);
                     continue;
                 }
                 for lane in lanes(same) {
                     let Some(sample) = sent.sample(light, lane) else { continue };
-                    let (n, e) = (direction(&eight.n, lane), direction(&eight.e, lane));
-                    let color = Rgb::from(get(&eight.color, lane));
-                    let brushed = material.reflectance.is_brushed();
-                    let tangent = if brushed { tangent(8 * i + lane) } else { Dir3::X };
+                    let (n, e) = (direction(&dressed.n, lane), -direction(&rays[i].dir, lane));
+                    let color = Rgb::from(get(&dressed.color, lane));
+                    let tangent = if material.reflectance.is_brushed() {
+                        let (ray, hit) = (rays[i].get(lane), met.hits[i].get(lane));
+                        Dir3::from_unit(integrator.scene.coordinates(&ray, &hit).tangent)
+                    } else {
+                        Dir3::X
+                    };
                     let terms = material.shade_light(n, tangent, e, color, &sample);
-                    let so_far = Rgb::from(get(&eight.diffuse, lane));
-                    set(&mut eight.diffuse, lane, (so_far + terms.diffuse).to_array());
-                    let so_far = Rgb::from(get(&eight.specular, lane));
-                    set(&mut eight.specular, lane, (so_far + terms.specular).to_array());
+                    out.terms.add(Terms8::DIFFUSE, lane, terms.diffuse);
+                    out.terms.add(Terms8::SPECULAR, lane, terms.specular);
                 }
             }
         }
@@ -270,6 +307,6 @@ fn add<S: Simd>(
     [r, g, b]: [f32x8<S>; 3],
 ) {
     let so_far = load3(simd, sum);
-    let plus = |so_far: f32x8<S>, color: f32x8<S>| same.select(so_far + weight * color, so_far);
-    *sum = store3([plus(so_far[0], r), plus(so_far[1], g), plus(so_far[2], b)]);
+    let more = [so_far[0] + weight * r, so_far[1] + weight * g, so_far[2] + weight * b];
+    *sum = store3(select3(same, more, so_far));
 }

@@ -5,7 +5,7 @@
 
 use std::ops::{Add, Div, Mul, Sub};
 
-use fearless_simd::{Simd, f32x8, prelude::*};
+use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 use glam::Vec3;
 
 use super::dir::{Dir3, LARGE, SMALL};
@@ -124,6 +124,40 @@ pub(crate) fn load3<S: Simd>(simd: S, [x, y, z]: &Lanes3) -> [f32x8<S>; 3] {
 #[inline(always)]
 pub(crate) fn store3<S: Simd>([x, y, z]: [f32x8<S>; 3]) -> Lanes3 {
     [x.into(), y.into(), z.into()]
+}
+
+/// The same three numbers eight times.
+#[inline(always)]
+pub(crate) fn splat3<S: Simd>(simd: S, [x, y, z]: [f32; 3]) -> [f32x8<S>; 3] {
+    [f32x8::splat(simd, x), f32x8::splat(simd, y), f32x8::splat(simd, z)]
+}
+
+/// Three coordinates, of each eight `lanes` from `yes`, the others from `no`.
+#[inline(always)]
+pub(crate) fn select3<S: Simd>(
+    lanes: mask32x8<S>,
+    yes: [f32x8<S>; 3],
+    no: [f32x8<S>; 3],
+) -> [f32x8<S>; 3] {
+    [lanes.select(yes[0], no[0]), lanes.select(yes[1], no[1]), lanes.select(yes[2], no[2])]
+}
+
+/// Three numbers of one lane.
+#[inline]
+pub(crate) fn get(lanes: &Lanes3, lane: usize) -> [f32; 3] {
+    [lanes[0][lane], lanes[1][lane], lanes[2][lane]]
+}
+
+/// Three numbers into one lane.
+#[inline]
+pub(crate) fn set(lanes: &mut Lanes3, lane: usize, [x, y, z]: [f32; 3]) {
+    (lanes[0][lane], lanes[1][lane], lanes[2][lane]) = (x, y, z);
+}
+
+/// The direction in one lane, unit.
+#[inline]
+pub(crate) fn direction(lanes: &Lanes3, lane: usize) -> Dir3 {
+    Dir3::from_unit(Vec3::from(get(lanes, lane)))
 }
 
 /// The dot product.

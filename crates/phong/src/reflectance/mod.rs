@@ -22,7 +22,7 @@ pub use microfacet::{Distribution, Microfacet};
 pub use oren_nayar::{OrenNayar, OrenNayarForm};
 pub use phong::Phong;
 pub use scale::Switches;
-pub use terms::{Incident, Terms};
+pub use terms::{Incident, Terms, Terms8};
 pub use ward::Ward;
 
 pub use phong_scene::{Fresnel, Shadowing, WardForm};

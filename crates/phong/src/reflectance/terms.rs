@@ -2,9 +2,11 @@
 
 use std::ops::{Add, AddAssign};
 
+use fearless_simd::{Simd, f32x8};
 use phong_scene::Rgb;
 
 use crate::math::Dir3;
+use crate::math::lanes::{Lanes3, add, get, load3};
 
 /// Light that arrives at a point from one light, already tinted by the material.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,5 +80,46 @@ impl Add for Terms {
 impl AddAssign for Terms {
     fn add_assign(&mut self, o: Self) {
         *self = *self + o;
+    }
+}
+
+/// The terms of eight pixels or rays side by side: of each term red, green and blue, of each eight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(align(32))]
+pub struct Terms8(pub [[[f32; 8]; 3]; 6]);
+
+impl Terms8 {
+    /// Nothing.
+    pub const NONE: Self = Self([[[0.0; 8]; 3]; 6]);
+
+    /// Places of the terms, in the order of [`Terms::NAMES`].
+    pub(crate) const BACKGROUND: usize = 0;
+    pub(crate) const AMBIENT: usize = 1;
+    pub(crate) const DIFFUSE: usize = 2;
+    pub(crate) const SPECULAR: usize = 3;
+    pub(crate) const REFLECTION: usize = 4;
+    pub(crate) const TRANSMISSION: usize = 5;
+
+    /// The terms in one lane, below 8.
+    pub fn get(&self, lane: usize) -> Terms {
+        let term = |i: usize| Rgb::from(get(&self.0[i], lane));
+        Terms::from_array([term(0), term(1), term(2), term(3), term(4), term(5)])
+    }
+
+    /// [`Terms::total`] of each.
+    #[inline(always)]
+    pub(crate) fn total<S: Simd>(&self, simd: S) -> [f32x8<S>; 3] {
+        let term = |i: usize| load3(simd, &self.0[i]);
+        let sum = add(add(add(term(0), term(1)), term(2)), term(3));
+        add(add(sum, term(4)), term(5))
+    }
+
+    /// Adds to one term in one lane.
+    #[inline]
+    pub(crate) fn add(&mut self, term: usize, lane: usize, more: Rgb) {
+        let term: &mut Lanes3 = &mut self.0[term];
+        for (sum, more) in term.iter_mut().zip(more.to_array()) {
+            sum[lane] += more;
+        }
     }
 }

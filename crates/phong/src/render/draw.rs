@@ -1,92 +1,89 @@
 //! Where samples fall, and the rays that go there.
 
-use std::ops::Range;
-
-use fearless_simd::Simd;
+use fearless_simd::{Simd, f32x8, f64x4, prelude::*};
 use glam::DVec2;
-use phong_bvh::Kernel;
+use phong_bvh::{Kernel, Rays8, lanes};
 use phong_scene::Background;
 
 use super::RenderOptions;
+use crate::camera::Camera;
 use crate::filter::Filter;
 use crate::integrator::{Bundle, CameraRay, Integrator};
-use crate::sampling::{Sampler, Use};
+use crate::math::lanes::Lanes3;
+use crate::sampling::{Sampler, Samplers8, Use};
 
-/// Samples of the pixels of a square.
+/// Up to eight pixels of a row, side by side.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pixels8 {
+    /// The leftmost.
+    pub(super) first: [u32; 2],
+    /// How many, 1 to 8.
+    pub(super) len: u32,
+    /// Where their samples come from.
+    samplers: Samplers8,
+}
+
+impl Pixels8 {
+    pub(super) fn new([x, y]: [u32; 2], len: u32, options: &RenderOptions) -> Self {
+        let sampler = |x: u32| Sampler::new([x, y], 0, options.samples, options.seed);
+        let mut samplers = Samplers8::splat(sampler(x));
+        (0..len).for_each(|lane| samplers.set(lane as usize, sampler(x + lane)));
+        Self { first: [x, y], len, samplers }
+    }
+
+    fn pixel(&self, lane: usize) -> [u32; 2] {
+        [self.first[0] + lane as u32, self.first[1]]
+    }
+}
+
+/// Samples of some pixels.
+#[derive(Debug, Default)]
 pub(super) struct Samples {
     pub(super) bundle: Bundle,
-    /// For each sample the number of its pixel in the square, and its weight there: first those of
-    /// the rays, then those outside the image circle of a fisheye.
-    pub(super) numbers: Vec<u32>,
-    pub(super) weights: Vec<f32>,
-    /// Of a pinhole's rays the pixels, and where they go through the picture.
-    pixels: Vec<[u32; 2]>,
-    places: Vec<DVec2>,
+    /// Of each sample its weight in the pixel's sum.
+    pub(super) weights: Vec<[f32; 8]>,
 }
 
 impl Samples {
-    pub(super) fn with_capacity(len: usize) -> Self {
-        Self {
-            bundle: Bundle::with_capacity(len),
-            numbers: Vec::with_capacity(len),
-            weights: Vec::with_capacity(len),
-            pixels: Vec::with_capacity(len),
-            places: Vec::with_capacity(len),
-        }
-    }
-
-    fn clear(&mut self) {
-        self.bundle.clear();
-        self.numbers.clear();
-        self.weights.clear();
-        self.pixels.clear();
-        self.places.clear();
-    }
-
-    /// Draws some samples of each pixel anew; `own` are the pixels' samplers.
+    /// Draws one sample of each pixel after another, in the order of `indices`.
     pub(super) fn draw(
         &mut self,
         integrator: &Integrator<'_>,
         options: &RenderOptions,
         filter: &Filter,
-        pixels: &[[u32; 2]],
-        own: &[Sampler],
-        indices: Range<u32>,
+        pixels: &[Pixels8],
+        indices: impl Iterator<Item = u32>,
     ) {
-        self.clear();
-        let scene = integrator.scene;
-        let lanes = pixels.iter().zip(own).enumerate().flat_map(|(number, (&pixel, sampler))| {
-            indices.clone().map(move |index| (number as u32, pixel, sampler.at(index)))
-        });
-        if scene.camera().is_pinhole() {
-            for (number, pixel, sampler) in lanes {
-                self.numbers.push(number);
-                self.pixels.push(pixel);
-                self.bundle.samplers.push(sampler);
-            }
-            scene.bvh().run(Fall { filter, drawn: self });
-            if matches!(options.background, Background::Gradient { .. }) {
-                let heights = self.places.iter().map(|&place| height(place, options.size));
-                self.bundle.heights.extend(heights);
-            }
-            let rays = &mut self.bundle.rays;
-            scene.camera().pinhole_rays(scene.bvh(), &self.places, options.size, rays);
+        self.bundle.clear();
+        self.weights.clear();
+        let drawn =
+            indices.flat_map(|index| pixels.iter().map(move |&p| (p, p.samplers.at(index))));
+        if integrator.scene.camera().is_pinhole() {
+            let camera = integrator.scene.camera();
+            integrator.scene.bvh().run(ThroughPinhole { camera, options, filter, drawn, to: self });
             return;
         }
-        let mut outside = Vec::new();
-        for (number, pixel, sampler) in lanes {
-            let Drawn { weight, ray, .. } = camera_ray(integrator, options, filter, pixel, sampler);
-            match ray {
-                Some(ray) => {
-                    self.bundle.push(ray);
-                    self.numbers.push(number);
-                    self.weights.push(weight);
+        for (pixels, samplers) in drawn {
+            let (mut rays, mut heights, mut weights) = (Rays8::NONE, [0.0; 8], [0.0; 8]);
+            for lane in 0..pixels.len as usize {
+                let sampler = samplers.get(lane);
+                let drawn = camera_ray(integrator, options, filter, pixels.pixel(lane), sampler);
+                weights[lane] = drawn.weight;
+                if let Some(CameraRay { ray, height, .. }) = drawn.ray {
+                    rays.set(lane, &ray);
+                    heights[lane] = height;
                 }
-                None => outside.push((number, weight)),
             }
+            self.push(rays, samplers, weights);
+            self.bundle.heights.push(heights);
         }
-        self.numbers.extend(outside.iter().map(|&(number, _)| number));
-        self.weights.extend(outside.iter().map(|&(_, weight)| weight));
+    }
+
+    #[inline(always)]
+    fn push(&mut self, rays: Rays8, samplers: Samplers8, weights: [f32; 8]) {
+        self.bundle.rays.push(rays);
+        self.bundle.samplers.push(samplers);
+        self.weights.push(weights);
     }
 }
 
@@ -105,59 +102,63 @@ pub(crate) fn camera_ray(
     integrator: &Integrator<'_>,
     options: &RenderOptions,
     filter: &Filter,
-    pixel: [u32; 2],
+    [x, y]: [u32; 2],
     sampler: Sampler,
 ) -> Drawn {
-    let (place, weight) = fall(filter, pixel, sampler.pair(Use::Pixel));
-    let camera = integrator.scene.camera();
-    let lens = if camera.has_lens() { sampler.pair(Use::Lens) } else { [0.5; 2] };
-    let height = height(place, options.size);
-    let ray = camera.ray(place, options.size, lens);
-    let ray = ray.map(|ray| CameraRay { ray, sampler, height });
-    Drawn { place, weight, ray }
-}
-
-/// Where in the picture a sample falls, in pixels, and its weight there.
-#[inline(always)]
-fn fall(filter: &Filter, [x, y]: [u32; 2], pair: [f32; 2]) -> (DVec2, f32) {
-    let drawn = filter.sample(pair);
+    let drawn = filter.sample(sampler.pair(Use::Pixel));
     let place = DVec2::new(
         f64::from(x) + 0.5 + f64::from(drawn.offset[0]),
         f64::from(y) + 0.5 + f64::from(drawn.offset[1]),
     );
-    (place, drawn.weight)
+    let camera = integrator.scene.camera();
+    let lens = if camera.has_lens() { sampler.pair(Use::Lens) } else { [0.5; 2] };
+    let height = height(place.y, options.size);
+    let ray = camera.ray(place, options.size, lens);
+    let ray = ray.map(|ray| CameraRay { ray, sampler, height });
+    Drawn { place, weight: drawn.weight, ray }
 }
 
-/// [`fall`] of all samples drawn.
-struct Fall<'a> {
+/// [`camera_ray`] of eight samples at once, through a pinhole.
+struct ThroughPinhole<'a, D> {
+    camera: &'a Camera,
+    options: &'a RenderOptions,
     filter: &'a Filter,
-    drawn: &'a mut Samples,
+    drawn: D,
+    to: &'a mut Samples,
 }
 
-impl Kernel for Fall<'_> {
+impl<D: Iterator<Item = (Pixels8, Samplers8)>> Kernel for ThroughPinhole<'_, D> {
     type Output = ();
 
     #[inline(always)]
-    fn run<S: Simd>(self, _: S) {
-        let Self { filter, drawn } = self;
-        let (eights, rest) = drawn.bundle.samplers.as_chunks::<8>();
-        for (i, samplers) in eights.iter().enumerate() {
-            let [u, v] = Sampler::pair8(samplers, Use::Pixel);
-            for (lane, &pixel) in drawn.pixels[8 * i..][..8].iter().enumerate() {
-                let (place, weight) = fall(filter, pixel, [u[lane], v[lane]]);
-                drawn.places.push(place);
-                drawn.weights.push(weight);
+    fn run<S: Simd>(self, simd: S) {
+        let Self { camera, options, filter, drawn, to } = self;
+        let steps =
+            |from: f64| -> f64x4<S> { [from, from + 1.0, from + 2.0, from + 3.0].simd_into(simd) };
+        let (low, high) = (steps(0.0), steps(4.0));
+        let gradient = matches!(options.background, Background::Gradient { .. });
+        for (pixels, samplers) in drawn {
+            let [x, y, weights]: Lanes3 = filter.sample8(samplers.pair(Use::Pixel));
+            let offset = |v: &[f32; 8]| f32x8::load_array_ref(simd, v).widen();
+            let (dx, dy) = (offset(&x), offset(&y));
+            let [left, top] = [f64::from(pixels.first[0]), f64::from(pixels.first[1]) + 0.5];
+            let x = [low + left + 0.5 + dx.0, high + left + 0.5 + dx.1];
+            let y = [dy.0 + top, dy.1 + top];
+            let mut rays = camera.pinhole_rays(simd, [x, y], options.size);
+            rays.there = (1 << pixels.len) - 1;
+            to.push(rays, samplers, weights);
+            if gradient {
+                let mut heights = [0.0; 8];
+                for lane in lanes(rays.there) {
+                    heights[lane] = height(y[lane / 4][lane % 4], options.size);
+                }
+                to.bundle.heights.push(heights);
             }
-        }
-        for (sampler, &pixel) in rest.iter().zip(&drawn.pixels[8 * eights.len()..]) {
-            let (place, weight) = fall(filter, pixel, sampler.pair(Use::Pixel));
-            drawn.places.push(place);
-            drawn.weights.push(weight);
         }
     }
 }
 
-/// Where a place of the picture crosses its height: 0 the upper edge, 1 the lower.
-fn height(place: DVec2, size: [u32; 2]) -> f32 {
-    (place.y / f64::from(size[1])).clamp(0.0, 1.0) as f32
+/// Where a row of the picture crosses its height: 0 the upper edge, 1 the lower.
+fn height(y: f64, size: [u32; 2]) -> f32 {
+    (y / f64::from(size[1])).clamp(0.0, 1.0) as f32
 }

@@ -5,7 +5,7 @@ mod sums;
 mod tile;
 
 pub(crate) use draw::camera_ray;
-pub(crate) use sums::Sums;
+pub(crate) use sums::Sums8;
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -185,6 +185,7 @@ pub fn resume(
     // One job a thread that takes tiles in order: neighbours in the picture are neighbours in
     // time, so the hierarchy stays warm, and no thread idles while tiles are left.
     (0..rayon::current_num_threads()).into_par_iter().with_max_len(1).try_for_each(|_| {
+        let mut desk = tile::Desk::default();
         loop {
             let Some(&tile) = missing.get(next.fetch_add(1, Ordering::Relaxed) as usize) else {
                 return Ok(());
@@ -197,10 +198,10 @@ pub fn resume(
                 let shared = shared.lock().unwrap_or_else(PoisonError::into_inner);
                 shared.0.tile_window(tile)
             };
-            let values = painter.paint(window, &mut rays, cancel)?;
+            painter.paint(window, &mut desk, &mut rays, cancel)?;
             let mut shared = shared.lock().unwrap_or_else(PoisonError::into_inner);
             let (film, progress) = &mut *shared;
-            film.put(tile, &values);
+            film.put(tile, desk.values());
             progress.tiles_done += 1;
             progress.rays.add(&rays);
             watch(film, *progress);

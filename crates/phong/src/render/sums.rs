@@ -1,61 +1,134 @@
-//! A pixel's samples, summed in f64.
+//! Pixels' samples, summed in f64, eight pixels side by side.
 
-use phong_scene::{Background, Rgb};
+use fearless_simd::{Simd, f32x8, f64x4, prelude::*};
+use phong_bvh::{Bvh, Kernel};
+use phong_scene::Background;
 
-use crate::integrator::Radiance;
-use crate::reflectance::Terms;
+use crate::integrator::Radiance8;
+use crate::reflectance::Terms8;
 
-/// The sums of one pixel.
-#[derive(Clone, Copy, Default)]
-pub(crate) struct Sums {
-    terms: [[f64; 3]; 6],
-    alpha: f64,
-    weight: f64,
+/// The sums of eight pixels.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(32))]
+pub(crate) struct Sums8 {
+    /// Of each term red, green and blue.
+    terms: [[[f64; 8]; 3]; 6],
+    alpha: [f64; 8],
+    weight: [f64; 8],
 }
 
-impl Sums {
-    /// Adds a sample; outside a fisheye's image circle, one that brought nothing.
-    #[inline]
-    pub(crate) fn add(&mut self, radiance: &Radiance, weight: f32) {
-        let weight = f64::from(weight);
-        self.weight += weight;
-        let Terms { background, ambient, diffuse, specular, reflection, transmission } =
-            radiance.terms;
-        let [to_background, to_ambient, to_diffuse, to_specular, to_reflection, to_transmission] =
-            &mut self.terms;
-        // A ray brings the background or a surface's terms; what is black changes no sum.
-        if !radiance.met {
-            add(to_background, weight, background);
-            return;
-        }
-        add(to_ambient, weight, ambient);
-        add(to_diffuse, weight, diffuse);
-        add(to_specular, weight, specular);
-        if !(reflection.is_black() && transmission.is_black()) {
-            add(to_reflection, weight, reflection);
-            add(to_transmission, weight, transmission);
-        }
-        self.alpha += weight;
+impl Sums8 {
+    /// No samples.
+    pub(crate) const NONE: Self =
+        Self { terms: [[[0.0; 8]; 3]; 6], alpha: [0.0; 8], weight: [0.0; 8] };
+
+    /// Adds samples to sums: one to each eight pixels, then the next to each, and so on. One that
+    /// brought nothing, outside a fisheye's image circle, still has its weight.
+    pub(crate) fn add(bvh: &Bvh, sums: &mut [Self], samples: &[Radiance8], weights: &[[f32; 8]]) {
+        bvh.run(Add { sums, samples, weights });
     }
 
-    /// The terms, each resolved to f32, and the coverage.
-    #[inline]
-    pub(crate) fn resolve(&self, samples: u32, background: Background) -> (Terms, f32) {
+    /// What eight pixels of so many samples are: the terms, each resolved to f32, and the coverage.
+    pub(crate) fn resolve(
+        &self,
+        bvh: &Bvh,
+        samples: u32,
+        background: Background,
+    ) -> (Terms8, [f32; 8]) {
+        bvh.run(Resolve { sums: self, samples, background })
+    }
+}
+
+struct Add<'a> {
+    sums: &'a mut [Sums8],
+    samples: &'a [Radiance8],
+    weights: &'a [[f32; 8]],
+}
+
+impl Kernel for Add<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let Self { sums, samples, weights } = self;
+        let len = sums.len();
+        for (i, (sample, weight)) in samples.iter().zip(weights).enumerate() {
+            let sums = &mut sums[i % len];
+            let weight = wide(simd, weight);
+            plus(simd, &mut sums.weight, weight);
+            let covered = std::array::from_fn(|lane| (sample.met >> lane & 1) as f32);
+            plus(simd, &mut sums.alpha, times(weight, wide(simd, &covered)));
+            // Of what is black everywhere nothing is added.
+            let bounced = [Terms8::REFLECTION, Terms8::TRANSMISSION];
+            let bounced = bounced.iter().any(|&term| sample.terms.0[term] != [[0.0; 8]; 3]);
+            for term in 0..6 {
+                let wanted = match term {
+                    Terms8::BACKGROUND => sample.met != 0xff,
+                    Terms8::REFLECTION | Terms8::TRANSMISSION => bounced,
+                    _ => sample.met != 0,
+                };
+                if wanted {
+                    for channel in 0..3 {
+                        let value = wide(simd, &sample.terms.0[term][channel]);
+                        plus(simd, &mut sums.terms[term][channel], times(weight, value));
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn wide<S: Simd>(simd: S, lanes: &[f32; 8]) -> (f64x4<S>, f64x4<S>) {
+    f32x8::load_array_ref(simd, lanes).widen()
+}
+
+#[inline(always)]
+fn times<S: Simd>(a: (f64x4<S>, f64x4<S>), b: (f64x4<S>, f64x4<S>)) -> (f64x4<S>, f64x4<S>) {
+    (a.0 * b.0, a.1 * b.1)
+}
+
+#[inline(always)]
+fn plus<S: Simd>(simd: S, sum: &mut [f64; 8], more: (f64x4<S>, f64x4<S>)) {
+    let (low, high) = sum.split_at_mut(4);
+    for (half, more) in [(low, more.0), (high, more.1)] {
+        (f64x4::from_slice(simd, half) + more).store_slice(half);
+    }
+}
+
+struct Resolve<'a> {
+    sums: &'a Sums8,
+    samples: u32,
+    background: Background,
+}
+
+impl Kernel for Resolve<'_> {
+    type Output = (Terms8, [f32; 8]);
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> Self::Output {
+        let Self { sums: Sums8 { terms, alpha, weight }, samples, background } = self;
         // Signed weights that all but cancel would blow up what little is left.
-        let total = self.weight.max(0.25 * f64::from(samples));
-        let terms = self
-            .terms
-            .map(|[r, g, b]| Rgb::new((r / total) as f32, (g / total) as f32, (b / total) as f32));
-        let alpha = (self.alpha / total).clamp(0.0, 1.0) as f32;
-        (Terms::from_array(terms), coverage(alpha, background))
+        let least = f64x4::splat(simd, 0.25 * f64::from(samples));
+        let total = |half: usize| {
+            let weight = f64x4::from_slice(simd, &weight[4 * half..][..4]);
+            weight.simd_gt(least).select(weight, least)
+        };
+        let (low, high) = (total(0), total(1));
+        let resolved = |sum: &[f64; 8]| -> f32x8<S> {
+            let (l, h) = (f64x4::from_slice(simd, &sum[..4]), f64x4::from_slice(simd, &sum[4..]));
+            (l / low).narrow(h / high)
+        };
+        let mut out = Terms8::NONE;
+        for (sum, term) in terms.iter().zip(&mut out.0) {
+            for (sum, channel) in sum.iter().zip(term) {
+                *channel = resolved(sum).into();
+            }
+        }
+        let mut share: [f32; 8] = resolved(alpha).into();
+        share.iter_mut().for_each(|share| *share = coverage(share.clamp(0.0, 1.0), background));
+        (out, share)
     }
-}
-
-#[inline]
-fn add(sum: &mut [f64; 3], weight: f64, term: Rgb) {
-    sum[0] += weight * f64::from(term.r);
-    sum[1] += weight * f64::from(term.g);
-    sum[2] += weight * f64::from(term.b);
 }
 
 /// The alpha of a pixel of which surfaces cover `share`.

@@ -1,17 +1,19 @@
 //! One tile: its samples in index order, and its variables from centre rays.
 
+use fearless_simd::Simd;
 use glam::DVec2;
-use phong_bvh::Hit;
+use phong_bvh::{Hit, Kernel};
 use phong_scene::Rgb;
 
-use super::draw::Samples;
-use super::sums::{Sums, coverage};
+use super::draw::{Pixels8, Samples};
+use super::sums::{Sums8, coverage};
 use super::{Cancel, Cancelled, RenderOptions};
 use crate::aov::Aov;
 use crate::film::{LayerKind, Window};
 use crate::filter::Filter;
-use crate::integrator::{CameraRay, Integrator, Radiance, RayCounts};
-use crate::reflectance::Terms;
+use crate::integrator::{CameraRay, Integrator, RayCounts, Work};
+use crate::math::lanes::{Lanes3, store3};
+use crate::reflectance::Terms8;
 use crate::sampling::Sampler;
 use crate::witness::{Branch, LightTold, Witness};
 
@@ -19,8 +21,8 @@ use crate::witness::{Branch, LightTold, Witness};
 /// are near one another in space.
 const SQUARE: u32 = 8;
 
-/// Pixels of a bundle of several samples each: a square's.
-const LOT: usize = (SQUARE * SQUARE) as usize;
+/// Eights of pixels in a bundle of several samples each: a square's.
+const LOT: usize = SQUARE as usize;
 
 /// Samples of each pixel in a bundle.
 const LOTS: u32 = 4;
@@ -33,79 +35,91 @@ pub(super) struct Painter<'a> {
     filter: Filter,
 }
 
+/// A thread's room for painting, used again from tile to tile.
+#[derive(Default)]
+pub(super) struct Desk {
+    pixels: Vec<Pixels8>,
+    drawn: Samples,
+    work: Work,
+    sums: Vec<Sums8>,
+    /// For each layer the tile's rows.
+    values: Vec<Vec<f32>>,
+}
+
+impl Desk {
+    /// What was painted last: the values of the tile's pixels, for each layer its rows.
+    pub(super) fn values(&self) -> &[Vec<f32>] {
+        &self.values
+    }
+}
+
 impl<'a> Painter<'a> {
     pub(super) fn new(integrator: Integrator<'a>, options: &'a RenderOptions) -> Self {
         Self { integrator, options, layers: options.layers(), filter: Filter::new(options.filter) }
     }
 
-    /// The values of a tile's pixels, for each layer its rows.
+    /// Paints a tile.
     pub(super) fn paint(
         &self,
         window: Window,
+        desk: &mut Desk,
         counts: &mut RayCounts,
         cancel: &Cancel,
-    ) -> Result<Vec<Vec<f32>>, Cancelled> {
-        let pixels = pixels(window);
-        let samples = self.options.samples;
-        let mut out: Vec<Vec<f32>> =
-            self.layers.iter().map(|kind| vec![0.0; pixels.len() * kind.channels()]).collect();
-        // A bundle is about a tile's worth of rays: one sample of each pixel, or, where there are
-        // more, a few of each pixel of a square.
-        let (square, lot) = if samples == 1 { (pixels.len(), 1) } else { (LOT, LOTS.min(samples)) };
-        let mut drawn = Samples::with_capacity(square * lot as usize);
-        for pixels in pixels.chunks(square) {
-            let own: Vec<Sampler> = pixels
-                .iter()
-                .map(|&pixel| Sampler::new(pixel, 0, samples, self.options.seed))
-                .collect();
-            let mut sums = vec![Sums::default(); if samples == 1 { 0 } else { pixels.len() }];
-            for from in (0..samples).step_by(lot as usize) {
-                if cancel.is_cancelled() {
-                    return Err(Cancelled);
-                }
-                let indices = from..samples.min(from + lot);
-                let (integrator, filter) = (&self.integrator, &self.filter);
-                drawn.draw(integrator, self.options, filter, pixels, &own, indices);
-                let mut brought = self.integrator.trace(&drawn.bundle, counts, &mut ());
-                // Behind the rays come the samples outside the image circle: they bring nothing.
-                brought.resize(drawn.numbers.len(), Radiance::default());
-                for ((&number, &weight), radiance) in
-                    drawn.numbers.iter().zip(&drawn.weights).zip(&brought)
-                {
-                    if let Some(sums) = sums.get_mut(number as usize) {
-                        sums.add(radiance, weight);
-                    } else {
-                        // One sample, which weighs 1, is its pixel: nothing to sum.
-                        let share = f32::from(u8::from(radiance.met));
-                        let resolved = (&radiance.terms, coverage(share, self.options.background));
-                        self.put(of_window(window, pixels[number as usize]), resolved, &mut out);
-                    }
-                }
+    ) -> Result<(), Cancelled> {
+        let Desk { pixels, drawn, work, sums, values } = desk;
+        pixels.clear();
+        pixels.extend(eights(window, self.options));
+        values.resize_with(self.layers.len(), Vec::new);
+        for (kind, values) in self.layers.iter().zip(&mut *values) {
+            values.clear();
+            let len = window.width() as usize * window.height() as usize;
+            values.resize(len * kind.channels(), 0.0);
+        }
+        let (samples, background) = (self.options.samples, self.options.background);
+        let (integrator, filter) = (&self.integrator, &self.filter);
+        let bvh = integrator.scene.bvh();
+        if samples == 1 {
+            if cancel.is_cancelled() {
+                return Err(Cancelled);
             }
-            for (&pixel, sums) in pixels.iter().zip(&sums) {
-                let (terms, alpha) = sums.resolve(samples, self.options.background);
-                self.put(of_window(window, pixel), (&terms, alpha), &mut out);
+            drawn.draw(integrator, self.options, filter, pixels, 0..1);
+            let brought = integrator.trace(&drawn.bundle, work, counts, &mut ());
+            // One sample, which weighs 1, is its pixel: nothing to sum.
+            let one = brought.iter().map(|sample| {
+                let covered = |lane| coverage((sample.met >> lane & 1) as f32, background);
+                (&sample.terms, std::array::from_fn(covered))
+            });
+            let layers = &self.layers;
+            bvh.run(Put { window, layers, resolved: pixels.iter().zip(one), values });
+        } else {
+            for pixels in pixels.chunks(LOT) {
+                sums.clear();
+                sums.resize(pixels.len(), Sums8::NONE);
+                for from in (0..samples).step_by(LOTS as usize) {
+                    if cancel.is_cancelled() {
+                        return Err(Cancelled);
+                    }
+                    let indices = from..samples.min(from + LOTS);
+                    drawn.draw(integrator, self.options, filter, pixels, indices);
+                    let brought = integrator.trace(&drawn.bundle, work, counts, &mut ());
+                    Sums8::add(bvh, sums, brought, &drawn.weights);
+                }
+                for (pixels, sums) in pixels.iter().zip(&*sums) {
+                    let (terms, alpha) = sums.resolve(bvh, samples, background);
+                    let resolved = std::iter::once((pixels, (&terms, alpha)));
+                    let layers = &self.layers;
+                    bvh.run(Put { window, layers, resolved, values });
+                }
             }
         }
         if !self.options.aovs.is_empty() {
-            for &pixel in &pixels {
-                self.variables(pixel, of_window(window, pixel), &mut out);
+            for y in window.y0..window.y1 {
+                for x in window.x0..window.x1 {
+                    self.variables([x, y], of_window(window, [x, y]), values);
+                }
             }
         }
-        Ok(out)
-    }
-
-    /// Puts what a pixel is into the layers, at its place in the tile.
-    #[inline]
-    fn put(&self, place: usize, (terms, alpha): (&Terms, f32), out: &mut [Vec<f32>]) {
-        for (kind, values) in self.layers.iter().zip(out) {
-            match kind {
-                LayerKind::Picture => put(values, place, terms.total().to_array()),
-                LayerKind::Alpha => values[place] = alpha,
-                LayerKind::Term(term) => put(values, place, terms.to_array()[*term].to_array()),
-                LayerKind::Aov(_) => {}
-            }
-        }
+        Ok(())
     }
 
     /// The variables of a pixel, from the ray through its centre.
@@ -142,13 +156,11 @@ impl<'a> Painter<'a> {
                 (Aov::Shadow, Some(_)) => {
                     let mut seen = LightsSeen::default();
                     let sampler = Sampler::new([x, y], 0, 1, self.options.seed);
-                    let camera = ray.map(|ray| CameraRay { ray, sampler, height: 0.0 }.into());
                     let first_hit = Integrator { depth: 0, ..self.integrator };
-                    first_hit.trace(
-                        &camera.unwrap_or_default(),
-                        &mut RayCounts::default(),
-                        &mut seen,
-                    );
+                    if let Some(ray) = ray {
+                        let ray = CameraRay { ray, sampler, height: 0.0 };
+                        first_hit.trace_one(ray, &mut RayCounts::default(), &mut seen);
+                    }
                     values[place] = seen.share();
                 }
             }
@@ -182,18 +194,55 @@ impl Witness for LightsSeen {
 }
 
 /// A tile's pixels in squares, so that a bundle's neighbours are neighbours.
-fn pixels(window: Window) -> Vec<[u32; 2]> {
-    let mut pixels = Vec::with_capacity((window.width() * window.height()) as usize);
-    for y0 in (window.y0..window.y1).step_by(SQUARE as usize) {
-        for x0 in (window.x0..window.x1).step_by(SQUARE as usize) {
-            for y in y0..window.y1.min(y0 + SQUARE) {
-                for x in x0..window.x1.min(x0 + SQUARE) {
-                    pixels.push([x, y]);
+fn eights(window: Window, options: &RenderOptions) -> impl Iterator<Item = Pixels8> {
+    let starts = |from: u32, to: u32| (from..to).step_by(SQUARE as usize);
+    starts(window.y0, window.y1).flat_map(move |y0| {
+        starts(window.x0, window.x1).flat_map(move |x0| {
+            let len = SQUARE.min(window.x1 - x0);
+            (y0..window.y1.min(y0 + SQUARE)).map(move |y| Pixels8::new([x0, y], len, options))
+        })
+    })
+}
+
+/// Puts what pixels are into the layers, at their places in the tile.
+struct Put<'a, R> {
+    window: Window,
+    layers: &'a [LayerKind],
+    resolved: R,
+    values: &'a mut [Vec<f32>],
+}
+
+impl<'a, R: Iterator<Item = (&'a Pixels8, (&'a Terms8, [f32; 8]))>> Kernel for Put<'a, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let Self { window, layers, resolved, values } = self;
+        for (pixels, (terms, alpha)) in resolved {
+            let (place, len) = (of_window(window, pixels.first), pixels.len as usize);
+            for (kind, values) in layers.iter().zip(&mut *values) {
+                let at = place * kind.channels();
+                match kind {
+                    LayerKind::Picture => {
+                        put_colors(&mut values[at..][..3 * len], &store3(terms.total(simd)));
+                    }
+                    LayerKind::Alpha => values[at..][..len].copy_from_slice(&alpha[..len]),
+                    LayerKind::Term(term) => {
+                        put_colors(&mut values[at..][..3 * len], &terms.0[*term]);
+                    }
+                    LayerKind::Aov(_) => {}
                 }
             }
         }
     }
-    pixels
+}
+
+/// Puts colours one behind the other that lie side by side.
+#[inline(always)]
+fn put_colors(to: &mut [f32], [r, g, b]: &Lanes3) {
+    for (lane, to) in to.as_chunks_mut::<3>().0.iter_mut().enumerate() {
+        *to = [r[lane], g[lane], b[lane]];
+    }
 }
 
 /// The number of a pixel within a tile's rows.

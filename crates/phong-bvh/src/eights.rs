@@ -1,0 +1,141 @@
+//! Rays side by side, eight at a time: what a renderer's bundles are made of.
+//!
+//! A number of eight rays lies in memory as vector code wants it, so nothing has to be put in order
+//! on the way from a camera to a kernel and on to what is made of the hits.
+
+use glam::Vec3;
+
+use crate::{Hit, Ray};
+
+/// Eight rays side by side, some of which may be missing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(32))]
+pub struct Rays8 {
+    /// [`Ray::origin`]: x of each, y of each, z of each.
+    pub origin: [[f32; 8]; 3],
+    /// [`Ray::dir`].
+    pub dir: [[f32; 8]; 3],
+    /// [`Ray::t_min`].
+    pub t_min: [f32; 8],
+    /// [`Ray::t_max`].
+    pub t_max: [f32; 8],
+    /// Which of the eight there are, a bit each, the lowest for the first; at most `0xff`. The
+    /// numbers of the others are of no account.
+    pub there: u32,
+}
+
+impl Rays8 {
+    /// No rays.
+    pub const NONE: Self = Self {
+        origin: [[0.0; 8]; 3],
+        dir: [[0.0; 8]; 3],
+        t_min: [0.0; 8],
+        t_max: [f32::INFINITY; 8],
+        there: 0,
+    };
+
+    /// The ray in one lane, below 8.
+    #[inline]
+    pub fn get(&self, lane: usize) -> Ray {
+        Ray {
+            origin: vec3(&self.origin, lane),
+            t_min: self.t_min[lane],
+            dir: vec3(&self.dir, lane),
+            t_max: self.t_max[lane],
+        }
+    }
+
+    /// Puts a ray into one lane, below 8.
+    #[inline]
+    pub fn set(&mut self, lane: usize, ray: &Ray) {
+        for axis in 0..3 {
+            self.origin[axis][lane] = ray.origin[axis];
+            self.dir[axis][lane] = ray.dir[axis];
+        }
+        (self.t_min[lane], self.t_max[lane]) = (ray.t_min, ray.t_max);
+        self.there |= 1 << lane;
+    }
+
+    /// Rays in order, as many eights as it takes.
+    ///
+    /// ```
+    /// use phong_bvh::{Ray, Rays8};
+    /// use glam::Vec3;
+    ///
+    /// let rays = [Ray::new(Vec3::ZERO, Vec3::X); 11];
+    /// let eights = Rays8::of(&rays);
+    /// assert_eq!((eights.len(), eights[1].there), (2, 0b111));
+    /// assert_eq!(eights[1].get(2), rays[10]);
+    /// ```
+    pub fn of(rays: &[Ray]) -> Vec<Self> {
+        let eight = |rays: &[Ray]| {
+            let mut eight = Self::NONE;
+            rays.iter().enumerate().for_each(|(lane, ray)| eight.set(lane, ray));
+            eight
+        };
+        rays.chunks(8).map(eight).collect()
+    }
+}
+
+/// What eight rays hit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(32))]
+pub struct Hits8 {
+    /// [`Hit::t`].
+    pub t: [f32; 8],
+    /// [`Hit::prim`].
+    pub prim: [u32; 8],
+    /// [`Hit::u`].
+    pub u: [f32; 8],
+    /// [`Hit::v`].
+    pub v: [f32; 8],
+}
+
+impl Hits8 {
+    /// Nothing was hit.
+    pub const NONE: Self =
+        Self { t: [f32::INFINITY; 8], prim: [u32::MAX; 8], u: [0.0; 8], v: [0.0; 8] };
+
+    /// The hit in one lane, below 8.
+    #[inline]
+    pub fn get(&self, lane: usize) -> Hit {
+        Hit { t: self.t[lane], prim: self.prim[lane], u: self.u[lane], v: self.v[lane] }
+    }
+
+    #[inline]
+    pub(crate) fn set(&mut self, lane: usize, hit: Hit) {
+        (self.t[lane], self.prim[lane]) = (hit.t, hit.prim);
+        (self.u[lane], self.v[lane]) = (hit.u, hit.v);
+    }
+
+    /// The rays that hit something, a bit each, the lowest for the first.
+    #[inline(always)]
+    pub fn mask(&self) -> u32 {
+        let mut mask = 0;
+        for (lane, &prim) in self.prim.iter().enumerate() {
+            mask |= u32::from(prim != u32::MAX) << lane;
+        }
+        mask
+    }
+}
+
+/// The numbers of the bits that are set, lowest first.
+///
+/// ```
+/// assert_eq!(phong_bvh::lanes(0b1010_0001).collect::<Vec<_>>(), [0, 5, 7]);
+/// ```
+#[inline]
+pub fn lanes(mut mask: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        (mask != 0).then(|| {
+            let lane = mask.trailing_zeros();
+            mask &= mask - 1;
+            lane as usize
+        })
+    })
+}
+
+#[inline]
+fn vec3(lanes: &[[f32; 8]; 3], lane: usize) -> Vec3 {
+    Vec3::new(lanes[0][lane], lanes[1][lane], lanes[2][lane])
+}

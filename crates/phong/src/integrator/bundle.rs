@@ -1,0 +1,91 @@
+//! Rays that are traced together, and what they bring home.
+
+use phong_bvh::{Ray, Rays8};
+
+use crate::reflectance::Terms8;
+use crate::sampling::{Sampler, Samplers8};
+
+/// A ray from the camera.
+#[derive(Clone, Copy, Debug)]
+pub struct CameraRay {
+    /// The ray.
+    pub ray: Ray,
+    /// Where its samples come from.
+    pub sampler: Sampler,
+    /// Where it crosses the picture's height: 0 the upper edge, 1 the lower.
+    pub height: f32,
+}
+
+/// Rays from the camera that are traced together, eight side by side.
+#[derive(Clone, Debug, Default)]
+pub struct Bundle {
+    /// The rays.
+    pub(crate) rays: Vec<Rays8>,
+    /// Where the samples of each come from, eight for eight rays.
+    pub(crate) samplers: Vec<Samplers8>,
+    /// Where each crosses the picture's height; asked for under a gradient alone.
+    pub(crate) heights: Vec<[f32; 8]>,
+}
+
+impl Bundle {
+    /// Forgets the rays and keeps the room.
+    pub(crate) fn clear(&mut self) {
+        self.rays.clear();
+        self.samplers.clear();
+        self.heights.clear();
+    }
+}
+
+impl From<CameraRay> for Bundle {
+    fn from(CameraRay { ray, sampler, height }: CameraRay) -> Self {
+        Self {
+            rays: Rays8::of(&[ray]),
+            samplers: vec![Samplers8::splat(sampler)],
+            heights: vec![[height; 8]],
+        }
+    }
+}
+
+/// What eight rays brought home: nothing, where there was none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Radiance8 {
+    /// The terms, linear and unclamped.
+    pub terms: Terms8,
+    /// The rays that met a surface, a bit each, the lowest for the first.
+    pub met: u32,
+}
+
+impl Radiance8 {
+    /// Nothing.
+    pub const NONE: Self = Self { terms: Terms8::NONE, met: 0 };
+}
+
+/// How many rays were traced.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RayCounts {
+    /// From the camera.
+    pub primary: u64,
+    /// Towards lights.
+    pub shadow: u64,
+    /// Mirror and glass.
+    pub secondary: u64,
+}
+
+impl RayCounts {
+    /// All rays.
+    pub fn total(&self) -> u64 {
+        self.primary + self.shadow + self.secondary
+    }
+
+    /// Adds the counts of another.
+    pub fn add(&mut self, other: &Self) {
+        self.primary += other.primary;
+        self.shadow += other.shadow;
+        self.secondary += other.secondary;
+    }
+}
+
+/// How many rays there are.
+pub(super) fn count(rays: &[Rays8]) -> u64 {
+    rays.iter().map(|rays| u64::from(rays.there.count_ones())).sum()
+}
