@@ -268,7 +268,7 @@ impl Bvh {
     /// If `hits` or `surfaces` has not the length of `rays`.
     pub fn surface_eights(&self, rays: &[Rays8], hits: &[Hits8], surfaces: &mut [Surfaces8]) {
         assert_eq!((rays.len(), rays.len()), (hits.len(), surfaces.len()), "one for each");
-        self.token.run(Surfaces { bvh: self, rays, hits, surfaces });
+        self.token.run(Surfaces { bvh: self, rays, hits, out: surfaces });
     }
 
     /// Where on its surface a hit of `ray` is.

@@ -152,7 +152,9 @@ fn agrees_with_brute_force(geometry: &[Geometry], rays: &[Ray]) {
         bvh.occluded_bundle(rays, &mut blocked);
         let mut eights = Rays8::of(rays);
         // A gap in each.
-        eights.iter_mut().for_each(|rays| rays.there &= !0b100);
+        for rays in &mut eights {
+            rays.there &= !0b100;
+        }
         let mut hits8 = vec![Hits8::NONE; eights.len()];
         let mut blocked8 = vec![0; eights.len()];
         bvh.intersect_eights(&eights, &mut hits8);

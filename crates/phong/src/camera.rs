@@ -109,17 +109,20 @@ impl Camera {
         [x, y]: [[f64x4<S>; 2]; 2],
         size: [u32; 2],
     ) -> Rays8 {
-        let (width, height) = (f64::from(size[0]), f64::from(size[1]));
-        let four = |x: f64x4<S>, y: f64x4<S>| {
-            let [x, y] = from_the_middle([x, y], width, height);
-            let [x, y, z] = self.toward(x, y);
-            let inverse = f64x4::splat(simd, 1.0) / (x * x + y * y + z * z).sqrt();
-            [x * inverse, y * inverse, z * inverse]
-        };
-        let (low, high) = (four(x[0], y[0]), four(x[1], y[1]));
+        let low = self.pinhole4(simd, [x[0], y[0]], size);
+        let high = self.pinhole4(simd, [x[1], y[1]], size);
         let dir = [low[0].narrow(high[0]), low[1].narrow(high[1]), low[2].narrow(high[2])];
         let Vec3 { x, y, z } = self.eye.as_vec3();
         Rays8 { origin: [[x; 8], [y; 8], [z; 8]], dir: store3(dir), there: 0xff, ..Rays8::NONE }
+    }
+
+    /// [`Camera::pinhole`] through four places of a picture of `size` pixels.
+    #[inline(always)]
+    fn pinhole4<S: Simd>(&self, simd: S, place: [f64x4<S>; 2], size: [u32; 2]) -> [f64x4<S>; 3] {
+        let [x, y] = from_the_middle(place, f64::from(size[0]), f64::from(size[1]));
+        let [x, y, z] = self.toward(x, y);
+        let inverse = f64x4::splat(simd, 1.0) / (x * x + y * y + z * z).sqrt();
+        [x * inverse, y * inverse, z * inverse]
     }
 
     /// The direction through a place, half heights off the picture's middle: unit, since no
@@ -134,11 +137,10 @@ impl Camera {
     #[inline(always)]
     fn toward<F: Wide>(&self, x: F, y: F) -> [F; 3] {
         let Self { right, up, forward, half, .. } = self;
-        let along = |r: f64, u: f64, f: f64| (x * r + y * u) * *half + f;
         [
-            along(right.x, up.x, forward.x),
-            along(right.y, up.y, forward.y),
-            along(right.z, up.z, forward.z),
+            (x * right.x + y * up.x) * *half + forward.x,
+            (x * right.y + y * up.y) * *half + forward.y,
+            (x * right.z + y * up.z) * *half + forward.z,
         ]
     }
 

@@ -1,9 +1,12 @@
 //! The film: what has been rendered so far, layer by layer.
 
+mod values;
+
 use thiserror::Error;
 
 use crate::aov::Aov;
 use crate::reflectance::Terms;
+pub use values::Values;
 
 /// A half-open rectangle of pixels of the full picture: `x0 ≤ x < x1`, `y0 ≤ y < y1`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,6 +35,19 @@ impl Window {
     /// Pixels down.
     pub const fn height(&self) -> u32 {
         self.y1 - self.y0
+    }
+
+    /// One of the square tiles of this edge that it is cut into, row by row; those at the right and
+    /// lower edge may be smaller.
+    #[must_use]
+    pub const fn tile(&self, edge: u32, index: usize) -> Self {
+        let across = self.width().div_ceil(edge);
+        let (column, row) = (index as u32 % across, index as u32 / across);
+        let (x0, y0) = (self.x0 + column * edge, self.y0 + row * edge);
+        let [right, lower] = [self.x1 - x0, self.y1 - y0];
+        let x1 = x0 + if edge < right { edge } else { right };
+        let y1 = y0 + if edge < lower { edge } else { lower };
+        Self { x0, y0, x1, y1 }
     }
 
     /// Whether it holds at least one pixel and lies within a picture of `size`.
@@ -81,7 +97,7 @@ pub struct Layer {
     /// What it holds.
     pub kind: LayerKind,
     /// `kind.channels()` values a pixel, rows from top to bottom. 0 where not yet rendered.
-    pub values: Vec<f32>,
+    pub values: Values,
 }
 
 /// What has been rendered so far. Pixels are gathered in square tiles, row by row over the window.
@@ -114,7 +130,8 @@ impl Film {
     /// An empty film.
     pub fn new(size: [u32; 2], window: Window, tile: u32, kinds: &[LayerKind]) -> Self {
         let pixels = window.width() as usize * window.height() as usize;
-        let layer = |&kind: &LayerKind| Layer { kind, values: vec![0.0; pixels * kind.channels()] };
+        let layer =
+            |&kind: &LayerKind| Layer { kind, values: Values::zeroed(pixels * kind.channels()) };
         let [across, down] = tiles(&window, tile);
         Self {
             size,
@@ -158,16 +175,7 @@ impl Film {
 
     /// The pixels of a tile; those at the right and lower edge may be smaller.
     pub fn tile_window(&self, index: usize) -> Window {
-        let w = self.window;
-        let [across, _] = tiles(&w, self.tile);
-        let (column, row) = (index as u32 % across, index as u32 / across);
-        let (x0, y0) = (w.x0 + column * self.tile, w.y0 + row * self.tile);
-        Window {
-            x0,
-            y0,
-            x1: w.x1.min(x0.saturating_add(self.tile)),
-            y1: w.y1.min(y0.saturating_add(self.tile)),
-        }
+        self.window.tile(self.tile, index)
     }
 
     /// Whether every tile is rendered.

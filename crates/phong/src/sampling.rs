@@ -110,8 +110,9 @@ impl Samplers8 {
     pub(crate) fn pair(&self, purpose: Use) -> [[f32; 8]; 2] {
         let mut out = [[0.5; 8]; 2];
         if !self.centred {
-            for lane in 0..8 {
-                [out[0][lane], out[1][lane]] = self.get(lane).scrambled(purpose);
+            let [x, y] = &mut out;
+            for (lane, (x, y)) in x.iter_mut().zip(y).enumerate() {
+                [*x, *y] = self.get(lane).scrambled(purpose);
             }
         }
         out

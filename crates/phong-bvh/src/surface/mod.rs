@@ -113,7 +113,7 @@ pub(crate) struct Surfaces<'a> {
     pub(crate) bvh: &'a Bvh,
     pub(crate) rays: &'a [Rays8],
     pub(crate) hits: &'a [Hits8],
-    pub(crate) surfaces: &'a mut [Surfaces8],
+    pub(crate) out: &'a mut [Surfaces8],
 }
 
 impl Kernel for Surfaces<'_> {
@@ -121,8 +121,8 @@ impl Kernel for Surfaces<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Self { bvh, rays, hits, surfaces } = self;
-        for ((rays, hits), out) in rays.iter().zip(hits).zip(surfaces) {
+        let Self { bvh, rays, hits, out } = self;
+        for ((rays, hits), out) in rays.iter().zip(hits).zip(out) {
             *out = Surfaces8::default();
             let mut left = hits.mask();
             while left != 0 {

@@ -138,12 +138,16 @@ pub(super) fn corners(positions: &[Vec3], indices: [u32; 3]) -> [[f64; 3]; 3] {
 pub(super) fn triangle<F: Real>([a, b, c]: [[F; 3]; 3], u: F, v: F) -> Point<F> {
     let (ab, ac) = (minus(b, a), minus(c, a));
     let p = along(along(a, u, ab), v, ac);
-    let far = |k: usize| {
-        let (a, b, c) = ((a[k] - p[k]).size(), (b[k] - p[k]).size(), (c[k] - p[k]).size());
-        a.or_larger(b).or_larger(c)
-    };
-    let slack = far(0).or_larger(far(1)).or_larger(far(2)) * (8.0 * ROUNDING);
+    let slack = farthest(p, a).or_larger(farthest(p, b)).or_larger(farthest(p, c));
+    let slack = slack * (8.0 * ROUNDING);
     rounded(p, unit(cross(ab, ac)), u.like(0.0), [slack, slack, slack])
+}
+
+/// How far one point is from another along the axis where that is most.
+#[inline(always)]
+fn farthest<F: Real>(p: [F; 3], q: [F; 3]) -> F {
+    let [x, y, z] = minus(q, p);
+    x.size().or_larger(y.size()).or_larger(z.size())
 }
 
 /// Of the two points where the line of the ray meets the sphere the one nearer to the hit; where

@@ -85,9 +85,9 @@ impl<'a> World<'a> {
 
     /// The closest hit of each ray, `planes` being the geometry outside the tree.
     pub(crate) fn closest_of_eights(&self, planes: Planes<'a>, rays: &[Rays8], hits: &mut [Hits8]) {
-        let few = self.few();
-        self.token.run(ClosestOfFew { planes, block: few.unwrap_or(None), rays, hits });
-        if few.is_none() {
+        let block = self.handful();
+        self.token.run(ClosestOfFew { planes, block, rays, hits });
+        if block.is_none() && self.root.is_some() {
             GATHERED.with_borrow_mut(|Gathered { rays: alone, hits: found, .. }| {
                 gather(rays, alone);
                 found.clear();
@@ -107,9 +107,9 @@ impl<'a> World<'a> {
 
     /// Whether each ray hits anything, a bit each.
     pub(crate) fn any_of_eights(&self, planes: Planes<'a>, rays: &[Rays8], blocked: &mut [u32]) {
-        let few = self.few();
-        self.token.run(AnyOfFew { planes, block: few.unwrap_or(None), rays, blocked });
-        if few.is_none() {
+        let block = self.handful();
+        self.token.run(AnyOfFew { planes, block, rays, blocked });
+        if block.is_none() && self.root.is_some() {
             GATHERED.with_borrow_mut(|Gathered { rays: alone, blocked: found, .. }| {
                 gather(rays, alone);
                 found.clear();
@@ -122,15 +122,10 @@ impl<'a> World<'a> {
         }
     }
 
-    /// What the tree is, if it is a leaf of spheres at most.
-    fn few(&self) -> Option<Option<&'a [Row; sphere::BLOCK]>> {
-        match self.root {
-            None => Some(None),
-            Some(root) if root.kind() == Some(Kind::Spheres) => {
-                Some(Some(rows(self.rows, root.row())))
-            }
-            Some(_) => None,
-        }
+    /// The only leaf, if the tree is one and holds spheres.
+    fn handful(&self) -> Option<&'a [Row; sphere::BLOCK]> {
+        let leaf = self.root.filter(|root| root.kind() == Some(Kind::Spheres))?;
+        Some(rows(self.rows, leaf.row()))
     }
 
     /// Whether a ray hits anything.

@@ -251,7 +251,7 @@ impl Drawing {
         } else {
             let kinds = [LayerKind::Picture];
             let mut film = Film::new(a.size, Window::full(a.size), RenderOptions::TILE, &kinds);
-            film.layers[0].values.clone_from(&found.map);
+            film.layers[0].values.copy_from_slice(&found.map);
             film
         };
         let content = Content::of(&[LayerKind::Picture], self.format)[0];

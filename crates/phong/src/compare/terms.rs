@@ -88,8 +88,8 @@ mod tests {
     fn film(diffuse: [f32; 6], specular: [f32; 6]) -> Film {
         let kinds = [LayerKind::Picture, LayerKind::Term(2), LayerKind::Term(3)];
         let mut film = Film::new([2, 1], Window::full([2, 1]), 16, &kinds);
-        film.layers[1].values = diffuse.to_vec();
-        film.layers[2].values = specular.to_vec();
+        film.layers[1].values = diffuse.into_iter().collect();
+        film.layers[2].values = specular.into_iter().collect();
         film
     }
 

@@ -167,7 +167,7 @@ pub(super) fn spots(film: &Film) -> Vec<Spot> {
 /// The sum of some layers as pixels, background transparent.
 pub(super) fn bitmap(film: &Film, layers: &[LayerKind]) -> Bitmap {
     let values: Vec<&[f32]> =
-        layers.iter().filter_map(|&kind| Some(film.layer(kind)?.values.as_slice())).collect();
+        layers.iter().filter_map(|&kind| Some(&*film.layer(kind)?.values)).collect();
     let alpha = film.layer(LayerKind::Alpha).map_or(&[][..], |layer| &layer.values);
     let mut rgba = Vec::with_capacity(4 * alpha.len());
     for (pixel, &alpha) in alpha.iter().enumerate() {

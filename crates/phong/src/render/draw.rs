@@ -1,5 +1,7 @@
 //! Where samples fall, and the rays that go there.
 
+use std::ops::Range;
+
 use fearless_simd::{Simd, f32x8, f64x4, prelude::*};
 use glam::DVec2;
 use phong_bvh::{Kernel, Rays8, lanes};
@@ -9,7 +11,6 @@ use super::RenderOptions;
 use crate::camera::Camera;
 use crate::filter::Filter;
 use crate::integrator::{Bundle, CameraRay, Integrator};
-use crate::math::lanes::Lanes3;
 use crate::sampling::{Sampler, Samplers8, Use};
 
 /// Up to eight pixels of a row, side by side.
@@ -52,36 +53,38 @@ impl Samples {
         options: &RenderOptions,
         filter: &Filter,
         pixels: &[Pixels8],
-        indices: impl Iterator<Item = u32>,
+        indices: Range<u32>,
     ) {
         self.bundle.clear();
         self.weights.clear();
-        let drawn =
-            indices.flat_map(|index| pixels.iter().map(move |&p| (p, p.samplers.at(index))));
         if integrator.scene.camera().is_pinhole() {
-            let camera = integrator.scene.camera();
-            integrator.scene.bvh().run(ThroughPinhole { camera, options, filter, drawn, to: self });
+            let (camera, to) = (integrator.scene.camera(), self);
+            let bvh = integrator.scene.bvh();
+            bvh.run(ThroughPinhole { camera, options, filter, pixels, indices, to });
             return;
         }
-        for (pixels, samplers) in drawn {
-            let (mut rays, mut heights, mut weights) = (Rays8::NONE, [0.0; 8], [0.0; 8]);
-            for lane in 0..pixels.len as usize {
-                let sampler = samplers.get(lane);
-                let drawn = camera_ray(integrator, options, filter, pixels.pixel(lane), sampler);
-                weights[lane] = drawn.weight;
-                if let Some(CameraRay { ray, height, .. }) = drawn.ray {
-                    rays.set(lane, &ray);
-                    heights[lane] = height;
+        for index in indices {
+            for pixels in pixels {
+                let samplers = pixels.samplers.at(index);
+                let (mut rays, mut heights, mut weights) = (Rays8::NONE, [0.0; 8], [0.0; 8]);
+                for lane in 0..pixels.len as usize {
+                    let (pixel, sampler) = (pixels.pixel(lane), samplers.get(lane));
+                    let drawn = camera_ray(integrator, options, filter, pixel, sampler);
+                    weights[lane] = drawn.weight;
+                    if let Some(CameraRay { ray, height, .. }) = drawn.ray {
+                        rays.set(lane, &ray);
+                        heights[lane] = height;
+                    }
                 }
+                self.push(&rays, samplers, weights);
+                self.bundle.heights.push(heights);
             }
-            self.push(rays, samplers, weights);
-            self.bundle.heights.push(heights);
         }
     }
 
     #[inline(always)]
-    fn push(&mut self, rays: Rays8, samplers: Samplers8, weights: [f32; 8]) {
-        self.bundle.rays.push(rays);
+    fn push(&mut self, rays: &Rays8, samplers: Samplers8, weights: [f32; 8]) {
+        self.bundle.rays.push(*rays);
         self.bundle.samplers.push(samplers);
         self.weights.push(weights);
     }
@@ -119,40 +122,43 @@ pub(crate) fn camera_ray(
 }
 
 /// [`camera_ray`] of eight samples at once, through a pinhole.
-struct ThroughPinhole<'a, D> {
+struct ThroughPinhole<'a> {
     camera: &'a Camera,
     options: &'a RenderOptions,
     filter: &'a Filter,
-    drawn: D,
+    pixels: &'a [Pixels8],
+    indices: Range<u32>,
     to: &'a mut Samples,
 }
 
-impl<D: Iterator<Item = (Pixels8, Samplers8)>> Kernel for ThroughPinhole<'_, D> {
+impl Kernel for ThroughPinhole<'_> {
     type Output = ();
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Self { camera, options, filter, drawn, to } = self;
-        let steps =
-            |from: f64| -> f64x4<S> { [from, from + 1.0, from + 2.0, from + 3.0].simd_into(simd) };
-        let (low, high) = (steps(0.0), steps(4.0));
+        let Self { camera, options, filter, pixels, indices, to } = self;
+        let low: f64x4<S> = [0.0, 1.0, 2.0, 3.0].simd_into(simd);
+        let high: f64x4<S> = [4.0, 5.0, 6.0, 7.0].simd_into(simd);
         let gradient = matches!(options.background, Background::Gradient { .. });
-        for (pixels, samplers) in drawn {
-            let [x, y, weights]: Lanes3 = filter.sample8(samplers.pair(Use::Pixel));
-            let offset = |v: &[f32; 8]| f32x8::load_array_ref(simd, v).widen();
-            let (dx, dy) = (offset(&x), offset(&y));
-            let [left, top] = [f64::from(pixels.first[0]), f64::from(pixels.first[1]) + 0.5];
-            let x = [low + left + 0.5 + dx.0, high + left + 0.5 + dx.1];
-            let y = [dy.0 + top, dy.1 + top];
-            let mut rays = camera.pinhole_rays(simd, [x, y], options.size);
-            rays.there = (1 << pixels.len) - 1;
-            to.push(rays, samplers, weights);
-            if gradient {
-                let mut heights = [0.0; 8];
-                for lane in lanes(rays.there) {
-                    heights[lane] = height(y[lane / 4][lane % 4], options.size);
+        for index in indices {
+            for pixels in pixels {
+                let samplers = pixels.samplers.at(index);
+                let [x, y, weights] = filter.sample8(samplers.pair(Use::Pixel));
+                let dx = f32x8::load_array(simd, x).widen();
+                let dy = f32x8::load_array(simd, y).widen();
+                let [left, top] = [f64::from(pixels.first[0]), f64::from(pixels.first[1]) + 0.5];
+                let x = [low + left + 0.5 + dx.0, high + left + 0.5 + dx.1];
+                let y = [dy.0 + top, dy.1 + top];
+                let mut rays = camera.pinhole_rays(simd, [x, y], options.size);
+                rays.there = (1 << pixels.len) - 1;
+                to.push(&rays, samplers, weights);
+                if gradient {
+                    let mut heights = [0.0; 8];
+                    for lane in lanes(rays.there) {
+                        heights[lane] = height(y[lane / 4][lane % 4], options.size);
+                    }
+                    to.bundle.heights.push(heights);
                 }
-                to.bundle.heights.push(heights);
             }
         }
     }

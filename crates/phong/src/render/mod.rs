@@ -194,10 +194,7 @@ pub fn resume(
                 return Err(Cancelled);
             }
             let mut rays = RayCounts::default();
-            let window = {
-                let shared = shared.lock().unwrap_or_else(PoisonError::into_inner);
-                shared.0.tile_window(tile)
-            };
+            let window = options.window.tile(options.tile, tile);
             painter.paint(window, &mut desk, &mut rays, cancel)?;
             let mut shared = shared.lock().unwrap_or_else(PoisonError::into_inner);
             let (film, progress) = &mut *shared;

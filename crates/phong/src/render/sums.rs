@@ -126,7 +126,9 @@ impl Kernel for Resolve<'_> {
             }
         }
         let mut share: [f32; 8] = resolved(alpha).into();
-        share.iter_mut().for_each(|share| *share = coverage(share.clamp(0.0, 1.0), background));
+        for share in &mut share {
+            *share = coverage(share.clamp(0.0, 1.0), background);
+        }
         (out, share)
     }
 }
