@@ -140,6 +140,21 @@ impl Bvh {
         self.first[index]..self.first[index + 1]
     }
 
+    /// The primitive numbers of the geometry that one belongs to. `index`, its number, is changed
+    /// where it is of another: neighbours are mostly of the same.
+    ///
+    /// # Panics
+    /// If there is no such primitive.
+    #[inline]
+    pub fn primitives_around(&self, index: &mut usize, prim: u32) -> Range<u32> {
+        let here = self.primitives(*index);
+        if here.contains(&prim) {
+            return here;
+        }
+        *index = self.locate(prim).0;
+        self.primitives(*index)
+    }
+
     /// Which geometry a primitive number belongs to, and its number within.
     ///
     /// # Panics

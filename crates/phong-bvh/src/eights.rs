@@ -89,12 +89,14 @@ pub struct Hits8 {
     pub u: [f32; 8],
     /// [`Hit::v`].
     pub v: [f32; 8],
+    /// The rays that hit something, a bit each, the lowest for the first.
+    pub met: u32,
 }
 
 impl Hits8 {
     /// Nothing was hit.
     pub const NONE: Self =
-        Self { t: [f32::INFINITY; 8], prim: [u32::MAX; 8], u: [0.0; 8], v: [0.0; 8] };
+        Self { t: [f32::INFINITY; 8], prim: [u32::MAX; 8], u: [0.0; 8], v: [0.0; 8], met: 0 };
 
     /// The hit in one lane, below 8.
     #[inline]
@@ -106,16 +108,7 @@ impl Hits8 {
     pub(crate) fn set(&mut self, lane: usize, hit: Hit) {
         (self.t[lane], self.prim[lane]) = (hit.t, hit.prim);
         (self.u[lane], self.v[lane]) = (hit.u, hit.v);
-    }
-
-    /// The rays that hit something, a bit each, the lowest for the first.
-    #[inline(always)]
-    pub fn mask(&self) -> u32 {
-        let mut mask = 0;
-        for (lane, &prim) in self.prim.iter().enumerate() {
-            mask |= u32::from(prim != u32::MAX) << lane;
-        }
-        mask
+        self.met = self.met & !(1 << lane) | u32::from(hit.is_some()) << lane;
     }
 }
 

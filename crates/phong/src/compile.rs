@@ -269,7 +269,8 @@ impl CompiledScene {
         Dressed { n: n.facing(e), material, color }
     }
 
-    /// [`CompiledScene::dressed`] of those of eight surfaces that were met, a bit each: the same bits.
+    /// [`CompiledScene::dressed`] of those of eight surfaces that were met: the same bits. `index` is
+    /// the number of the geometry met last, of whatever eight.
     #[inline(always)]
     pub(crate) fn dress<S: Simd>(
         &self,
@@ -277,23 +278,22 @@ impl CompiledScene {
         hits: &Hits8,
         ng: [f32x8<S>; 3],
         e: [f32x8<S>; 3],
+        index: &mut usize,
         dressed: &mut Dressed8,
     ) {
         let Dressed8 { n, color, material } = dressed;
         let zero = f32x8::splat(simd, 0.0);
         *n = store3(ng);
-        let mut left = hits.mask();
+        let mut left = hits.met;
         while left != 0 {
             // Neighbours are mostly of one part.
             let first = left.trailing_zeros() as usize & 7;
-            let (index, local) = self.bvh.locate(hits.prim[first]);
-            let (part, start) = (&self.parts[index], hits.prim[first] - local);
-            let len = self.bvh.geometry()[index].len() as u32;
-            let mut same = 0;
-            for (lane, &prim) in hits.prim.iter().enumerate() {
-                same |= u32::from(prim.wrapping_sub(start) < len) << lane;
-            }
-            same &= left;
+            let range = self.bvh.primitives_around(index, hits.prim[first]);
+            let part = &self.parts[*index];
+            let prim = u32x8::load_array_ref(simd, &hits.prim);
+            let from = prim.simd_ge(u32x8::splat(simd, range.start));
+            let below = prim.simd_lt(u32x8::splat(simd, range.end));
+            let same = left & (from & below).to_bitmask() as u32;
             left &= !same;
             if let (Some(number), true) = (part.only_material(), part.is_plain()) {
                 let own = splat3(simd, self.materials[number as usize].color.to_array());
@@ -304,8 +304,8 @@ impl CompiledScene {
                 continue;
             }
             for lane in lanes(same) {
-                let (hit, local) = (hits.get(lane), hits.prim[lane] - start);
-                let corners = self.corners(index, local);
+                let (hit, local) = (hits.get(lane), hits.prim[lane] - range.start);
+                let corners = self.corners(*index, local);
                 let own = part.material(local);
                 material[lane] = own;
                 let own = self.materials[own as usize].color;

@@ -56,17 +56,38 @@ impl Sampler {
 
     #[inline(always)]
     fn scrambled(&self, purpose: Use) -> [f32; 2] {
+        self.keys(purpose).pair(self.index)
+    }
+
+    /// What all samples of a pixel have in common, for one use.
+    #[inline(always)]
+    fn keys(&self, purpose: Use) -> Keys {
         let dimension = match purpose {
             Use::Pixel => 0,
             Use::Lens => 1,
             Use::Light(number) => 2 + number,
         };
-        let key = hash(self.key ^ hash(dimension ^ 0x9e37_79b9));
+        let index = hash(self.key ^ hash(dimension ^ 0x9e37_79b9));
+        Keys { index, x: hash(index ^ 0x68bc_21eb), y: hash(index ^ 0x02e5_be93) }
+    }
+}
+
+/// What the samples of a pixel are scrambled with.
+#[derive(Clone, Copy, Debug)]
+struct Keys {
+    index: u32,
+    x: u32,
+    y: u32,
+}
+
+impl Keys {
+    #[inline(always)]
+    fn pair(self, index: u32) -> [f32; 2] {
         // Scrambling the index as a number sends every aligned block of a power of two of
         // samples to another such block, which fills its strata as well.
-        let index = scramble(self.index, key);
-        let x = scramble(index.reverse_bits(), hash(key ^ 0x68bc_21eb));
-        let y = scramble(sobol(index), hash(key ^ 0x02e5_be93));
+        let index = scramble(index, self.index);
+        let x = scramble(index.reverse_bits(), self.x);
+        let y = scramble(sobol(index), self.y);
         [unit(x), unit(y)]
     }
 }
@@ -113,6 +134,44 @@ impl Samplers8 {
             let [x, y] = &mut out;
             for (lane, (x, y)) in x.iter_mut().zip(y).enumerate() {
                 [*x, *y] = self.get(lane).scrambled(purpose);
+            }
+        }
+        out
+    }
+}
+
+/// Places in eight pixels: [`Samplers8::pair`] for many samples.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(32))]
+pub(crate) struct Places8 {
+    index: [u32; 8],
+    x: [u32; 8],
+    y: [u32; 8],
+    centred: bool,
+}
+
+impl Places8 {
+    pub(crate) fn new(samplers: &Samplers8) -> Self {
+        let Samplers8 { key, centred, .. } = *samplers;
+        let mut places = Self { index: key, x: key, y: key, centred };
+        if !centred {
+            for lane in 0..8 {
+                let Keys { index, x, y } = samplers.get(lane).keys(Use::Pixel);
+                (places.index[lane], places.x[lane], places.y[lane]) = (index, x, y);
+            }
+        }
+        places
+    }
+
+    /// The place of sample `index` in each.
+    #[inline(always)]
+    pub(crate) fn at(&self, index: u32) -> [[f32; 8]; 2] {
+        let mut out = [[0.5; 8]; 2];
+        if !self.centred {
+            let [x, y] = &mut out;
+            for (lane, (x, y)) in x.iter_mut().zip(y).enumerate() {
+                let keys = Keys { index: self.index[lane], x: self.x[lane], y: self.y[lane] };
+                [*x, *y] = keys.pair(index);
             }
         }
         out
@@ -231,8 +290,10 @@ mod tests {
             let mut samplers = Samplers8::splat(own(0));
             (0..8).for_each(|i| samplers.set(i, own(i)));
             let [x, y] = samplers.pair(Use::Pixel);
+            let [u, v] = Places8::new(&samplers).at(7);
             for i in 0..8 {
                 assert_eq!([x[i], y[i]], own(i).pair(Use::Pixel));
+                assert_eq!([u[i], v[i]], own(i).at(7).pair(Use::Pixel));
             }
         }
     }

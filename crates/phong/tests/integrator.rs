@@ -322,8 +322,11 @@ fn data_far_from_the_origin_keep_their_detail() {
     there.objects[1] = sphere((DVec3::new(0.25, 0.0, 0.5) + far).to_array(), 0.01);
     let [here, there] = [here, there].map(|scene| film_with(scene, |_| {}));
     let picture = |film: &Film| film.layer(LayerKind::Picture).unwrap().values.clone();
-    let worst =
-        picture(&here).iter().zip(&*picture(&there)).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+    let worst = picture(&here)
+        .iter()
+        .zip(&*picture(&there))
+        .map(|(a, b)| (a - b).abs())
+        .fold(0.0, f32::max);
     assert!(worst < 1e-4, "differs by {worst}");
 }
 

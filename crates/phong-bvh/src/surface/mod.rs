@@ -122,14 +122,15 @@ impl Kernel for Surfaces<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let Self { bvh, rays, hits, out } = self;
+        let mut index = 0;
         for ((rays, hits), out) in rays.iter().zip(hits).zip(out) {
             *out = Surfaces8::default();
-            let mut left = hits.mask();
+            let mut left = hits.met;
             while left != 0 {
                 // Neighbours are mostly of one geometry.
                 let first = hits.prim[left.trailing_zeros() as usize & 7];
-                let (index, local) = bvh.locate(first);
-                let same = left & within(&hits.prim, &bvh.primitives(index));
+                let range = bvh.primitives_around(&mut index, first);
+                let same = left & within(&hits.prim, &range);
                 left &= !same;
                 match &bvh.geometry()[index] {
                     Geometry::Solid(_) => {
@@ -139,10 +140,10 @@ impl Kernel for Surfaces<'_> {
                     }
                     geometry => {
                         // The other lanes repeat the first.
-                        let mut locals = [local as usize; 8];
+                        let mut locals = [(first - range.start) as usize; 8];
                         for (lane, own) in locals.iter_mut().enumerate() {
                             if same >> lane & 1 != 0 {
-                                *own = (hits.prim[lane] - (first - local)) as usize;
+                                *own = (hits.prim[lane] - range.start) as usize;
                             }
                         }
                         let met = eight(simd, geometry, &locals, rays, hits);

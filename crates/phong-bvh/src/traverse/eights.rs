@@ -50,8 +50,9 @@ impl Kernel for ClosestOfFew<'_> {
             let mut best = (load(&rays.t_max), u32x8::splat(simd, u32::MAX));
             let there = mask32x8::from_bitmask(simd, rays.there.into());
             for (plane, number) in planes.each() {
-                let (met, t) = plane.intersect8(simd, rays);
-                offer(simd, &mut best, there & met, t, number);
+                if let Some((met, t)) = plane.intersect8(simd, rays) {
+                    offer(simd, &mut best, there & met, t, number);
+                }
             }
             if let Some(block) = block {
                 let closest = Closest8::of_rays(simd, rays);
@@ -62,7 +63,8 @@ impl Kernel for ClosestOfFew<'_> {
                 }
             }
             let (t, prim) = best;
-            *hits = Hits8 { t: t.into(), prim: prim.into(), ..Hits8::NONE };
+            let met = prim.simd_lt(u32x8::splat(simd, u32::MAX)).to_bitmask() as u32;
+            *hits = Hits8 { t: t.into(), prim: prim.into(), met, ..Hits8::NONE };
         }
     }
 }
@@ -102,7 +104,9 @@ impl Kernel for AnyOfFew<'_> {
                 continue;
             }
             for (plane, _) in planes.each() {
-                *blocked |= plane.intersect8(simd, rays).0.to_bitmask() as u32;
+                if let Some((met, _)) = plane.intersect8(simd, rays) {
+                    *blocked |= met.to_bitmask() as u32;
+                }
             }
             if let Some(block) = block {
                 let closest = Closest8::of_rays(simd, rays);

@@ -98,7 +98,7 @@ impl<'a> World<'a> {
                 }
             });
         }
-        for hits in hits {
+        for hits in hits.iter_mut().filter(|hits| hits.met != 0xff) {
             for (t, prim) in hits.t.iter_mut().zip(hits.prim) {
                 *t = if prim == u32::MAX { f32::INFINITY } else { *t };
             }

@@ -44,7 +44,7 @@ impl Landing {
         let rays = Rays8::of(&[self.ray; 6]);
         let (mut hits, mut eight) = ([Hits8::NONE], [Surfaces8::default()]);
         self.bvh.intersect_eights(&rays, &mut hits);
-        prop_assert_eq!((hits[0].get(5), hits[0].mask()), (self.hit, 0b11_1111));
+        prop_assert_eq!((hits[0].get(5), hits[0].met), (self.hit, 0b11_1111));
         self.bvh.surface_eights(&rays, &hits, &mut eight);
         for axis in 0..3 {
             let want = [p[axis], p_error[axis], ng[axis]];

@@ -53,11 +53,13 @@ pub struct Radiance8 {
     pub terms: Terms8,
     /// The rays that met a surface, a bit each, the lowest for the first.
     pub met: u32,
+    /// Whether any went on from there: otherwise there is neither reflection nor transmission.
+    pub went_on: bool,
 }
 
 impl Radiance8 {
     /// Nothing.
-    pub const NONE: Self = Self { terms: Terms8::NONE, met: 0 };
+    pub const NONE: Self = Self { terms: Terms8::NONE, met: 0, went_on: false };
 }
 
 /// How many rays were traced.

@@ -18,8 +18,9 @@ use crate::witness::{LightTold, Witness};
 #[derive(Default)]
 pub(super) struct Light8s {
     sent: Vec<Sent>,
-    /// The rays that ask whether it is seen.
-    pub(super) shadow_rays: Vec<Rays8>,
+    /// The way to the light, from each surface met: `dir` is L, 0 where the surface is where the light
+    /// is, and `t_max` the distance. The rays that are there ask whether it is seen.
+    ways: Vec<Rays8>,
     blocked: Vec<u32>,
 }
 
@@ -27,36 +28,30 @@ pub(super) struct Light8s {
 #[derive(Clone, Copy)]
 #[repr(align(32))]
 struct Sent {
-    /// To the light; 0 where the surface is where the light is.
-    l: Lanes3,
-    distance: [f32; 8],
     /// The share of its colours that is left.
     share: [f32; 8],
     /// The surfaces that the light is above, a bit each.
     above: u32,
-    /// Of these the ones that get any of its light: those that ask whether it is seen.
-    lit: u32,
-    /// Of these the ones it is seen from.
+    /// Of these the ones that get any of its light, and that it is seen from.
     seen: u32,
 }
 
 impl Sent {
-    const NONE: Self =
-        Self { l: [[0.0; 8]; 3], distance: [0.0; 8], share: [0.0; 8], above: 0, lit: 0, seen: 0 };
+    const NONE: Self = Self { share: [0.0; 8], above: 0, seen: 0 };
 
     /// What is sent to one surface, in colours; `None` where the light is.
-    fn sample(&self, light: &Light, lane: usize) -> Option<LightSample> {
+    fn sample(&self, ways: &Rays8, light: &Light, lane: usize) -> Option<LightSample> {
         let reach = Reach {
-            l: direction(&self.l, lane),
-            distance: self.distance[lane],
+            l: direction(&ways.dir, lane),
+            distance: ways.t_max[lane],
             share: self.share[lane],
         };
-        (get(&self.l, lane) != [0.0; 3]).then(|| light.colored(reach))
+        (get(&ways.dir, lane) != [0.0; 3]).then(|| light.colored(reach))
     }
 }
 
 impl Integrator<'_> {
-    /// What a light sends to every surface met, and where it is seen from.
+    /// What a light sends to every surface met, and where it is seen from; how many asked that.
     pub(super) fn send(
         &self,
         number: usize,
@@ -64,30 +59,23 @@ impl Integrator<'_> {
         met: &Met,
         samplers: &[Samplers8],
         to: &mut Light8s,
-    ) {
+    ) -> u64 {
         let light = &self.scene.lights()[number];
-        let Light8s { sent, shadow_rays, blocked } = to;
+        let Light8s { sent, ways, blocked } = to;
         sent.resize(rays.len(), Sent::NONE);
-        shadow_rays.resize(rays.len(), Rays8::NONE);
+        ways.resize(rays.len(), Rays8::NONE);
         let casts = self.shadows && light.shadows;
         let purpose = Use::Light(number as u32);
-        self.scene.bvh().run(Send {
-            light,
-            purpose,
-            casts,
-            rays,
-            met,
-            samplers,
-            sent,
-            shadow_rays,
-        });
+        let bvh = self.scene.bvh();
+        let count = bvh.run(Send { light, purpose, casts, rays, met, samplers, sent, ways });
         if casts {
             blocked.resize(rays.len(), 0);
-            self.scene.bvh().occluded_eights(shadow_rays, blocked);
+            bvh.occluded_eights(ways, blocked);
             for (sent, blocked) in sent.iter_mut().zip(blocked) {
                 sent.seen &= !*blocked;
             }
         }
+        count
     }
 
     /// Adds the light sent to the surfaces it is seen from.
@@ -99,8 +87,7 @@ impl Integrator<'_> {
         from: &Light8s,
         out: &mut [Radiance8],
     ) {
-        let sent = &from.sent;
-        self.scene.bvh().run(Shade { integrator: self, number, rays, met, sent, out });
+        self.scene.bvh().run(Shade { integrator: self, number, rays, met, from, out });
     }
 
     /// Tells of what [`Integrator::shade`] is about to add.
@@ -115,12 +102,11 @@ impl Integrator<'_> {
         let light = &self.scene.lights()[number];
         let mut alone = vec![Radiance8::NONE; rays.len()];
         self.shade(number, rays, met, from, &mut alone);
-        for (i, sent) in from.sent.iter().enumerate() {
-            for lane in lanes(met.hits[i].mask()) {
+        for (i, (sent, ways)) in from.sent.iter().zip(&from.ways).enumerate() {
+            for lane in lanes(met.hits[i].met) {
                 let at = met.at(rays, i, lane);
                 let has = |mask: u32| mask >> lane & 1 != 0;
-                let sample = sent.sample(light, lane);
-                let asks = &from.shadow_rays[i];
+                let sample = sent.sample(ways, light, lane);
                 let Terms { diffuse, specular, .. } = alone[i].terms.get(lane);
                 let material = self.material(&at);
                 witness.lit(&LightTold {
@@ -128,7 +114,7 @@ impl Integrator<'_> {
                     sample,
                     incident: sample.map(|sample| material.incident(at.n, at.color, &sample)),
                     above: has(sent.above),
-                    shadow: has(asks.there).then(|| asks.get(lane)),
+                    shadow: has(ways.there).then(|| ways.get(lane)),
                     visible: has(sent.seen),
                     terms: Terms { diffuse, specular, ..Terms::default() },
                 });
@@ -146,11 +132,11 @@ impl Integrator<'_> {
     ) {
         let light = &self.scene.lights()[number];
         for ((i, sent), out) in from.sent.iter().enumerate().zip(out) {
-            for lane in lanes(met.hits[i].mask()) {
+            for lane in lanes(met.hits[i].met) {
                 let dressed = &met.dressed[i];
                 let material = &self.scene.materials()[dressed.material[lane] as usize];
                 if material.takes_ambient_per_light()
-                    && let Some(sample) = sent.sample(light, lane)
+                    && let Some(sample) = sent.sample(&from.ways[i], light, lane)
                 {
                     let color = Rgb::from(get(&dressed.color, lane));
                     let more = material.ambient_of_light(color, self.scene.ambient(), &sample);
@@ -170,26 +156,26 @@ struct Send<'a> {
     met: &'a Met,
     samplers: &'a [Samplers8],
     sent: &'a mut [Sent],
-    shadow_rays: &'a mut [Rays8],
+    ways: &'a mut [Rays8],
 }
 
 impl Kernel for Send<'_> {
-    type Output = ();
+    type Output = u64;
 
     #[inline(always)]
-    fn run<S: Simd>(self, simd: S) {
-        let Self { light, purpose, casts, rays, met, samplers, sent, shadow_rays } = self;
+    fn run<S: Simd>(self, simd: S) -> u64 {
+        let Self { light, purpose, casts, rays, met, samplers, sent, ways } = self;
         let brightest = f32x8::splat(simd, light.brightest());
+        let mut count = 0;
         let Met { hits, surfaces, dressed } = met;
-        let eights = rays.iter().zip(hits).zip(surfaces).zip(dressed).zip(sent).zip(shadow_rays);
-        for (i, (((((rays, hits), surface), dressed), sent), shadow_rays)) in eights.enumerate() {
-            let met = hits.mask();
-            (sent.above, sent.lit, sent.seen, shadow_rays.there) = (0, 0, 0, 0);
-            if met == 0 {
+        let eights = rays.iter().zip(hits).zip(surfaces).zip(dressed).zip(sent).zip(ways);
+        for (i, (((((rays, hits), surface), dressed), sent), ways)) in eights.enumerate() {
+            (sent.above, sent.seen, ways.there) = (0, 0, 0);
+            if hits.met == 0 {
                 continue;
             }
             let reach = if light.soft {
-                one_by_one(simd, light, surface, met, samplers[i].pair(purpose))
+                one_by_one(simd, light, surface, hits.met, samplers[i].pair(purpose))
             } else {
                 light.reach8(simd, load3(simd, &surface.p))
             };
@@ -197,25 +183,18 @@ impl Kernel for Send<'_> {
             let above = is_above(reach.l, n, ng, to_eye(simd, rays));
             // Nothing comes from a spot beyond its edge: nobody need look.
             let bright = (reach.share * brightest).simd_gt(f32x8::splat(simd, 0.0));
-            let lit = met & (above & bright).to_bitmask() as u32;
-            *sent = Sent {
-                l: store3(reach.l),
-                distance: reach.distance.into(),
-                share: reach.share.into(),
-                above: met & above.to_bitmask() as u32,
-                lit,
-                seen: lit,
-            };
+            let lit = hits.met & (above & bright).to_bitmask() as u32;
+            sent.share = reach.share.into();
+            (sent.above, sent.seen) = (hits.met & above.to_bitmask() as u32, lit);
+            ways.dir = store3(reach.l);
+            ways.t_max = reach.distance.into();
             if casts && lit != 0 {
-                *shadow_rays = Rays8 {
-                    origin: store3(origins(simd, surface, reach.l)),
-                    dir: sent.l,
-                    t_min: [0.0; 8],
-                    t_max: sent.distance,
-                    there: lit,
-                };
+                ways.origin = store3(origins(simd, surface, reach.l));
+                ways.there = lit;
+                count += u64::from(lit.count_ones());
             }
         }
+        count
     }
 }
 
@@ -247,7 +226,7 @@ struct Shade<'a> {
     number: usize,
     rays: &'a [Rays8],
     met: &'a Met,
-    sent: &'a [Sent],
+    from: &'a Light8s,
     out: &'a mut [Radiance8],
 }
 
@@ -256,9 +235,9 @@ impl Kernel for Shade<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Self { integrator, number, rays, met, sent, out } = self;
+        let Self { integrator, number, rays, met, from, out } = self;
         let light = &integrator.scene.lights()[number];
-        for (i, (sent, out)) in sent.iter().zip(out).enumerate() {
+        for (i, ((sent, ways), out)) in from.sent.iter().zip(&from.ways).zip(out).enumerate() {
             let dressed = &met.dressed[i];
             let mut left = sent.seen;
             while left != 0 {
@@ -266,7 +245,7 @@ impl Kernel for Shade<'_> {
                 let (number, same) = same_material(simd, &dressed.material, left);
                 left &= !same;
                 let material = &integrator.scene.materials()[number];
-                let (n, l) = (load3(simd, &dressed.n), load3(simd, &sent.l));
+                let (n, l) = (load3(simd, &dressed.n), load3(simd, &ways.dir));
                 let e = material.eye8(to_eye(simd, &rays[i]));
                 if let Some([diffuse, specular]) = material.reflectance.weights8(n, e, l) {
                     let color = load3(simd, &dressed.color);
@@ -279,7 +258,7 @@ impl Kernel for Shade<'_> {
                     continue;
                 }
                 for lane in lanes(same) {
-                    let Some(sample) = sent.sample(light, lane) else { continue };
+                    let Some(sample) = sent.sample(ways, light, lane) else { continue };
                     let (n, e) = (direction(&dressed.n, lane), -direction(&rays[i].dir, lane));
                     let color = Rgb::from(get(&dressed.color, lane));
                     let tangent = if material.reflectance.is_brushed() {

@@ -89,9 +89,10 @@ impl Kernel for Begin<'_> {
     fn run<S: Simd>(self, simd: S) {
         let Self { scene, background, height, rays, met, out } = self;
         let Met { hits, surfaces, dressed } = met;
+        let mut index = 0;
         let eights = rays.iter().zip(hits).zip(surfaces).zip(dressed).zip(out);
         for (i, ((((rays, hits), surface), dressed), out)) in eights.enumerate() {
-            let met = hits.mask();
+            let met = hits.met;
             *out = Radiance8 { met, ..Radiance8::NONE };
             let missed = rays.there & !met;
             if missed != 0 {
@@ -114,7 +115,8 @@ impl Kernel for Begin<'_> {
             if met == 0 {
                 continue;
             }
-            scene.dress(simd, hits, load3(simd, &surface.ng), to_eye(simd, rays), dressed);
+            let (ng, e) = (load3(simd, &surface.ng), to_eye(simd, rays));
+            scene.dress(simd, hits, ng, e, &mut index, dressed);
             let ambient = &mut out.terms.0[Terms8::AMBIENT];
             let mut left = met;
             while left != 0 {

@@ -143,8 +143,7 @@ impl Integrator<'_> {
             }
         }
         for light in 0..self.scene.lights().len() {
-            self.send(light, rays, met, samplers, lights);
-            counts.shadow += count(&lights.shadow_rays);
+            counts.shadow += self.send(light, rays, met, samplers, lights);
             if self.scene.has_ambient_per_light() {
                 self.ambient_of_light(light, met, lights, out);
             }
@@ -178,6 +177,7 @@ impl Integrator<'_> {
                     Branch::Transmission => Terms8::TRANSMISSION,
                 };
                 set(&mut out[i].terms.0[term], lane, (weight * light).to_array());
+                out[i].went_on = true;
             }
         }
     }
@@ -201,7 +201,7 @@ impl Integrator<'_> {
     ) {
         onward.clear();
         for (i, hits) in met.hits.iter().enumerate() {
-            for lane in lanes(hits.mask()) {
+            for lane in lanes(hits.met) {
                 let number = met.dressed[i].material[lane] as usize;
                 let material = &self.scene.materials()[number];
                 if !material.bounces() {

@@ -11,7 +11,7 @@ use super::RenderOptions;
 use crate::camera::Camera;
 use crate::filter::Filter;
 use crate::integrator::{Bundle, CameraRay, Integrator};
-use crate::sampling::{Sampler, Samplers8, Use};
+use crate::sampling::{Places8, Sampler, Samplers8, Use};
 
 /// Up to eight pixels of a row, side by side.
 #[derive(Clone, Copy, Debug)]
@@ -22,6 +22,7 @@ pub(super) struct Pixels8 {
     pub(super) len: u32,
     /// Where their samples come from.
     samplers: Samplers8,
+    places: Places8,
 }
 
 impl Pixels8 {
@@ -29,7 +30,7 @@ impl Pixels8 {
         let sampler = |x: u32| Sampler::new([x, y], 0, options.samples, options.seed);
         let mut samplers = Samplers8::splat(sampler(x));
         (0..len).for_each(|lane| samplers.set(lane as usize, sampler(x + lane)));
-        Self { first: [x, y], len, samplers }
+        Self { first: [x, y], len, samplers, places: Places8::new(&samplers) }
     }
 
     fn pixel(&self, lane: usize) -> [u32; 2] {
@@ -143,7 +144,7 @@ impl Kernel for ThroughPinhole<'_> {
         for index in indices {
             for pixels in pixels {
                 let samplers = pixels.samplers.at(index);
-                let [x, y, weights] = filter.sample8(samplers.pair(Use::Pixel));
+                let [x, y, weights] = filter.sample8(pixels.places.at(index));
                 let dx = f32x8::load_array(simd, x).widen();
                 let dy = f32x8::load_array(simd, y).widen();
                 let [left, top] = [f64::from(pixels.first[0]), f64::from(pixels.first[1]) + 0.5];

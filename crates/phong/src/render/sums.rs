@@ -1,6 +1,6 @@
 //! Pixels' samples, summed in f64, eight pixels side by side.
 
-use fearless_simd::{Simd, f32x8, f64x4, prelude::*};
+use fearless_simd::{Simd, f32x8, f64x4, mask32x8, prelude::*};
 use phong_bvh::{Bvh, Kernel};
 use phong_scene::Background;
 
@@ -54,17 +54,17 @@ impl Kernel for Add<'_> {
         let len = sums.len();
         for (i, (sample, weight)) in samples.iter().zip(weights).enumerate() {
             let sums = &mut sums[i % len];
-            let weight = wide(simd, weight);
+            let covered = mask32x8::from_bitmask(simd, sample.met.into());
+            let weight = f32x8::load_array_ref(simd, weight);
+            let covers = covered.select(weight, f32x8::splat(simd, 0.0));
+            plus(simd, &mut sums.alpha, covers.widen());
+            let weight = weight.widen();
             plus(simd, &mut sums.weight, weight);
-            let covered = std::array::from_fn(|lane| (sample.met >> lane & 1) as f32);
-            plus(simd, &mut sums.alpha, times(weight, wide(simd, &covered)));
             // Of what is black everywhere nothing is added.
-            let bounced = [Terms8::REFLECTION, Terms8::TRANSMISSION];
-            let bounced = bounced.iter().any(|&term| sample.terms.0[term] != [[0.0; 8]; 3]);
             for term in 0..6 {
                 let wanted = match term {
                     Terms8::BACKGROUND => sample.met != 0xff,
-                    Terms8::REFLECTION | Terms8::TRANSMISSION => bounced,
+                    Terms8::REFLECTION | Terms8::TRANSMISSION => sample.went_on,
                     _ => sample.met != 0,
                 };
                 if wanted {

@@ -67,8 +67,7 @@ impl<'a> Painter<'a> {
         cancel: &Cancel,
     ) -> Result<(), Cancelled> {
         let Desk { pixels, drawn, work, sums, values } = desk;
-        pixels.clear();
-        pixels.extend(eights(window, self.options));
+        cut(window, self.options, pixels);
         values.resize_with(self.layers.len(), Vec::new);
         for (kind, values) in self.layers.iter().zip(&mut *values) {
             values.clear();
@@ -193,15 +192,17 @@ impl Witness for LightsSeen {
     fn cut(&mut self, _: Branch, _: Rgb, _: Option<f32>) {}
 }
 
-/// A tile's pixels in squares, so that a bundle's neighbours are neighbours.
-fn eights(window: Window, options: &RenderOptions) -> impl Iterator<Item = Pixels8> {
-    let starts = |from: u32, to: u32| (from..to).step_by(SQUARE as usize);
-    starts(window.y0, window.y1).flat_map(move |y0| {
-        starts(window.x0, window.x1).flat_map(move |x0| {
+/// Cuts a tile into squares, so that a bundle's neighbours are neighbours.
+fn cut(window: Window, options: &RenderOptions, pixels: &mut Vec<Pixels8>) {
+    pixels.clear();
+    for y0 in (window.y0..window.y1).step_by(SQUARE as usize) {
+        for x0 in (window.x0..window.x1).step_by(SQUARE as usize) {
             let len = SQUARE.min(window.x1 - x0);
-            (y0..window.y1.min(y0 + SQUARE)).map(move |y| Pixels8::new([x0, y], len, options))
-        })
-    })
+            for y in y0..window.y1.min(y0 + SQUARE) {
+                pixels.push(Pixels8::new([x0, y], len, options));
+            }
+        }
+    }
 }
 
 /// Puts what pixels are into the layers, at their places in the tile.
