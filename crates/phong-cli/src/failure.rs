@@ -51,6 +51,17 @@ impl Failure {
             .with_help("this version does not do it; `phong --help` lists the commands")
     }
 
+    /// Standard input failed.
+    pub(crate) fn stdin(error: &io::Error) -> Self {
+        let message = format!("cannot read standard input: {}", trouble(error));
+        match error.kind() {
+            io::ErrorKind::IsADirectory => {
+                Self::usage(message).with_help("give it a file, or the output of a program")
+            }
+            _ => Self::System(message),
+        }
+    }
+
     /// Standard output failed.
     pub(crate) fn stdout(error: &io::Error) -> Self {
         match error.kind() {

@@ -176,3 +176,25 @@ fn what_cannot_be_compared_is_refused_with_the_way_out() {
     refused("compare a.toml wide.toml --crop 0,0,45,3 --size 40x30", &["--crop", "40x30"]);
     assert_eq!(folder.names().len(), 7, "{:?}", folder.names());
 }
+
+#[test]
+fn numbers_have_the_digits_they_were_computed_with() {
+    let folder = given(&[
+        (
+            "a.toml",
+            "version = 1\n[image]\nsize = [2, 2]\nbackground = 0.1\n[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\n",
+        ),
+        ("m.obj", "v 0.1 -0.0 0.3\nv 1.7 0.7 0.3\nv 0.1 0.7 0.3\nf 1 2 3\n"),
+    ]);
+    folder.done("render a.toml -o a.pfm --quiet");
+    folder.done("render a.toml -o b.pfm --background 0.4 --quiet");
+    let told = String::from_utf8(folder.when("compare a.pfm b.pfm --json").out).unwrap();
+    assert!(
+        told.contains("0.1,") && told.contains("0.4,") && !told.contains("0.10000000"),
+        "{told}"
+    );
+    let told = folder.done("info m.obj --json").json();
+    assert_eq!(told["bounds"].to_string(), "[[0.1,0.0,0.3],[1.7,0.7,0.3]]");
+    let told = String::from_utf8(folder.done("info m.obj").out).unwrap();
+    assert!(told.contains("[0.1, 0.0, 0.3] to [1.7, 0.7, 0.3]"), "{told}");
+}

@@ -88,3 +88,35 @@ fn a_reader_that_has_had_enough_is_no_error() {
     assert_eq!(output.status.code(), Some(0));
     assert!(output.stderr.is_empty());
 }
+
+#[test]
+fn an_answer_has_its_id_whatever_cannot_be_read() {
+    let far = GOOD.replace("\"alpha\": 5", "\"alpha\": 1e999");
+    let behind = r#"{"model": "lambert", "N": [0,0,NaN], "L": [0,0,1], "id": 3}"#;
+    let twice = GOOD.replace("\"alpha\": 5", "\"alpha\": 5, \"alpha\": 6");
+    let (out, code) = answers(&format!("{far}\n{behind}\n{twice}\n{GOOD}\n"));
+    let lines: Vec<serde_json::Value> =
+        out.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    for (line, (id, told)) in lines.iter().zip([
+        (serde_json::json!("x1"), "all must be finite"),
+        (serde_json::json!(3), "NaN is not a number"),
+        (serde_json::json!("x1"), "the key \"alpha\" stands twice"),
+    ]) {
+        assert_eq!(line["id"], id, "{line}");
+        assert!(line["error"].as_str().unwrap().contains(told), "{line}");
+    }
+    assert_eq!((lines.len(), lines[3]["value"].is_f64(), code), (4, true, 2));
+}
+
+#[test]
+#[cfg(unix)]
+fn a_folder_is_no_list_of_queries() {
+    let folder = std::fs::File::open(env!("CARGO_MANIFEST_DIR")).unwrap();
+    let output = phong_eval().stdin(folder).output().unwrap();
+    let told = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    assert!(
+        told.contains("standard input: it is a folder") && !told.contains("os error"),
+        "{told}"
+    );
+}

@@ -18,7 +18,7 @@ use super::render::ImageArgs;
 use crate::failure::Failure;
 use crate::input::unreadable;
 use crate::output::Output;
-use crate::report;
+use crate::report::{self, shortest};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -267,22 +267,27 @@ fn as_json(told: &Comparison, tolerance: f64) -> Value {
     let channels: Vec<Value> = told
         .channels
         .iter()
-        .map(
-            |c| json!({"name": c.name, "max": c.max, "mean": c.mean, "rms": c.rms, "psnr": c.psnr}),
-        )
+        .map(|c| {
+            let [max, mean, rms] = [c.max, c.mean, c.rms].map(shortest);
+            json!({"name": c.name, "max": max, "mean": mean, "rms": rms, "psnr": c.psnr})
+        })
         .collect();
     let worst_pixels: Vec<Value> = told
         .worst_pixels
         .iter()
-        .map(|p| json!({"at": p.at, "difference": p.difference, "a": p.a, "b": p.b}))
+        .map(|p| {
+            let [a, b] =
+                [&p.a, &p.b].map(|side| side.iter().copied().map(shortest).collect::<Vec<_>>());
+            json!({"at": p.at, "difference": shortest(p.difference), "a": a, "b": b})
+        })
         .collect();
     let delta_e = told
         .delta_e
         .map(|d| json!({"mean": d.mean, "max": d.max, "worst": d.worst, "over_1": d.over_1}));
     json!({
-        "max": max,
-        "mean": mean,
-        "rms": rms,
+        "max": shortest(*max),
+        "mean": shortest(*mean),
+        "rms": shortest(*rms),
         "over_1_255": over_1_255,
         "psnr": psnr,
         "worst": worst,

@@ -1,5 +1,6 @@
 //! `phong eval`: a formula at given vectors.
 
+mod line;
 mod query;
 
 use std::io::{self, BufRead, BufReader, IsTerminal, Write};
@@ -90,7 +91,7 @@ fn answer_lines<R: io::Read>(
         line.clear();
         io::Read::take(&mut queries, LONGEST_LINE)
             .read_until(b'\n', &mut line)
-            .map_err(|e| Failure::System(format!("cannot read standard input: {e}")))?;
+            .map_err(|e| Failure::stdin(&e))?;
         if line.is_empty() {
             break;
         }
@@ -115,10 +116,10 @@ fn answer(line: &[u8]) -> (Json, Result<String, String>) {
     if line.is_empty() {
         return (Json::Null, Err("an empty line: every line is one query".to_owned()));
     }
-    let mut query = match serde_json::from_slice(line) {
+    let mut query = match line::read(line) {
         Ok(Json::Object(query)) => query,
         Ok(_) => return (Json::Null, Err("a query is a JSON object, {\"model\": ..}".to_owned())),
-        Err(error) => return (Json::Null, Err(not_json(line, &error))),
+        Err(error) => return (line::id(line), Err(error)),
     };
     let id = query.remove("id").unwrap_or(Json::Null);
     let answer = query::read(&query).and_then(|(query, grey)| {
@@ -131,23 +132,6 @@ fn answer(line: &[u8]) -> (Json, Result<String, String>) {
         })
     });
     (id, answer)
-}
-
-/// Says why a line is no JSON; NaN and infinity, which JSON does not have, by name.
-fn not_json(line: &[u8], error: &serde_json::Error) -> String {
-    let rest = &line[error.column().saturating_sub(1).min(line.len())..];
-    let rest = rest.strip_prefix(b"-").unwrap_or(rest);
-    for name in ["NaN", "nan", "Infinity", "infinity", "inf", "Inf"] {
-        if rest.starts_with(name.as_bytes()) {
-            return format!(
-                "{name} is not a number (column {}): all must be finite",
-                error.column()
-            );
-        }
-    }
-    let said = error.to_string();
-    let said = said.split(" at line").next().unwrap_or(&said);
-    format!("not JSON: {said} (column {})", error.column())
 }
 
 /// The shortest text that reads back as this very f32.

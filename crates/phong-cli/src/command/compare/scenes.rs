@@ -15,6 +15,7 @@ use crate::compile::compile;
 use crate::failure::Failure;
 use crate::input::{self, Input};
 use crate::plan;
+use crate::report::shortest;
 
 /// What is to be said about two scenes besides their pictures.
 pub(super) struct Scenes {
@@ -123,10 +124,10 @@ impl Scenes {
             .iter()
             .map(|t| {
                 let told = json!({
-                    "mean_a": t.mean_a,
-                    "mean_b": t.mean_b,
-                    "mean": t.mean,
-                    "max": t.max,
+                    "mean_a": shortest(t.mean_a),
+                    "mean_b": shortest(t.mean_b),
+                    "mean": shortest(t.mean),
+                    "max": shortest(t.max),
                     "worst": t.worst,
                     "share": t.share,
                 });
