@@ -8,12 +8,13 @@ use std::io::Write as _;
 
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
-use phong_scene::{Model, Rgb};
+use phong_scene::{AmbientRule, Model, Rgb};
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
 use super::json::{dir, list, number, rgb};
-use super::text::{NOTICED, described, factors, hidden, named};
+use super::product::{self, Number, Product};
+use super::text::{NOTICED, described, hidden, named};
 use super::{End, Explanation, Lit, Onward, RayTold, Surface, explain};
 use crate::compile::CompiledScene;
 use crate::markup::{base64, data_url, escaped};
@@ -97,7 +98,9 @@ impl Shared<'_> {
                 "shininess": number(m.shininess),
                 "lobe": lobe,
                 "fast": m.model == Model::BlinnFast,
-                "factors": factors(m),
+                "norm": product::normalization(m).map(number),
+                "cosine": m.times_cosine,
+                "per_light": m.ambient_rule == AmbientRule::PerLight,
             })
         };
         // Numbered from 1, so that 0 is nothing.
@@ -149,7 +152,7 @@ impl Shared<'_> {
             "e": dir(s.e),
             "ca": rgb(s.c_a),
             "a": rgb(s.ambient),
-            "lights": s.lights.iter().map(light).collect::<Vec<_>>(),
+            "lights": s.lights.iter().map(|lit| light(s, lit)).collect::<Vec<_>>(),
         });
         if let Some(element) = s.element {
             out["el"] = json!(element + 1);
@@ -178,7 +181,17 @@ impl Shared<'_> {
     }
 }
 
-fn light(lit: &Lit) -> Value {
+/// A term whose factors the page cannot tell from the rest: letters, numbers, and what it comes to.
+fn written(term: &Product) -> Value {
+    let letters: Vec<&str> = term.factors.iter().map(|factor| &*factor.words).collect();
+    let numbers = term.factors.iter().map(|factor| match factor.number {
+        Number::One(value) => number(value),
+        Number::Color(color) => rgb(color),
+    });
+    json!([letters.join(" "), numbers.collect::<Vec<_>>(), rgb(term.value)])
+}
+
+fn light(s: &Surface, lit: &Lit) -> Value {
     let mut out = Map::new();
     let mut put = |key: &str, value| out.insert(key.to_owned(), value);
     if let Some(why) = hidden(lit) {
@@ -199,11 +212,26 @@ fn light(lit: &Lit) -> Value {
     if let Some(b) = &lit.blocker {
         put("block", json!([named(&b.object, b.element), b.at.to_string(), number(b.t)]));
     }
+    if let Some(ambient) = product::ambient_of_light(s, lit) {
+        put("a", written(&ambient));
+    }
     if lit.visible {
         put("cd", rgb(lit.c_d));
         put("cs", rgb(lit.c_s));
         put("d", rgb(lit.diffuse));
         put("s", rgb(lit.specular));
+        // Of the models that are π f (N·L), the page knows no more.
+        match s.material.model {
+            Model::OrenNayar { .. } => {
+                put("dp", written(&product::diffuse(s, lit)));
+            }
+            Model::Microfacet { .. } | Model::Ward { .. } => {
+                if let Some(term) = product::specular(s, lit) {
+                    put("sp", written(&term));
+                }
+            }
+            Model::Lambert | Model::Phong | Model::BlinnPhong | Model::BlinnFast => {}
+        }
     }
     Value::Object(out)
 }

@@ -4,9 +4,10 @@ use std::fmt::Write;
 
 use phong_scene::{Model, Rgb};
 
+use super::product::{self, Number, Power, Product};
 use super::text::{hidden, named};
 use super::{End, Explanation, Lit, RayTold, Surface};
-use crate::math::{Dir3, lobe};
+use crate::math::Dir3;
 use crate::reflectance::Terms;
 
 /// What all the rest stands in.
@@ -58,14 +59,10 @@ fn surface(out: &mut String, s: &Surface) {
         n(s.t)
     );
     let _ = writeln!(out, "N &= {} & E &= {} \\\\", dir(s.n), dir(s.e));
-    let _ = writeln!(
-        out,
-        "k_a C_a &= {} \\cdot {} = {}",
-        n(s.material.k_a),
-        color(s.c_a),
-        color(s.ambient)
-    );
-    out.push_str("\\end{align*}\n");
+    if let Some(ambient) = product::ambient(s) {
+        product(out, &ambient);
+    }
+    end(out);
     for lit in &s.lights {
         light(out, s, lit);
     }
@@ -90,12 +87,19 @@ fn surface(out: &mut String, s: &Surface) {
 
 fn light(out: &mut String, s: &Surface, lit: &Lit) {
     let _ = writeln!(out, "\\paragraph{{{}}}", escaped(&lit.name));
+    let m = &s.material;
+    let ambient = product::ambient_of_light(s, lit);
     if let Some(why) = hidden(lit) {
         let why = why.replace("N·L ≤ 0", "$N \\cdot L \\le 0$");
-        let _ = writeln!(out, "{why}: it adds nothing.");
+        let what = if ambient.is_some() { "nothing but ambient light" } else { "nothing" };
+        let _ = writeln!(out, "{why}: it adds {what}.");
+        if let Some(ambient) = ambient {
+            out.push_str("\\begin{align*}\n");
+            product(out, &ambient);
+            end(out);
+        }
         return;
     }
-    let m = &s.material;
     let _ = writeln!(out, "\\begin{{align*}}");
     if let Some(l) = lit.l {
         let _ = writeln!(out, "L &= {} & N \\cdot L &= {} \\\\", dir(l), n(lit.n_dot_l));
@@ -115,27 +119,44 @@ fn light(out: &mut String, s: &Surface, lit: &Lit) {
             n(lit.n_dot_h)
         );
     }
+    let terms = [ambient, Some(product::diffuse(s, lit)), product::specular(s, lit)];
+    for term in terms.into_iter().flatten() {
+        product(out, &term);
+    }
+    end(out);
+}
+
+/// Ends lines of equations; a break behind the last would be one line more.
+fn end(out: &mut String) {
+    let kept = out.trim_end_matches(" \\\\\n").len();
+    out.truncate(kept);
+    out.push_str("\n\\end{align*}\n");
+}
+
+/// A term: a line for its power, and one for the whole, which multiplies out.
+fn product(out: &mut String, product: &Product) {
+    for factor in &product.factors {
+        if let (Some(Power { cosine, exponent }), Number::One(value)) =
+            (factor.power, factor.number)
+        {
+            let base = if cosine < 0.0 { format!("\\max(0, {})", n(cosine)) } else { n(cosine) };
+            let (exponent, value) = (n(exponent), n(value));
+            let _ = writeln!(out, "{} &= {base}^{{{exponent}}} = {value} \\\\", factor.latex);
+        }
+    }
+    let letters: Vec<&str> = product.factors.iter().map(|factor| factor.latex).collect();
+    let numbers = product.factors.iter().map(|factor| match factor.number {
+        Number::One(value) => n(value),
+        Number::Color(value) => color(value),
+    });
+    let numbers: Vec<String> = numbers.collect();
     let _ = writeln!(
         out,
-        "k_d (L \\cdot N) C_d &= {} \\cdot {} \\cdot {} = {} \\\\",
-        n(m.k_d),
-        n(lit.n_dot_l),
-        color(lit.c_d),
-        color(lit.diffuse)
+        "{} &= {} = {} \\\\",
+        letters.join("\\, "),
+        numbers.join(" \\cdot "),
+        color(product.value)
     );
-    let (base, cosine) = match m.model {
-        Model::Phong => ("(R \\cdot E)^\\alpha", lit.r_dot_e),
-        Model::BlinnPhong => ("(N \\cdot H)^\\alpha", lit.n_dot_h),
-        Model::BlinnFast => ("\\frac{N \\cdot H}{\\alpha - (\\alpha - 1)(N \\cdot H)}", f32::NAN),
-        _ => ("\\pi f (N \\cdot L)", f32::NAN),
-    };
-    let power = if cosine.is_nan() {
-        "\\ldots".to_owned()
-    } else {
-        format!("{}^{{{}}} = {}", n(cosine), n(m.shininess), n(lobe(cosine.max(0.0), m.shininess)))
-    };
-    let _ = writeln!(out, "{base} &= {power} \\\\");
-    let _ = writeln!(out, "k_s {base} C_s &= {}\n\\end{{align*}}", color(lit.specular));
 }
 
 fn dir(d: Dir3) -> String {

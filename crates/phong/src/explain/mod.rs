@@ -8,6 +8,7 @@ pub mod html;
 mod json;
 mod latex;
 mod numbers;
+mod product;
 mod record;
 mod svg;
 mod text;
@@ -157,6 +158,9 @@ pub struct Lit {
     pub visible: bool,
     /// The nearest thing between, if there is one.
     pub blocker: Option<Blocker>,
+    /// What white light from there would add to the diffuse and specular terms: `C_{m,d}` and
+    /// `C_{m,s}` 1, weights and cosines included; 0 where it is not seen.
+    pub white: Terms,
     /// What it adds to the ambient term, where that is added per light.
     pub ambient: Rgb,
     /// What it adds to the diffuse term.

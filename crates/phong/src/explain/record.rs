@@ -7,7 +7,7 @@ use super::{Blocker, End, Lit, Onward, RayTold, Surface};
 use crate::compile::CompiledScene;
 use crate::interaction::SurfaceInteraction;
 use crate::math::Dir3;
-use crate::reflectance::Terms;
+use crate::reflectance::{Incident, Terms};
 use crate::witness::{Branch, LightTold, Witness};
 
 /// Listens to one ray and all that follow from it.
@@ -130,6 +130,14 @@ impl Witness for Recorder<'_> {
         });
         let blocker =
             told.shadow.filter(|_| !told.visible).and_then(|shadow| self.blocker(&shadow));
+        let tangent = self.surface().map(|surface| surface.tangent);
+        let white = match (l, tangent) {
+            (Some(l), Some(tangent)) if told.visible => {
+                let white = Incident { l, c_d: Rgb::WHITE, c_s: Rgb::WHITE, color: at.color };
+                material.reflectance.shade_light(at.n, tangent, e, white)
+            }
+            _ => Terms::default(),
+        };
         let lit = Lit {
             name: written.name.clone(),
             at: written.place.clone(),
@@ -147,6 +155,7 @@ impl Witness for Recorder<'_> {
             tested: told.shadow.is_some(),
             visible: told.visible,
             blocker,
+            white,
             ambient,
             diffuse: told.terms.diffuse,
             specular: told.terms.specular,

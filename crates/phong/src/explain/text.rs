@@ -5,10 +5,9 @@ use std::fmt::{self, Write};
 use phong_scene::{Model, Viewer};
 
 use super::numbers::{Color, Digits, Direction, Position, columns};
+use super::product::{self, Factor, Number, Power, Product};
 use super::{Encoded, End, Explanation, Lit, Onward, RayTold, Sample, Surface};
-use crate::math::lobe;
 use crate::reflectance::Terms;
-use crate::reflectance::blinn_phong::rational_lobe;
 
 /// Half a level of 255, where the curve is steepest.
 pub(super) const NOTICED: f32 = 0.5 / 255.0 / 12.92;
@@ -123,10 +122,10 @@ impl Page {
             ("E       ", Direction(s.e).to_string()),
         ]);
         self.blank();
-        self.equation(
-            "ambient  = k_a C_a",
-            &[format!("{} × {}", s.material.k_a, Color(s.c_a)), Color(s.ambient).to_string()],
-        );
+        match product::ambient(s) {
+            Some(ambient) => self.product("ambient", s, &ambient),
+            None => self.line(format_args!("ambient  is added by each light")),
+        }
         for light in &s.lights {
             self.blank();
             self.light(s, light);
@@ -149,19 +148,15 @@ impl Page {
         }
         self.indent += 2;
         self.vectors(lit);
-        let m = &s.material;
-        if !lit.ambient.is_black() {
-            self.line(format_args!("ambient of this light = {}", Color(lit.ambient)));
+        if let Some(ambient) = product::ambient_of_light(s, lit) {
+            self.product("ambient", s, &ambient);
         }
         if let Some(why) = hidden(lit) {
             self.line(format_args!("{why}: diffuse and specular are 0"));
         } else {
-            let (equation, numbers) = diffuse_equation(s, lit);
-            self.equation(&equation, &[numbers, Color(lit.diffuse).to_string()]);
-            if has_highlight(m) {
-                let (equation, mut numbers) = specular_equation(s, lit);
-                numbers.push(Color(lit.specular).to_string());
-                self.equation(&equation, &numbers);
+            self.product("diffuse", s, &product::diffuse(s, lit));
+            if let Some(specular) = product::specular(s, lit) {
+                self.product("specular", s, &specular);
             }
         }
         self.indent -= 2;
@@ -211,6 +206,11 @@ impl Page {
                 Color(onward.weight * onward.light).to_string(),
             ],
         );
+    }
+
+    fn product(&mut self, name: &str, s: &Surface, term: &Product) {
+        let (letters, steps) = product(name, &s.material, term);
+        self.equation(&letters, &steps);
     }
 
     /// An equation, and under its sign of equality what it comes to.
@@ -278,60 +278,31 @@ pub(super) fn hidden(lit: &Lit) -> Option<&'static str> {
     }
 }
 
-fn has_highlight(material: &phong_scene::Material) -> bool {
-    !matches!(material.model, Model::Lambert | Model::OrenNayar { .. })
-}
-
-/// The diffuse term in letters and in numbers.
-fn diffuse_equation(s: &Surface, lit: &Lit) -> (String, String) {
-    let (k_d, c_d) = (s.material.k_d, Color(lit.c_d));
-    let oren_nayar = matches!(s.material.model, Model::OrenNayar { .. });
-    let (letters, numbers) = if oren_nayar { ("π f ", "π f × ") } else { ("", "") };
-    (
-        format!("diffuse  = k_d {letters}(N·L) C_d"),
-        format!("{k_d} × {numbers}{} × {c_d}", lit.n_dot_l),
-    )
-}
-
-/// The specular term in letters, and step by step in numbers.
-fn specular_equation(s: &Surface, lit: &Lit) -> (String, Vec<String>) {
-    let m = &s.material;
-    let (k_s, c_s, factors) = (m.k_s, Color(lit.c_s), factors(m));
-    let (cosine, name) = match m.model {
-        Model::Phong => (lit.r_dot_e, "R·E"),
-        Model::BlinnPhong => (lit.n_dot_h, "N·H"),
-        Model::BlinnFast => {
-            let (x, alpha) = (lit.n_dot_h, m.shininess);
-            let value = Digits(rational_lobe(x, alpha));
-            let letters =
-                format!("specular = k_s x/(α − αx + x) C_s{factors}, x = N·H, α = {alpha}");
-            return (letters, vec![format!("{k_s} × {value} × {c_s}{factors}")]);
-        }
-        _ => {
-            let numbers = format!("{k_s} × π f × {} × {c_s}", lit.n_dot_l);
-            return ("specular = k_s π f (N·L) C_s".to_owned(), vec![numbers]);
-        }
-    };
-    let alpha = m.shininess;
-    let power = lobe(cosine.max(0.0), alpha);
-    let base = if cosine < 0.0 { format!("max(0, {cosine})") } else { cosine.to_string() };
-    (
-        format!("specular = k_s ({name})^{alpha} C_s{factors}"),
-        vec![
-            format!("{k_s} × {base}^{alpha} × {c_s}{factors}"),
-            format!("{k_s} × {} × {c_s}{factors}", Digits(power)),
-        ],
-    )
-}
-
-/// What multiplies the lobe besides, by the material's switches.
-pub(super) fn factors(m: &phong_scene::Material) -> &'static str {
-    match (m.normalize, m.times_cosine) {
-        (false, false) => "",
-        (true, false) => " × normalisation",
-        (false, true) => " × N·L",
-        (true, true) => " × normalisation × N·L",
+/// A term in letters, and step by step in numbers.
+fn product(name: &str, m: &phong_scene::Material, product: &Product) -> (String, Vec<String>) {
+    let letters: Vec<&str> = product.factors.iter().map(|factor| &*factor.words).collect();
+    let mut letters = format!("{name:<8} = {}", letters.join(" "));
+    if name == "specular" && m.model == Model::BlinnFast {
+        let _ = write!(letters, ", x = N·H, α = {}", m.shininess);
     }
+    let number = |factor: &Factor| match factor.number {
+        Number::One(number) => Digits(number).to_string(),
+        Number::Color(color) => Color(color).to_string(),
+    };
+    let raised = |factor: &Factor| match factor.power {
+        None => number(factor),
+        Some(Power { cosine, exponent }) if cosine < 0.0 => format!("max(0, {cosine})^{exponent}"),
+        Some(Power { cosine, exponent }) => format!("{cosine}^{exponent}"),
+    };
+    let line = |of: &dyn Fn(&Factor) -> String| {
+        product.factors.iter().map(of).collect::<Vec<String>>().join(" × ")
+    };
+    let mut steps = vec![line(&raised)];
+    if product.factors.iter().any(|factor| factor.power.is_some()) {
+        steps.push(line(&number));
+    }
+    steps.push(Color(product.value).to_string());
+    (letters, steps)
 }
 
 /// A material's model and numbers in a few words.
