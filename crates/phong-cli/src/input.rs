@@ -145,8 +145,8 @@ pub(crate) fn read(args: &InputArgs) -> Result<(Reading, Vec<PathBuf>), Failure>
     // Of a file that cannot be opened nothing else is said.
     if let ([only], false) = (&mut reading.diagnostics[..], stdin) {
         let path = Path::new(&args.input);
-        let help = only.help.take();
-        only.help = help.or_else(|| hindrance(path).and_then(|error| way_out(path, &error)));
+        let way_out = hindrance(path).and_then(|error| way_out(path, &error));
+        only.help = way_out.or_else(|| only.help.take());
     }
     if args.strict {
         for diagnostic in &mut reading.diagnostics {

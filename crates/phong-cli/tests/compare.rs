@@ -198,3 +198,9 @@ fn numbers_have_the_digits_they_were_computed_with() {
     let told = String::from_utf8(folder.done("info m.obj").out).unwrap();
     assert!(told.contains("[0.1, 0.0, 0.3] to [1.7, 0.7, 0.3]"), "{told}");
 }
+
+#[test]
+fn an_empty_file_is_said_to_be_empty() {
+    let folder = given(&[("e.png", "")]);
+    folder.when("compare e.png e.png").is_refused(&["e.png: the file is empty"]);
+}

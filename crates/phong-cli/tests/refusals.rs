@@ -110,6 +110,8 @@ fn negative_values_are_told_their_range() {
         ("--tile -1/2", "like 0/4"),
         ("--color -1,0,0", "none below 0"),
         ("--background -1", "none below 0"),
+        ("--background 1e39", "beyond 1e18"),
+        ("--eye 1e300,0,0", "beyond 1e18"),
         ("--fov -40", "degrees"),
         ("--max-memory -1", "write bytes"),
     ] {
@@ -134,6 +136,7 @@ fn a_name_that_is_nearly_right_is_told_the_right_one() {
     folder
         .when("compare scene.tml fong.png")
         .is_refused(&["scene.tml", "did you mean `scene.toml`?"]);
+    folder.when("render scene.tom").is_refused(&["did you mean `scene.toml`?"]);
     folder.when("fit phong:3 blin-phong").is_refused(&["did you mean `blinn-phong`?"]);
     folder.when("man rendr").is_refused(&["did you mean `render`?"]);
     folder.when("check scene.toml --format tolm").is_refused(&["did you mean `toml`?"]);
@@ -173,7 +176,7 @@ fn what_the_system_says_is_told_in_words() {
 #[test]
 fn too_little_memory_for_a_text_is_told_with_what_it_takes() {
     let folder = given(&[("a.toml", BALLS)]);
-    let needed = format!("may take {} bytes of memory; 1024 are allowed", 85 * BALLS.len());
+    let needed = format!("may take {} of memory, over the limit of 1024", 85 * BALLS.len());
     folder.when("render a.toml --max-memory 1k").is_refused(&["a.toml", &needed]);
 }
 

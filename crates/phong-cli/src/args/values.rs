@@ -32,6 +32,9 @@ pub(crate) struct ShareOf {
 /// The largest side of a picture: what EXR and PNG readers commonly take.
 const MAX_SIDE: u32 = 1 << 20;
 
+/// The largest magnitude of any number, as in scene text: its square still fits an f32.
+const LARGEST: f64 = 1e18;
+
 /// `960x540`.
 pub(crate) fn size(text: &str) -> Result<PictureSize, String> {
     let sides = text
@@ -42,7 +45,7 @@ pub(crate) fn size(text: &str) -> Result<PictureSize, String> {
             Ok(PictureSize([w, h]))
         }
         Some(_) => Err(format!("each side must be from 1 to {MAX_SIDE} pixels")),
-        None => Err("write width and height in pixels, like 960x540".to_owned()),
+        None => Err(format!("write width and height in pixels, like 960x540, up to {MAX_SIDE}")),
     }
 }
 
@@ -76,7 +79,7 @@ pub(crate) fn vector(text: &str) -> Result<Vec3Arg, String> {
     let numbers: Option<Vec<f64>> = text.split(',').map(finite).collect();
     numbers
         .and_then(|n| Vec3Arg::try_from(n).ok())
-        .ok_or_else(|| "write three numbers, X,Y,Z, like 0,1.5,-4".to_owned())
+        .ok_or_else(|| "write three numbers, X,Y,Z, like 0,1.5,-4, none beyond 1e18".to_owned())
 }
 
 /// `z`, `-y`, or a direction.
@@ -126,13 +129,14 @@ pub(crate) fn bytes(text: &str) -> Result<u64, String> {
 
 /// `#rrggbb`, a CSS name, or linear values: `r,g,b` or one grey.
 pub(crate) fn color(text: &str) -> Result<Rgb, String> {
-    let parts: Option<Vec<f64>> = text.split(',').map(finite).collect();
+    let parts: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
+    let light = |v: &f64| (0.0..=LARGEST).contains(v);
     match parts.as_deref() {
-        Some(&[v]) if v >= 0.0 => Ok(Rgb::grey(v as f32)),
-        Some(&[r, g, b]) if r >= 0.0 && g >= 0.0 && b >= 0.0 => {
+        Some(&[v]) if light(&v) => Ok(Rgb::grey(v as f32)),
+        Some(&[r, g, b]) if [r, g, b].iter().all(light) => {
             Ok(Rgb::new(r as f32, g as f32, b as f32))
         }
-        Some(_) => Err("write one number or three, r,g,b, none below 0".to_owned()),
+        Some(_) => Err("write one number or three, r,g,b, none below 0 or beyond 1e18".to_owned()),
         None => text.parse().map_err(|error: ColorError| error.to_string()),
     }
 }
@@ -216,7 +220,7 @@ fn one_of(text: &str, names: &[&str]) -> String {
 }
 
 fn finite(text: &str) -> Option<f64> {
-    text.trim().parse().ok().filter(|v: &f64| v.is_finite())
+    text.trim().parse().ok().filter(|v: &f64| v.abs() <= LARGEST)
 }
 
 #[cfg(test)]
@@ -284,7 +288,10 @@ mod tests {
     #[test]
     fn numbers_must_be_finite() {
         assert!(vector("1,nan,2").is_err());
-        assert!(vector("inf,0,2").is_err());
+        assert!(vector("inf,0,2").is_err() && vector("1e19,0,0").is_err());
+        for wrong in ["1e39", "nan", "0,-1,0", "inf,0,0", "1,2"] {
+            assert!(color(wrong).unwrap_err().contains("beyond 1e18"), "{wrong}");
+        }
         assert!(fov("361").is_err() && fov("0").is_err());
         assert!(exposure("1000").is_err());
     }

@@ -206,6 +206,9 @@ fn hold(a: &str, b: &str, [one, two]: &[Picture; 2]) -> Result<Comparison, Failu
 pub(crate) fn read(path: &Path) -> Result<Picture, Failure> {
     let at_fault = |why: String| Failure::usage(format!("{}: {why}", path.display()));
     let bytes = fs::read(path).map_err(|error| unreadable(path, &error))?;
+    if bytes.is_empty() {
+        return Err(at_fault("the file is empty".to_owned()));
+    }
     Picture::read(&bytes).map_err(|error| at_fault(error.to_string()))
 }
 

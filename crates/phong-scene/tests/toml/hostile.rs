@@ -98,7 +98,7 @@ fn a_text_beyond_the_limits_is_refused_and_so_are_many_small_ones() {
     assert_refused(&read_files(&files, &limits), "`b.toml` cannot be read: it has 4100 bytes");
     let limits = Limits { bytes: 85 * text_bytes, ..Limits::default() };
     let told =
-        format!("{} bytes of memory; {} are allowed", 85 * (text_bytes + 1), 85 * text_bytes);
+        format!("{} of memory, over the limit of {}", 85 * (text_bytes + 1), 85 * text_bytes);
     assert_refused(&read_files(&files, &limits), &told);
 }
 

@@ -25,7 +25,7 @@ const BRDF: Switches = Switches { times_cosine: true, normalize: true };
 
 /// A model of weight 1 over black, and what holds of it.
 struct Row {
-    name: &'static str,
+    name: String,
     model: Reflectance,
     /// The most that it gives back of the light it gets, whatever the angle; `None`: it is not
     /// bounded by design.
@@ -33,13 +33,13 @@ struct Row {
     reciprocal: bool,
 }
 
-fn brdf(name: &'static str, most: f64, model: Reflectance) -> Row {
-    Row { name, model, most: Some(most), reciprocal: true }
+fn brdf(name: impl Into<String>, most: f64, model: Reflectance) -> Row {
+    Row { name: name.into(), model, most: Some(most), reciprocal: true }
 }
 
 /// The lobe as the equation adds it: no BRDF, since it is not multiplied by N·L.
-fn term(name: &'static str, model: Reflectance) -> Row {
-    Row { name, model, most: None, reciprocal: false }
+fn term(name: impl Into<String>, model: Reflectance) -> Row {
+    Row { most: None, reciprocal: false, ..brdf(name, 1.0, model) }
 }
 
 fn facets(distribution: Distribution, shadowing: Shadowing, fresnel: Fresnel) -> Reflectance {
@@ -71,40 +71,46 @@ fn rows() -> Vec<Row> {
         Fresnel::Conductor { eta: Rgb::new(0.143, 0.375, 1.442), k: Rgb::new(3.983, 2.386, 1.603) };
     let full = OrenNayarForm::Full { interreflection: true };
     let fast = blinn(32.0, TERM).with_falloff(Falloff::Rational);
-    vec![
-        brdf("Lambert", 1.0, Reflectance::Lambert(Lambert { k_d: 1.0 })),
-        brdf("Oren–Nayar, qualitative, σ 20°", 1.02, rough(20.0, OrenNayarForm::Qualitative)),
-        brdf("Oren–Nayar, qualitative, σ 40°", 1.02, rough(40.0, OrenNayarForm::Qualitative)),
-        brdf("Oren–Nayar, full, σ 40°", 1.02, rough(40.0, full)),
-        term("Phong's term, α 3", phong(3.0, TERM)),
-        term("Phong's term, α 32", phong(32.0, TERM)),
-        term("Phong's term, α 200", phong(200.0, TERM)),
-        term("Blinn's term, α 32", Reflectance::BlinnPhong(blinn(32.0, TERM))),
-        term("Blinn's term, fast, α 32", Reflectance::BlinnPhong(fast)),
-        brdf("modified Phong, n 3", 1.0, phong(3.0, BRDF)),
-        brdf("modified Phong, n 32", 1.0, phong(32.0, BRDF)),
-        brdf("modified Phong, n 200", 1.0, phong(200.0, BRDF)),
-        Row {
-            most: None,
-            ..brdf("Blinn–Phong BRDF, n 32", 1.0, Reflectance::BlinnPhong(blinn(32.0, BRDF)))
-        },
-        brdf("three.js, n 30, F 1", 1.0, facets(Blinn { n: 30.0 }, Implicit, mirror)),
-        brdf("Cook–Torrance, Beckmann 0.1", 1.0, facets(Beckmann { m: 0.1 }, VCavity, mirror)),
-        brdf("Cook–Torrance, Beckmann 0.3", 1.0, facets(Beckmann { m: 0.3 }, VCavity, mirror)),
-        brdf("Cook–Torrance, Beckmann 0.6", 1.0, facets(Beckmann { m: 0.6 }, VCavity, mirror)),
-        brdf("Cook–Torrance, Blinn n 32", 1.0, facets(Blinn { n: 32.0 }, VCavity, mirror)),
-        brdf("Beckmann 0.3, separable", 1.0, facets(Beckmann { m: 0.3 }, Separable, mirror)),
-        brdf("Beckmann 0.3, correlated", 1.0, facets(Beckmann { m: 0.3 }, Correlated, mirror)),
-        brdf("GGX 0.1", 1.0, facets(Ggx { alpha: 0.1 }, Correlated, mirror)),
-        brdf("GGX 0.3", 1.0, facets(Ggx { alpha: 0.3 }, Correlated, mirror)),
-        brdf("GGX 0.6", 1.0, facets(Ggx { alpha: 0.6 }, Correlated, mirror)),
-        brdf("GGX 0.9", 1.0, facets(Ggx { alpha: 0.9 }, Correlated, mirror)),
-        brdf("GGX 0.3, gold, green", 1.0, facets(Ggx { alpha: 0.3 }, Correlated, gold)),
-        brdf("GGX 0.3, glass η 1.5", 1.0, facets(Ggx { alpha: 0.3 }, Correlated, glass)),
-        Row { most: None, ..brdf("Ward 0.2, as published", 1.0, ward(0.2, 0.2, WardForm::Ward)) },
-        brdf("Ward 0.2, mended", 1.0, ward(0.2, 0.2, WardForm::Gmd)),
-        brdf("Ward 0.4 × 0.1, mended", 1.0, ward(0.4, 0.1, WardForm::Gmd)),
-    ]
+    let mut rows = vec![brdf("Lambert", 1.0, Reflectance::Lambert(Lambert { k_d: 1.0 }))];
+    rows.extend([20.0, 40.0].map(|degrees| {
+        let model = rough(degrees, OrenNayarForm::Qualitative);
+        brdf(format!("Oren–Nayar, qualitative, σ {degrees}°"), 1.02, model)
+    }));
+    rows.push(brdf("Oren–Nayar, full, σ 40°", 1.02, rough(40.0, full)));
+    rows.extend([3.0, 32.0, 200.0].map(|n| term(format!("Phong's term, α {n}"), phong(n, TERM))));
+    rows.push(term("Blinn's term, α 32", Reflectance::BlinnPhong(blinn(32.0, TERM))));
+    rows.push(term("Blinn's term, fast, α 32", Reflectance::BlinnPhong(fast)));
+    rows.extend(
+        [3.0, 32.0, 200.0].map(|n| brdf(format!("modified Phong, n {n}"), 1.0, phong(n, BRDF))),
+    );
+    rows.push(Row {
+        most: None,
+        ..brdf("Blinn–Phong BRDF, n 32", 1.0, Reflectance::BlinnPhong(blinn(32.0, BRDF)))
+    });
+    rows.push(brdf("three.js, n 30, F 1", 1.0, facets(Blinn { n: 30.0 }, Implicit, mirror)));
+    rows.extend([0.1, 0.3, 0.6].map(|m| {
+        let model = facets(Beckmann { m }, VCavity, mirror);
+        brdf(format!("Cook–Torrance, Beckmann {m}"), 1.0, model)
+    }));
+    rows.push(brdf("Cook–Torrance, Blinn n 32", 1.0, facets(Blinn { n: 32.0 }, VCavity, mirror)));
+    rows.extend([("separable", Separable), ("correlated", Correlated)].map(|(name, shadowing)| {
+        brdf(format!("Beckmann 0.3, {name}"), 1.0, facets(Beckmann { m: 0.3 }, shadowing, mirror))
+    }));
+    rows.extend(
+        [0.1, 0.3, 0.6, 0.9].map(|alpha| {
+            brdf(format!("GGX {alpha}"), 1.0, facets(Ggx { alpha }, Correlated, mirror))
+        }),
+    );
+    rows.extend([("gold, green", gold), ("glass η 1.5", glass)].map(|(name, fresnel)| {
+        brdf(format!("GGX 0.3, {name}"), 1.0, facets(Ggx { alpha: 0.3 }, Correlated, fresnel))
+    }));
+    rows.push(Row {
+        most: None,
+        ..brdf("Ward 0.2, as published", 1.0, ward(0.2, 0.2, WardForm::Ward))
+    });
+    rows.push(brdf("Ward 0.2, mended", 1.0, ward(0.2, 0.2, WardForm::Gmd)));
+    rows.push(brdf("Ward 0.4 × 0.1, mended", 1.0, ward(0.4, 0.1, WardForm::Gmd)));
+    rows
 }
 
 /// π f (N·L), or the bare term: what white light from `l` adds, in green.

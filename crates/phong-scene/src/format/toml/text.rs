@@ -129,7 +129,7 @@ pub(super) fn load(path: &str, source: &dyn Source, limits: &Limits) -> Result<S
     }
     let too_large = || {
         let allowed = limits.bytes;
-        format!("to read its {len} bytes may take {needed} bytes of memory; {allowed} are allowed")
+        format!("to read its {len} bytes may take {needed} of memory, over the limit of {allowed}")
     };
     if needed > limits.bytes {
         return Err(too_large());
