@@ -277,7 +277,8 @@ impl Bvh {
         surface::surface(self, ray, hit)
     }
 
-    /// [`Bvh::surface`] of a bundle of eights: the same bits, and 0 for rays without a hit.
+    /// [`Bvh::surface`] of a bundle of eights: the same bits. What is said of rays without a hit is of no
+    /// account.
     ///
     /// # Panics
     /// If `hits` or `surfaces` has not the length of `rays`.

@@ -178,6 +178,30 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
 
     #[test]
+    fn a_handful_of_spheres_loses_no_ray_that_grazes_them(seed: u64) {
+        let mut numbers = Numbers(seed);
+        let scale = numbers.scale();
+        let spheres: Vec<Sphere> = (0..1 + numbers.below(8))
+            .map(|_| Sphere {
+                center: scale * numbers.point(),
+                radius: scale * 0.3 * numbers.signed().abs().max(1e-3),
+            })
+            .collect();
+        // Together, as a camera's or a light's rays are, at rims.
+        let (eye, spread) = (3.0 * scale * numbers.point(), [0.0, 0.01, 1.0][numbers.below(3)]);
+        let rays: Vec<Ray> = (0..150)
+            .map(|i| {
+                let Sphere { center, radius } = spheres[i / 40 % spheres.len()];
+                let origin = eye + spread * scale * numbers.point();
+                let around = numbers.point().cross(center - origin).normalize_or(Vec3::X);
+                let rim = center + radius * (1.0 - 1e-3 * numbers.signed()) * around;
+                Ray::new(origin, (rim - origin).try_normalize().unwrap_or(Vec3::X))
+            })
+            .collect();
+        agrees_with_brute_force(&[Geometry::Spheres(spheres)], &rays);
+    }
+
+    #[test]
     fn the_hierarchy_finds_what_brute_force_finds(seed: u64) {
         let mut numbers = Numbers(seed);
         let geometry = geometry(&mut numbers, 120);

@@ -211,6 +211,11 @@ impl CompiledScene {
         self.has_bounces
     }
 
+    /// Whether any light has an extent: whether samples differ but by their rays.
+    pub fn has_soft_lights(&self) -> bool {
+        self.lights.iter().any(|light| light.soft)
+    }
+
     /// Whether any of the materials takes ambient light from each light.
     pub fn has_ambient_per_light(&self) -> bool {
         self.has_ambient_per_light
@@ -297,7 +302,9 @@ impl CompiledScene {
             left &= !same;
             if let (Some(number), true) = (part.only_material(), part.is_plain()) {
                 let own = splat3(simd, self.materials[number as usize].color.to_array());
-                let lanes = mask32x8::from_bitmask(simd, same.into());
+                // What is in lanes without a hit is of no account.
+                let lanes = if same == hits.met { 0xff } else { same };
+                let lanes = mask32x8::from_bitmask(simd, lanes.into());
                 *color = store3(select3(lanes, own, load3(simd, color)));
                 let old = u32x8::load_array_ref(simd, material);
                 lanes.select(u32x8::splat(simd, number), old).store_array(material);

@@ -124,7 +124,6 @@ impl Kernel for Surfaces<'_> {
         let Self { bvh, rays, hits, out } = self;
         let mut index = 0;
         for ((rays, hits), out) in rays.iter().zip(hits).zip(out) {
-            *out = Surfaces8::default();
             let mut left = hits.met;
             while left != 0 {
                 // Neighbours are mostly of one geometry.
@@ -147,7 +146,9 @@ impl Kernel for Surfaces<'_> {
                             }
                         }
                         let met = eight(simd, geometry, &locals, rays, hits);
-                        let same = mask32x8::from_bitmask(simd, same.into());
+                        // What is in lanes without a hit is of no account.
+                        let lanes = if same == hits.met { 0xff } else { same };
+                        let same = mask32x8::from_bitmask(simd, lanes.into());
                         put(simd, &mut out.p, same, met.p);
                         put(simd, &mut out.p_error, same, met.p_error);
                         put(simd, &mut out.ng, same, met.ng);

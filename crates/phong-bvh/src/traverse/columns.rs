@@ -127,14 +127,16 @@ pub(super) fn bounds<S: Simd>(simd: S, column: &Column, packets: usize) -> [f32;
     [lowest(low), highest(high)]
 }
 
+/// The greatest of eight.
 #[inline(always)]
-fn highest<S: Simd>(v: f32x8<S>) -> f32 {
+pub(super) fn highest<S: Simd>(v: f32x8<S>) -> f32 {
     let [a, b, c, d, e, f, g, h] = v.to_array();
     a.max(b).max(c.max(d)).max(e.max(f).max(g.max(h)))
 }
 
+/// The least of eight.
 #[inline(always)]
-fn lowest<S: Simd>(v: f32x8<S>) -> f32 {
+pub(super) fn lowest<S: Simd>(v: f32x8<S>) -> f32 {
     let [a, b, c, d, e, f, g, h] = v.to_array();
     a.min(b).min(c.min(d)).min(e.min(f).min(g.min(h)))
 }

@@ -85,7 +85,8 @@ fn rounded(v: f32, levels: u16) -> u16 {
 
 /// The level of a value that is not to be curved: clamped, scaled, rounded half up. NaN is 0.
 pub(super) fn linear_level(v: f32, levels: u16) -> u16 {
-    (f64::from(v.clamp(0.0, 1.0)) * f64::from(levels) + 0.5) as u16
+    // To i32 and not to u16 at once: that is what the compiler makes vector code of.
+    (f64::from(v.clamp(0.0, 1.0)) * f64::from(levels) + 0.5) as i32 as u16
 }
 
 #[cfg(test)]

@@ -21,7 +21,7 @@ pub struct CameraRay {
 pub struct Bundle {
     /// The rays.
     pub(crate) rays: Vec<Rays8>,
-    /// Where the samples of each come from, eight for eight rays.
+    /// Where the samples of each come from, eight for eight rays; asked for under soft lights alone.
     pub(crate) samplers: Vec<Samplers8>,
     /// Where each crosses the picture's height; asked for under a gradient alone.
     pub(crate) heights: Vec<[f32; 8]>,
@@ -60,6 +60,14 @@ pub struct Radiance8 {
 impl Radiance8 {
     /// Nothing.
     pub const NONE: Self = Self { terms: Terms8::NONE, met: 0, went_on: false };
+
+    /// Nothing again, from rays of which these met a surface.
+    #[inline(always)]
+    pub(super) fn begin(&mut self, met: u32) {
+        let used = if self.went_on { 6 } else { Terms8::REFLECTION };
+        self.terms.0[..used].fill([[0.0; 8]; 3]);
+        (self.met, self.went_on) = (met, false);
+    }
 }
 
 /// How many rays were traced.

@@ -93,7 +93,7 @@ impl Kernel for Begin<'_> {
         let eights = rays.iter().zip(hits).zip(surfaces).zip(dressed).zip(out);
         for (i, ((((rays, hits), surface), dressed), out)) in eights.enumerate() {
             let met = hits.met;
-            *out = Radiance8 { met, ..Radiance8::NONE };
+            out.begin(met);
             let missed = rays.there & !met;
             if missed != 0 {
                 let to = &mut out.terms.0[Terms8::BACKGROUND];

@@ -76,14 +76,16 @@ impl Onward {
         self.from.clear();
     }
 
-    fn push(&mut self, step: Step, ray: &Ray, sampler: Sampler) {
+    fn push(&mut self, step: Step, ray: &Ray, sampler: Option<Sampler>) {
         let lane = self.from.len() % 8;
         if lane == 0 {
             self.rays.push(Rays8::NONE);
-            self.samplers.push(Samplers8::splat(sampler));
+            self.samplers.extend(sampler.map(Samplers8::splat));
         }
-        if let (Some(rays), Some(samplers)) = (self.rays.last_mut(), self.samplers.last_mut()) {
+        if let Some(rays) = self.rays.last_mut() {
             rays.set(lane, ray);
+        }
+        if let (Some(samplers), Some(sampler)) = (self.samplers.last_mut(), sampler) {
             samplers.set(lane, sampler);
         }
         self.from.push(step);
@@ -222,7 +224,7 @@ impl Integrator<'_> {
                     witness.cut(branch, weight, fresnel);
                     continue;
                 }
-                let sampler = samplers[i].get(lane).branch(branch as u32);
+                let sampler = samplers.get(i).map(|s| s.get(lane).branch(branch as u32));
                 let step = Step { parent: (i, lane), weight, fresnel };
                 onward.push(step, &at.spawn(dir, f32::INFINITY), sampler);
             }

@@ -63,6 +63,9 @@ pub(crate) fn lobe8<S: Simd>(simd: S, x: f32x8<S>, alpha: f32) -> f32x8<S> {
     if !(normal | x.simd_le(zero) | x.simd_ge(one)).all_true() || !alpha.is_finite() {
         return x.each(|x| lobe(x, alpha));
     }
+    if !normal.any_true() {
+        return x.simd_ge(one).select(one, zero);
+    }
     let base = normal.select(x, f32x8::splat(simd, 0.5));
     let power = exp2_of_steps8(simd, log2_in_steps8(simd, base), f64::from(alpha));
     normal.select(power, x.simd_ge(one).select(one, zero))

@@ -58,10 +58,11 @@ impl Samples {
     ) {
         self.bundle.clear();
         self.weights.clear();
+        let soft = integrator.scene.has_soft_lights();
         if integrator.scene.camera().is_pinhole() {
             let (camera, to) = (integrator.scene.camera(), self);
             let bvh = integrator.scene.bvh();
-            bvh.run(ThroughPinhole { camera, options, filter, pixels, indices, to });
+            bvh.run(ThroughPinhole { camera, options, filter, pixels, indices, soft, to });
             return;
         }
         for index in indices {
@@ -77,16 +78,16 @@ impl Samples {
                         heights[lane] = height;
                     }
                 }
-                self.push(&rays, samplers, weights);
+                self.push(&rays, soft.then_some(samplers), weights);
                 self.bundle.heights.push(heights);
             }
         }
     }
 
     #[inline(always)]
-    fn push(&mut self, rays: &Rays8, samplers: Samplers8, weights: [f32; 8]) {
+    fn push(&mut self, rays: &Rays8, samplers: Option<Samplers8>, weights: [f32; 8]) {
         self.bundle.rays.push(*rays);
-        self.bundle.samplers.push(samplers);
+        self.bundle.samplers.extend(samplers);
         self.weights.push(weights);
     }
 }
@@ -129,6 +130,8 @@ struct ThroughPinhole<'a> {
     filter: &'a Filter,
     pixels: &'a [Pixels8],
     indices: Range<u32>,
+    /// Whether samplers are asked for.
+    soft: bool,
     to: &'a mut Samples,
 }
 
@@ -137,13 +140,13 @@ impl Kernel for ThroughPinhole<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Self { camera, options, filter, pixels, indices, to } = self;
+        let Self { camera, options, filter, pixels, indices, soft, to } = self;
         let low: f64x4<S> = [0.0, 1.0, 2.0, 3.0].simd_into(simd);
         let high: f64x4<S> = [4.0, 5.0, 6.0, 7.0].simd_into(simd);
         let gradient = matches!(options.background, Background::Gradient { .. });
         for index in indices {
             for pixels in pixels {
-                let samplers = pixels.samplers.at(index);
+                let samplers = soft.then(|| pixels.samplers.at(index));
                 let [x, y, weights] = filter.sample8(pixels.places.at(index));
                 let dx = f32x8::load_array(simd, x).widen();
                 let dy = f32x8::load_array(simd, y).widen();

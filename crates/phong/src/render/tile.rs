@@ -25,7 +25,7 @@ const SQUARE: u32 = 8;
 const LOT: usize = SQUARE as usize;
 
 /// Samples of each pixel in a bundle.
-const LOTS: u32 = 4;
+const LOTS: u32 = 2;
 
 /// Paints tiles.
 pub(super) struct Painter<'a> {
@@ -70,7 +70,10 @@ impl<'a> Painter<'a> {
         cut(window, self.options, pixels);
         values.resize_with(self.layers.len(), Vec::new);
         for (kind, values) in self.layers.iter().zip(&mut *values) {
-            values.clear();
+            if matches!(kind, LayerKind::Aov(_)) {
+                // A variable is put where there is something to say.
+                values.clear();
+            }
             let len = window.width() as usize * window.height() as usize;
             values.resize(len * kind.channels(), 0.0);
         }
