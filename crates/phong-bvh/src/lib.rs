@@ -21,6 +21,7 @@ mod surface;
 mod traverse;
 #[cfg(test)]
 mod validate;
+mod wide;
 
 pub use aabb::Aabb;
 pub use bvh::{BuildError, BuildOptions, Bvh, Cost, Preset, Stats};
@@ -29,3 +30,4 @@ pub use geometry::{Canonical, Geometry, Plane, Solid, Sphere};
 pub use level::{Kernel, Level};
 pub use ray::{Coordinates, Hit, Ray, Surface};
 pub use surface::{Surfaces8, offset_origin};
+pub use wide::Wide;

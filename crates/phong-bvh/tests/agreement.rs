@@ -181,7 +181,7 @@ proptest! {
     fn a_handful_of_spheres_loses_no_ray_that_grazes_them(seed: u64) {
         let mut numbers = Numbers(seed);
         let scale = numbers.scale();
-        let spheres: Vec<Sphere> = (0..1 + numbers.below(8))
+        let spheres: Vec<Sphere> = (0..=numbers.below(8))
             .map(|_| Sphere {
                 center: scale * numbers.point(),
                 radius: scale * 0.3 * numbers.signed().abs().max(1e-3),

@@ -1,13 +1,10 @@
 //! From a place in the picture to a ray.
 
-use std::ops::{Add, Div, Mul};
-
-use fearless_simd::{Simd, f64x4, prelude::*};
+use fearless_simd::{Simd, f32x8, f64x4, prelude::*};
 use glam::{DVec2, DVec3, Vec3};
-use phong_bvh::{Ray, Rays8};
+use phong_bvh::{Ray, Rays8, Wide};
 use phong_scene::CameraKind;
 
-use crate::math::lanes::store3;
 use crate::math::{Dir3, wide};
 
 /// A camera set up in f64, in the compiled scene's space.
@@ -70,78 +67,91 @@ impl Camera {
     #[inline]
     pub fn ray(&self, place: DVec2, size: [u32; 2], lens: [f32; 2]) -> Option<Ray> {
         let (width, height) = (f64::from(size[0]), f64::from(size[1]));
-        let [x, y] = from_the_middle(place.to_array(), width, height);
-        let (origin, dir) = match self.kind {
-            CameraKind::Perspective { .. } if self.aperture == 0.0 => {
-                return Some(Ray::new(self.eye.as_vec3(), Vec3::from(self.pinhole(x, y))));
-            }
-            CameraKind::Perspective { .. } => {
-                let toward = self.half * (x * self.right + y * self.up) + self.forward;
-                self.through_lens(self.eye, toward, lens)
-            }
-            CameraKind::Orthographic { .. } => {
-                let origin = self.eye + self.half * (x * self.right + y * self.up);
-                self.through_lens(origin, self.forward, lens)
+        let dir = match self.kind {
+            CameraKind::Perspective { .. } | CameraKind::Orthographic { .. } => {
+                let lens = self.has_lens().then(|| disc(lens.map(f64::from)));
+                let [origin, dir] = self.flat(place.to_array(), size, lens);
+                let narrow = |v: [f64; 3]| DVec3::from_array(v).as_vec3();
+                return Some(Ray::new(narrow(origin), narrow(dir)));
             }
             CameraKind::Fisheye { .. } => {
+                let [x, y] = from_the_middle(place.to_array(), width, height);
                 // The circle touches the nearer edges.
                 let circle = (width / height).min(1.0);
-                (self.eye, self.fisheye(x / circle, y / circle)?)
+                self.fisheye(x / circle, y / circle)?
             }
-            CameraKind::Panorama => {
-                (self.eye, self.panorama(place.x / width - 0.5, 0.5 - place.y / height))
-            }
+            CameraKind::Panorama => self.panorama(place.x / width - 0.5, 0.5 - place.y / height),
         };
-        Some(Ray::new(origin.as_vec3(), dir.normalize_or(self.forward).as_vec3()))
+        Some(Ray::new(self.eye.as_vec3(), dir.normalize_or(self.forward).as_vec3()))
     }
 
-    /// Whether [`Camera::pinhole_rays`] draws its rays.
-    pub(crate) fn is_pinhole(&self) -> bool {
-        matches!(self.kind, CameraKind::Perspective { .. }) && self.aperture == 0.0
+    /// Whether [`Camera::flat_rays`] draws its rays.
+    pub(crate) fn is_flat(&self) -> bool {
+        matches!(self.kind, CameraKind::Perspective { .. } | CameraKind::Orthographic { .. })
     }
 
     /// The rays of [`Camera::ray`] through eight places, of a camera that
-    /// [is a pinhole](Camera::is_pinhole).
+    /// [is flat](Camera::is_flat); of one that [has a lens](Camera::has_lens) with places there.
     #[inline(always)]
-    pub(crate) fn pinhole_rays<S: Simd>(
+    pub(crate) fn flat_rays<S: Simd>(
         &self,
         simd: S,
         [x, y]: [[f64x4<S>; 2]; 2],
         size: [u32; 2],
+        lens: Option<&[[f32; 8]; 2]>,
     ) -> Rays8 {
-        let low = self.pinhole4(simd, [x[0], y[0]], size);
-        let high = self.pinhole4(simd, [x[1], y[1]], size);
-        let dir = [low[0].narrow(high[0]), low[1].narrow(high[1]), low[2].narrow(high[2])];
-        let Vec3 { x, y, z } = self.eye.as_vec3();
-        Rays8 { origin: [[x; 8], [y; 8], [z; 8]], dir: store3(dir), there: 0xff, ..Rays8::NONE }
+        let [low_lens, high_lens] = match lens {
+            Some(lens) => disc4(simd, lens).map(Some),
+            None => [None, None],
+        };
+        let [low_o, low] = self.flat([x[0], y[0]], size, low_lens);
+        let [high_o, high] = self.flat([x[1], y[1]], size, high_lens);
+        Rays8 {
+            origin: [
+                low_o[0].narrow(high_o[0]).into(),
+                low_o[1].narrow(high_o[1]).into(),
+                low_o[2].narrow(high_o[2]).into(),
+            ],
+            dir: [
+                low[0].narrow(high[0]).into(),
+                low[1].narrow(high[1]).into(),
+                low[2].narrow(high[2]).into(),
+            ],
+            there: 0xff,
+            ..Rays8::NONE
+        }
     }
 
-    /// [`Camera::pinhole`] through four places of a picture of `size` pixels.
+    /// Origin and unit direction of the ray through a place of a flat picture. `lens`: a point of
+    /// the unit disc; the ray starts there on the lens, and meets the plane of focus where it would
+    /// have from the middle.
     #[inline(always)]
-    fn pinhole4<S: Simd>(&self, simd: S, place: [f64x4<S>; 2], size: [u32; 2]) -> [f64x4<S>; 3] {
+    fn flat<F: Wide>(&self, place: [F; 2], size: [u32; 2], lens: Option<[F; 2]>) -> [[F; 3]; 2] {
+        let Self { eye, right, up, forward, half, aperture, focus, .. } = *self;
         let [x, y] = from_the_middle(place, f64::from(size[0]), f64::from(size[1]));
-        let [x, y, z] = self.toward(x, y);
-        let inverse = f64x4::splat(simd, 1.0) / (x * x + y * y + z * z).sqrt();
-        [x * inverse, y * inverse, z * inverse]
-    }
-
-    /// The direction through a place, half heights off the picture's middle: unit, since no
-    /// direction is shorter than `forward`.
-    fn pinhole(&self, x: f64, y: f64) -> [f32; 3] {
-        let [x, y, z] = self.toward(x, y);
-        let inverse = 1.0 / (x * x + y * y + z * z).sqrt();
-        [(x * inverse) as f32, (y * inverse) as f32, (z * inverse) as f32]
-    }
-
-    /// A place of the picture, half heights off its middle, seen from the eye.
-    #[inline(always)]
-    fn toward<F: Wide>(&self, x: F, y: F) -> [F; 3] {
-        let Self { right, up, forward, half, .. } = self;
-        [
-            (x * right.x + y * up.x) * *half + forward.x,
-            (x * right.y + y * up.y) * *half + forward.y,
-            (x * right.z + y * up.z) * *half + forward.z,
-        ]
+        let off = [
+            (x * right.x + y * up.x) * half,
+            (x * right.y + y * up.y) * half,
+            (x * right.z + y * up.z) * half,
+        ];
+        let like = |v: DVec3| [x.like(v.x), x.like(v.y), x.like(v.z)];
+        let moved = |by: DVec3| [off[0] + by.x, off[1] + by.y, off[2] + by.z];
+        let (mut origin, mut dir) = match self.kind {
+            CameraKind::Orthographic { .. } => (moved(eye), like(forward)),
+            _ => (like(eye), moved(forward)),
+        };
+        if let Some([u, v]) = lens {
+            let shift = [
+                (u * right.x + v * up.x) * aperture,
+                (u * right.y + v * up.y) * aperture,
+                (u * right.z + v * up.z) * aperture,
+            ];
+            origin = [origin[0] + shift[0], origin[1] + shift[1], origin[2] + shift[2]];
+            dir = [dir[0] * focus - shift[0], dir[1] * focus - shift[1], dir[2] * focus - shift[2]];
+        }
+        let [x, y, z] = dir;
+        let inverse = x.like(1.0) / (x * x + y * y + z * z).root();
+        [origin, [x * inverse, y * inverse, z * inverse]]
     }
 
     /// The direction at a place of the image circle, whose radius is 1; `None` outside.
@@ -162,32 +172,7 @@ impl Camera {
         let around = cos * self.forward + sin * self.right;
         level * around + rise * self.up
     }
-
-    /// Moves a ray's start across the lens so that it still meets the plane of focus where it did.
-    /// `toward` has length 1 along forward.
-    #[inline]
-    fn through_lens(&self, origin: DVec3, toward: DVec3, lens: [f32; 2]) -> (DVec3, DVec3) {
-        if self.aperture == 0.0 {
-            return (origin, toward);
-        }
-        let [u, v] = disc(lens);
-        let shift = self.aperture * (u * self.right + v * self.up);
-        (origin + shift, toward * self.focus - shift)
-    }
 }
-
-/// A number in f64, or four: what a place in the picture is worked out in.
-trait Wide:
-    Copy
-    + Add<Output = Self>
-    + Add<f64, Output = Self>
-    + Mul<f64, Output = Self>
-    + Div<f64, Output = Self>
-{
-}
-
-impl Wide for f64 {}
-impl<S: Simd> Wide for f64x4<S> {}
 
 /// A place from the picture's middle, in half heights; y up.
 #[inline(always)]
@@ -197,19 +182,23 @@ fn from_the_middle<F: Wide>([x, y]: [F; 2], width: f64, height: f64) -> [F; 2] {
 
 /// A point of the unit disc from one of the unit square, areas kept (Shirley and Chiu 1997).
 /// (½, ½) is the middle.
-pub(crate) fn disc([u, v]: [f32; 2]) -> [f64; 2] {
-    let (a, b) = (2.0 * f64::from(u) - 1.0, 2.0 * f64::from(v) - 1.0);
-    if a == 0.0 && b == 0.0 {
-        return [0.0, 0.0];
-    }
-    let quarter = std::f64::consts::FRAC_PI_4;
-    let (r, angle) = if a.abs() > b.abs() {
-        (a, quarter * (b / a))
-    } else {
-        (b, 2.0 * quarter - quarter * (a / b))
-    };
-    let (sin, cos) = wide::sin_cos(angle);
-    [r * cos, r * sin]
+#[inline(always)]
+pub(crate) fn disc<F: Wide>([u, v]: [F; 2]) -> [F; 2] {
+    let (a, b) = (u * 2.0 + -1.0, v * 2.0 + -1.0);
+    let (x, y) = (a.size(), b.size());
+    // In the quarters above and below, x and y change their parts.
+    let (r, other) = (x.above(y, a, b), x.above(y, b, a));
+    let zero = r.like(0.0);
+    let turn = r.size().above(zero, other / r, zero) * std::f64::consts::FRAC_PI_4;
+    let (sin, cos) = wide::sin_cos_of_eighth(turn);
+    [r * x.above(y, cos, sin), r * x.above(y, sin, cos)]
+}
+
+/// [`disc`] of eight points, four by four.
+#[inline(always)]
+pub(crate) fn disc4<S: Simd>(simd: S, [u, v]: &[[f32; 8]; 2]) -> [[f64x4<S>; 2]; 2] {
+    let (u, v) = (f32x8::load_array_ref(simd, u).widen(), f32x8::load_array_ref(simd, v).widen());
+    [disc([u.0, v.0]), disc([u.1, v.1])]
 }
 
 #[cfg(test)]
@@ -248,28 +237,48 @@ mod tests {
     }
 
     #[test]
-    fn many_pinhole_rays_have_the_bits_of_one() {
-        let camera = Camera::new(
-            &phong_scene::Camera {
-                eye: DVec3::new(1.0, 2.5, 8.1),
-                ..camera(CameraKind::Perspective { fov: 37.0 })
-            },
-            DVec3::new(0.25, 0.0, 0.0),
-        );
-        assert!(camera.is_pinhole());
+    fn eight_flat_rays_have_the_bits_of_one() {
         let simd = fearless_simd::Fallback::new();
-        for i in 0..6 {
-            let place = |lane: usize| DVec2::new(0.93, 0.41) * (8 * i + lane) as f64;
-            let column = |axis: usize, from: usize| -> f64x4<_> {
-                let at = |k: usize| place(from + k)[axis];
-                [at(0), at(1), at(2), at(3)].simd_into(simd)
-            };
-            let places = [[column(0, 0), column(0, 4)], [column(1, 0), column(1, 4)]];
-            let rays = camera.pinhole_rays(simd, places, SIZE);
-            for lane in 0..8 {
-                assert_eq!(Some(rays.get(lane)), camera.ray(place(lane), SIZE, MIDDLE));
+        let kinds =
+            [CameraKind::Perspective { fov: 37.0 }, CameraKind::Orthographic { height: 4.0 }];
+        for (kind, aperture) in kinds.into_iter().flat_map(|kind| [(kind, 0.0), (kind, 0.3)]) {
+            let eye = DVec3::new(1.0, 2.5, 8.1);
+            let camera = phong_scene::Camera { eye, aperture, ..camera(kind) };
+            let camera = Camera::new(&camera, DVec3::new(0.25, 0.0, 0.0));
+            for i in 0..6 {
+                let place = |lane: usize| DVec2::new(0.93, 0.41) * (8 * i + lane) as f64;
+                let column = |axis: usize, from: usize| -> f64x4<_> {
+                    let at = |k: usize| place(from + k)[axis];
+                    [at(0), at(1), at(2), at(3)].simd_into(simd)
+                };
+                let places = [[column(0, 0), column(0, 4)], [column(1, 0), column(1, 4)]];
+                let on_lens = |lane: usize| [0.5 - 0.06 * lane as f32, 0.5 + 0.08 * i as f32];
+                let lens = [0, 1].map(|axis| std::array::from_fn(|lane| on_lens(lane)[axis]));
+                let lens8 = camera.has_lens().then_some(&lens);
+                let rays = camera.flat_rays(simd, places, SIZE, lens8);
+                for lane in 0..8 {
+                    let one = camera.ray(place(lane), SIZE, on_lens(lane));
+                    assert_eq!(Some(rays.get(lane)), one, "{kind:?}, {aperture}");
+                }
             }
         }
+    }
+
+    #[test]
+    fn the_disc_is_filled_evenly_from_its_middle_to_its_rim() {
+        assert_eq!(disc([0.5, 0.5]), [0.0, 0.0]);
+        let n = 100;
+        let mut within = 0;
+        for i in 0..n * n {
+            let at = |k: usize| (k as f64 + 0.5) / f64::from(n as u32);
+            let [x, y] = disc([at(i % n), at(i / n)]);
+            assert!(x * x + y * y < 1.0);
+            within += u32::from(x * x + y * y < 0.49);
+        }
+        assert!((f64::from(within) / f64::from((n * n) as u32) - 0.49).abs() < 0.005);
+        let [x, y] = disc([1.0, 0.75]);
+        let (sin, cos) = wide::sin_cos(std::f64::consts::FRAC_PI_8);
+        assert!((x - cos).abs() < 1e-15 && (y - sin).abs() < 1e-15);
     }
 
     #[test]

@@ -4,8 +4,8 @@ use fearless_simd::{Simd, f32x8, prelude::*};
 use glam::{DVec3, Vec3};
 use phong_scene::{LightKind, Rgb};
 
-use crate::camera::disc;
-use crate::math::lanes::{Real, dot};
+use crate::camera::{disc, disc4};
+use crate::math::lanes::{Real, add, dot, times};
 use crate::math::{Dir3, wide};
 
 /// A light in the compiled scene's space.
@@ -101,58 +101,59 @@ impl Light {
 
     /// How it reaches `p`, as [`Light::sample`] has it.
     pub(crate) fn reach(&self, p: Vec3, place: [f32; 2]) -> Option<Reach<Dir3, f32>> {
-        match &self.kind {
-            &Kind::Distant { to_light, half_angle_tan } => {
-                let l = if half_angle_tan > 0.0 {
-                    Dir3::new(to_light.to_vec() + half_angle_tan * across(to_light, place))?
-                } else {
-                    to_light
-                };
-                Some(Reach { l, distance: f32::INFINITY, share: 1.0 })
-            }
-            Kind::Point { position, attenuation, radius, cone } => {
-                let mut toward = position - p;
-                if *radius > 0.0 {
-                    toward += *radius * across(Dir3::new(toward)?, place);
-                }
-                let Reach { l, distance, mut share } = arrival(toward.to_array(), *attenuation);
-                if l == [0.0; 3] {
-                    return None;
-                }
-                let l = Dir3::from_unit(Vec3::from(l));
-                if let Some(cone) = cone {
-                    share *= cone.share(-cone.axis.dot(l));
-                }
-                Some(Reach { l, distance, share })
-            }
-        }
+        let place = self.soft.then(|| disc(place.map(f64::from)).map(|v| v as f32));
+        let Reach { l, distance, share } = self.arrive(p.to_array(), place);
+        (l != [0.0; 3]).then(|| Reach { l: Dir3::from_unit(Vec3::from(l)), distance, share })
     }
 
-    /// [`Light::reach`] of eight points from a light that is not soft: the same bits. `l` is 0 where
-    /// the light is.
+    /// [`Light::reach`] of eight points: the same bits. `l` is 0 where the light is. `place`: of a
+    /// soft light.
     #[inline(always)]
     pub(crate) fn reach8<S: Simd>(
         &self,
         simd: S,
         p: [f32x8<S>; 3],
+        place: Option<&[[f32; 8]; 2]>,
     ) -> Reach<[f32x8<S>; 3], f32x8<S>> {
-        let splat = |v: f32| f32x8::splat(simd, v);
-        match &self.kind {
-            Kind::Distant { to_light, .. } => {
-                let [x, y, z] = to_light.to_array();
-                Reach {
-                    l: [splat(x), splat(y), splat(z)],
-                    distance: splat(f32::INFINITY),
-                    share: splat(1.0),
-                }
+        let place = match place {
+            Some(place) => {
+                let [low, high] = disc4(simd, place);
+                Some([low[0].narrow(high[0]), low[1].narrow(high[1])])
             }
-            Kind::Point { position, attenuation, cone, .. } => {
-                let Vec3 { x, y, z } = *position;
-                let toward = [splat(x) - p[0], splat(y) - p[1], splat(z) - p[2]];
+            None => None,
+        };
+        self.arrive(p, place)
+    }
+
+    /// How it reaches one point, or eight; `l` is 0 where the light is. `place`: of a soft light, a
+    /// point of the unit disc.
+    #[inline(always)]
+    fn arrive<F: Real>(&self, p: [F; 3], place: Option<[F; 2]>) -> Reach<[F; 3], F> {
+        let like = |v: f32| p[0].like(v);
+        let all = |v: [f32; 3]| [p[0].like(v[0]), p[0].like(v[1]), p[0].like(v[2])];
+        match &self.kind {
+            Kind::Distant { to_light, half_angle_tan } => {
+                let mut l = all(to_light.to_array());
+                if let Some(place) = place {
+                    l = F::unit(add(l, across(like(*half_angle_tan), l, place)));
+                }
+                Reach { l, distance: like(f32::INFINITY), share: like(1.0) }
+            }
+            Kind::Point { position, attenuation, radius, cone } => {
+                let [x, y, z] = all(position.to_array());
+                let mut toward = [x - p[0], y - p[1], z - p[2]];
+                if let Some(place) = place {
+                    let axis = F::unit(toward);
+                    let aside = across(like(*radius), axis, place);
+                    // Where the light is there is no way aside.
+                    let (zero, length) = (like(0.0), dot(axis, axis));
+                    let aside = aside.map(|v| zero.below(length, v, zero));
+                    toward = add(toward, aside);
+                }
                 let Reach { l, distance, mut share } = arrival(toward, *attenuation);
                 if let Some(cone) = cone {
-                    let [x, y, z] = cone.axis.to_array();
-                    share *= dot([splat(x), splat(y), splat(z)], l).each(|cos| cone.share(-cos));
+                    let along = dot(all(cone.axis.to_array()), l);
+                    share = share * along.each(|cos| cone.share(-cos));
                 }
                 Reach { l, distance, share }
             }
@@ -204,11 +205,18 @@ fn point(position: DVec3, attenuation: [f64; 3], radius: f64, cone: Option<Cone>
     }
 }
 
-/// A point of the unit disc perpendicular to `axis`: a luminous sphere seen from `axis` is a disc.
-fn across(axis: Dir3, place: [f32; 2]) -> Vec3 {
-    let [x, y] = disc(place).map(|v| v as f32);
-    let (a, b) = axis.to_vec().any_orthonormal_pair();
-    x * a + y * b
+/// A point, of the unit disc, of the disc of this radius perpendicular to `axis`: a luminous sphere
+/// seen from there is a disc. (The frame is that of Duff and others, *Building an orthonormal basis,
+/// revisited*, 2017.)
+#[inline(always)]
+fn across<F: Real>(radius: F, [x, y, z]: [F; 3], [u, v]: [F; 2]) -> [F; 3] {
+    let (zero, one) = (x.like(0.0), x.like(1.0));
+    let sign = z.below(zero, zero - one, one);
+    let a = (zero - one) / (sign + z);
+    let b = x * y * a;
+    let first = [one + sign * x * x * a, sign * b, zero - sign * x];
+    let second = [b, sign + y * y * a, zero - y];
+    times(radius, add(times(u, first), times(v, second)))
 }
 
 #[cfg(test)]
@@ -254,29 +262,34 @@ mod tests {
         let simd = fearless_simd::Fallback::new();
         let position = DVec3::new(0.3, 2.0, -0.4);
         let attenuation = [0.5, 0.1, 0.03];
-        for kind in [
-            LightKind::Distant { direction: DVec3::new(0.2, -3.0, 1.0), angle: 0.0 },
-            LightKind::Point { position, attenuation, radius: 0.0 },
-            LightKind::Spot {
-                position,
-                target: DVec3::ZERO,
-                cone: 20.0,
-                edge: 40.0,
-                attenuation,
-                radius: 0.0,
-            },
-        ] {
+        let kinds = |size: f64| {
+            [
+                LightKind::Distant { direction: DVec3::new(0.2, -3.0, 1.0), angle: 9.0 * size },
+                LightKind::Point { position, attenuation, radius: size },
+                LightKind::Spot {
+                    position,
+                    target: DVec3::ZERO,
+                    cone: 20.0,
+                    edge: 40.0,
+                    attenuation,
+                    radius: size,
+                },
+            ]
+        };
+        for kind in [0.0, 0.5].into_iter().flat_map(kinds) {
             let light = light(kind);
             let x = |i: usize, k: usize| ((i * 37 + k * 61) % 83) as f32 / 41.5 - 1.0;
             // The last one is where the lamp is.
             let lamp = position.as_vec3();
             let at = |i: usize| if i == 7 { lamp } else { Vec3::new(x(i, 0), x(i, 1), x(i, 2)) };
             let p: Lanes3 = std::array::from_fn(|k| std::array::from_fn(|i| at(i)[k]));
-            let eight = light.reach8(simd, load3(simd, &p));
+            let place = |i: usize| [0.1 * i as f32, 0.93 - 0.12 * i as f32];
+            let places = [0, 1].map(|k| std::array::from_fn(|i| place(i)[k]));
+            let eight = light.reach8(simd, load3(simd, &p), light.soft.then_some(&places));
             for i in 0..8 {
                 let at = at(i);
                 let l = [eight.l[0][i], eight.l[1][i], eight.l[2][i]];
-                match light.reach(at, MIDDLE) {
+                match light.reach(at, place(i)) {
                     Some(one) => {
                         assert_eq!(l, one.l.to_array());
                         let eight = [eight.distance[i], eight.share[i]];

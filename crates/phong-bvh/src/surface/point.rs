@@ -1,81 +1,11 @@
 //! The point of a surface that a ray met, solved again in f64: for one ray, or for four at once.
 
-use std::ops::{Add, Div, Mul, Sub};
-
-use fearless_simd::{Simd, f64x4, prelude::*};
 use glam::{DVec3, Vec3};
 
-use crate::{Plane, Ray};
+use crate::{Plane, Ray, Wide};
 
 /// What rounding to f32 changes at most, relative: half of ε, and a trifle for rounding the bound.
 const ROUNDING: f64 = 0.500_001 * f32::EPSILON as f64;
-
-/// A number in f64, or four: what the surface at a hit is worked out in, once for both widths.
-pub(super) trait Real:
-    Copy
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-    + Mul<f64, Output = Self>
-{
-    /// `value`, as often as this is wide.
-    fn like(self, value: f64) -> Self;
-    /// The square root.
-    fn root(self) -> Self;
-    /// Without its sign.
-    fn size(self) -> Self;
-    /// The larger one.
-    fn or_larger(self, other: Self) -> Self;
-    /// `yes` where this is above `other`, else `no`.
-    fn above(self, other: Self, yes: Self, no: Self) -> Self;
-}
-
-impl Real for f64 {
-    #[inline(always)]
-    fn like(self, value: f64) -> Self {
-        value
-    }
-    #[inline(always)]
-    fn root(self) -> Self {
-        self.sqrt()
-    }
-    #[inline(always)]
-    fn size(self) -> Self {
-        self.abs()
-    }
-    #[inline(always)]
-    fn or_larger(self, other: Self) -> Self {
-        self.above(other, self, other)
-    }
-    #[inline(always)]
-    fn above(self, other: Self, yes: Self, no: Self) -> Self {
-        if self > other { yes } else { no }
-    }
-}
-
-impl<S: Simd> Real for f64x4<S> {
-    #[inline(always)]
-    fn like(self, value: f64) -> Self {
-        Self::splat(self.token(), value)
-    }
-    #[inline(always)]
-    fn root(self) -> Self {
-        self.sqrt()
-    }
-    #[inline(always)]
-    fn size(self) -> Self {
-        self.abs()
-    }
-    #[inline(always)]
-    fn or_larger(self, other: Self) -> Self {
-        self.above(other, self, other)
-    }
-    #[inline(always)]
-    fn above(self, other: Self, yes: Self, no: Self) -> Self {
-        self.simd_gt(other).select(yes, no)
-    }
-}
 
 /// A surface before it is rounded to f32.
 pub(super) struct Point<F> {
@@ -85,29 +15,29 @@ pub(super) struct Point<F> {
 }
 
 #[inline(always)]
-fn dot<F: Real>(a: [F; 3], b: [F; 3]) -> F {
+fn dot<F: Wide>(a: [F; 3], b: [F; 3]) -> F {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// `a + k b`.
 #[inline(always)]
-fn along<F: Real>(a: [F; 3], k: F, b: [F; 3]) -> [F; 3] {
+fn along<F: Wide>(a: [F; 3], k: F, b: [F; 3]) -> [F; 3] {
     [a[0] + k * b[0], a[1] + k * b[1], a[2] + k * b[2]]
 }
 
 #[inline(always)]
-fn minus<F: Real>(a: [F; 3], b: [F; 3]) -> [F; 3] {
+fn minus<F: Wide>(a: [F; 3], b: [F; 3]) -> [F; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 #[inline(always)]
-fn cross<F: Real>(a: [F; 3], b: [F; 3]) -> [F; 3] {
+fn cross<F: Wide>(a: [F; 3], b: [F; 3]) -> [F; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// The direction of `v`; z where it has none.
 #[inline(always)]
-pub(super) fn unit<F: Real>(v: [F; 3]) -> [F; 3] {
+pub(super) fn unit<F: Wide>(v: [F; 3]) -> [F; 3] {
     let square = dot(v, v);
     let (zero, one, least) = (square.like(0.0), square.like(1.0), square.like(1e-290));
     let inverse = one / square.root();
@@ -135,7 +65,7 @@ pub(super) fn corners(positions: &[Vec3], indices: [u32; 3]) -> [[f64; 3]; 3] {
 /// The kernel takes the corners relative to the ray's origin, and shears them. Of each coordinate
 /// so made up to six roundings are relative to how far the corners are, along any axis.
 #[inline(always)]
-pub(super) fn triangle<F: Real>([a, b, c]: [[F; 3]; 3], u: F, v: F) -> Point<F> {
+pub(super) fn triangle<F: Wide>([a, b, c]: [[F; 3]; 3], u: F, v: F) -> Point<F> {
     let (ab, ac) = (minus(b, a), minus(c, a));
     let p = along(along(a, u, ab), v, ac);
     let slack = farthest(p, a).or_larger(farthest(p, b)).or_larger(farthest(p, c));
@@ -145,7 +75,7 @@ pub(super) fn triangle<F: Real>([a, b, c]: [[F; 3]; 3], u: F, v: F) -> Point<F> 
 
 /// How far one point is from another along the axis where that is most.
 #[inline(always)]
-fn farthest<F: Real>(p: [F; 3], q: [F; 3]) -> F {
+fn farthest<F: Wide>(p: [F; 3], q: [F; 3]) -> F {
     let [x, y, z] = minus(q, p);
     x.size().or_larger(y.size()).or_larger(z.size())
 }
@@ -153,7 +83,7 @@ fn farthest<F: Real>(p: [F; 3], q: [F; 3]) -> F {
 /// Of the two points where the line of the ray meets the sphere the one nearer to the hit; where
 /// rounding takes the line past the sphere, the nearest of the sphere.
 #[inline(always)]
-pub(super) fn sphere<F: Real>(center: [F; 3], radius: F, o: [F; 3], d: [F; 3], t: F) -> Point<F> {
+pub(super) fn sphere<F: Wide>(center: [F; 3], radius: F, o: [F; 3], d: [F; 3], t: F) -> Point<F> {
     let normal = on_sphere(center, radius, o, d, t);
     let slack = radius * (16.0 * ROUNDING);
     let curvature = radius.like(1.0) / radius;
@@ -162,7 +92,7 @@ pub(super) fn sphere<F: Real>(center: [F; 3], radius: F, o: [F; 3], d: [F; 3], t
 
 /// The normal of the sphere there.
 #[inline(always)]
-pub(super) fn on_sphere<F: Real>(center: [F; 3], radius: F, o: [F; 3], d: [F; 3], t: F) -> [F; 3] {
+pub(super) fn on_sphere<F: Wide>(center: [F; 3], radius: F, o: [F; 3], d: [F; 3], t: F) -> [F; 3] {
     let o = minus(o, center);
     let per_length = radius.like(1.0) / dot(d, d);
     let middle = radius.like(0.0) - dot(o, d) * per_length;
@@ -174,7 +104,7 @@ pub(super) fn on_sphere<F: Real>(center: [F; 3], radius: F, o: [F; 3], d: [F; 3]
 
 /// Where the ray meets the plane. The plane's own numbers round in f64 only.
 #[inline(always)]
-pub(super) fn flat<F: Real>(plane: &Plane, o: [F; 3], d: [F; 3]) -> Point<F> {
+pub(super) fn flat<F: Wide>(plane: &Plane, o: [F; 3], d: [F; 3]) -> Point<F> {
     let point = like(o[0], plane.point);
     let normal = like(o[0], plane.normal);
     let slack = like(o[0], f64::EPSILON * 8.0 * plane.point.abs());
@@ -182,14 +112,14 @@ pub(super) fn flat<F: Real>(plane: &Plane, o: [F; 3], d: [F; 3]) -> Point<F> {
 }
 
 #[inline(always)]
-pub(super) fn on_plane<F: Real>(point: [F; 3], normal: [F; 3], o: [F; 3], d: [F; 3]) -> [F; 3] {
+pub(super) fn on_plane<F: Wide>(point: [F; 3], normal: [F; 3], o: [F; 3], d: [F; 3]) -> [F; 3] {
     let t = dot(minus(point, o), normal) / dot(d, normal);
     let p = along(o, t, d);
     along(p, t.like(0.0) - dot(minus(p, point), normal), normal)
 }
 
 #[inline(always)]
-fn like<F: Real>(width: F, v: DVec3) -> [F; 3] {
+fn like<F: Wide>(width: F, v: DVec3) -> [F; 3] {
     [width.like(v.x), width.like(v.y), width.like(v.z)]
 }
 
@@ -200,7 +130,7 @@ fn like<F: Real>(width: F, v: DVec3) -> [F; 3] {
 /// two roundings more; and a curved surface bends away below: by `e² κ / 2`. That matters to rays
 /// going in, on small shapes far from the world's origin.
 #[inline(always)]
-pub(super) fn rounded<F: Real>(p: [F; 3], ng: [F; 3], curvature: F, slack: [F; 3]) -> Point<F> {
+pub(super) fn rounded<F: Wide>(p: [F; 3], ng: [F; 3], curvature: F, slack: [F; 3]) -> Point<F> {
     let rounding = [p[0].size() * ROUNDING, p[1].size() * ROUNDING, p[2].size() * ROUNDING];
     let along2 = dot(rounding, rounding) * 9.0;
     let bend = curvature * along2 * 0.5;

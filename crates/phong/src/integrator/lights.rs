@@ -1,7 +1,7 @@
 //! What lights add to the surfaces met, eight at a time.
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
-use phong_bvh::{Kernel, Rays8, Surfaces8, lanes};
+use phong_bvh::{Kernel, Rays8, lanes};
 use phong_scene::Rgb;
 
 use super::Integrator;
@@ -9,7 +9,7 @@ use super::bundle::Radiance8;
 use super::met::{Met, is_above, origins, same_material, to_eye};
 use crate::light::{Light, LightSample, Reach};
 use crate::math::Dir3;
-use crate::math::lanes::{Lanes3, direction, dot, get, load3, select3, set, store3};
+use crate::math::lanes::{Lanes3, direction, dot, get, load3, select3, store3};
 use crate::reflectance::{Terms, Terms8};
 use crate::sampling::{Samplers8, Use};
 use crate::witness::{LightTold, Witness};
@@ -174,11 +174,8 @@ impl Kernel for Send<'_> {
             if hits.met == 0 {
                 continue;
             }
-            let reach = if light.soft {
-                one_by_one(simd, light, surface, hits.met, samplers[i].pair(purpose))
-            } else {
-                light.reach8(simd, load3(simd, &surface.p))
-            };
+            let place = light.soft.then(|| samplers[i].pair(purpose));
+            let reach = light.reach8(simd, load3(simd, &surface.p), place.as_ref());
             let (n, ng) = (load3(simd, &dressed.n), load3(simd, &surface.ng));
             let above = is_above(reach.l, n, ng, to_eye(simd, rays));
             // Nothing comes from a spot beyond its edge: nobody need look.
@@ -195,29 +192,6 @@ impl Kernel for Send<'_> {
             }
         }
         count
-    }
-}
-
-/// What a soft light sends to eight surfaces: to each from a point of its own.
-#[inline(always)]
-fn one_by_one<S: Simd>(
-    simd: S,
-    light: &Light,
-    surface: &Surfaces8,
-    met: u32,
-    [x, y]: [[f32; 8]; 2],
-) -> Reach<[f32x8<S>; 3], f32x8<S>> {
-    let (mut l, mut distance, mut share) = ([[0.0; 8]; 3], [0.0; 8], [0.0; 8]);
-    for lane in lanes(met) {
-        if let Some(reach) = light.reach(get(&surface.p, lane).into(), [x[lane], y[lane]]) {
-            set(&mut l, lane, reach.l.to_array());
-            (distance[lane], share[lane]) = (reach.distance, reach.share);
-        }
-    }
-    Reach {
-        l: load3(simd, &l),
-        distance: f32x8::load_array(simd, distance),
-        share: f32x8::load_array(simd, share),
     }
 }
 

@@ -27,7 +27,7 @@ use crate::witness::{Branch, Witness};
 use bundle::count;
 use lights::Light8s;
 use met::Met;
-use optics::{mirrored, refracted};
+use optics::{Part, Parting8};
 
 /// Traces rays through a scene.
 #[derive(Clone, Copy, Debug)]
@@ -59,6 +59,8 @@ struct Onward {
     samplers: Vec<Samplers8>,
     /// For each of them, in order, where it came from.
     from: Vec<Step>,
+    /// What goes on from each of the surfaces met, before it is put in order.
+    partings: Vec<Parting8>,
 }
 
 /// Where a ray came from that goes on.
@@ -169,7 +171,7 @@ impl Integrator<'_> {
             counts.secondary += onward.from.len() as u64;
             let up = self.scene.camera().up();
             let height = |i: usize, lane: usize| 0.5 - 0.5 * onward.rays[i].get(lane).dir.dot(up);
-            let Onward { rays, samplers, from } = &*onward;
+            let Onward { rays, samplers, from, .. } = &*onward;
             self.follow(rays, samplers, &height, bounces - 1, work, counts, witness);
             for (k, &Step { parent: (i, lane), weight, .. }) in from.iter().enumerate() {
                 let light = work.out[k / 8].terms.get(k % 8).total();
@@ -202,32 +204,22 @@ impl Integrator<'_> {
         witness: &mut W,
     ) {
         onward.clear();
-        for (i, hits) in met.hits.iter().enumerate() {
-            for lane in lanes(hits.met) {
-                let number = met.dressed[i].material[lane] as usize;
-                let material = &self.scene.materials()[number];
-                if !material.bounces() {
-                    continue;
-                }
-                let at = &met.at(rays, i, lane);
-                let (dir, weight, fresnel) = match branch {
-                    Branch::Reflection => mirrored(material, at),
-                    Branch::Transmission => match refracted(material, at) {
-                        Some(refracted) => refracted,
-                        None => continue,
-                    },
-                };
-                if weight.is_black() {
-                    continue;
-                }
+        let mut partings = std::mem::take(&mut onward.partings);
+        partings.resize(rays.len(), Parting8::NONE);
+        let to = &mut *partings;
+        self.scene.bvh().run(Part { scene: self.scene, branch, rays, met, to });
+        for (i, parting) in partings.iter().enumerate() {
+            for lane in lanes(parting.goes) {
+                let (weight, fresnel) = parting.weight(lane);
                 if bounces == 0 {
                     witness.cut(branch, weight, fresnel);
                     continue;
                 }
                 let sampler = samplers.get(i).map(|s| s.get(lane).branch(branch as u32));
                 let step = Step { parent: (i, lane), weight, fresnel };
-                onward.push(step, &at.spawn(dir, f32::INFINITY), sampler);
+                onward.push(step, &parting.ray(lane), sampler);
             }
         }
+        onward.partings = partings;
     }
 }

@@ -1,65 +1,199 @@
-//! Where mirror and glass rays go, and what they weigh.
+//! Where mirror and glass rays go, and what they weigh, eight at a time.
 
-use glam::Vec3;
+use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
+use phong_bvh::{Kernel, Ray, Rays8};
 use phong_scene::Rgb;
 
-use crate::interaction::SurfaceInteraction;
+use super::met::{Met, origins, same_material, to_eye};
+use crate::compile::CompiledScene;
 use crate::material::Material;
-use crate::math::{Dir3, reflect};
+use crate::math::lanes::{Lanes3, Real, dot, get, load3, mirror, select3, splat3, store3, times};
 use crate::reflectance::fresnel;
+use crate::witness::Branch;
 
-/// The index of refraction of the far side relative to the near one.
-fn relative_ior(material: &Material, at: &SurfaceInteraction) -> f32 {
-    if at.from_outside() { material.ior } else { 1.0 / material.ior }
+/// What goes on from eight surfaces.
+#[derive(Clone, Copy)]
+#[repr(align(32))]
+pub(super) struct Parting8 {
+    origin: Lanes3,
+    dir: Lanes3,
+    weight: Lanes3,
+    /// The reflectance F where the material wants it; else it is not a number.
+    fresnel: [f32; 8],
+    /// The surfaces that a ray of any weight goes on from, a bit each.
+    pub(super) goes: u32,
 }
 
-/// The exact reflectance where the material wants it, and 1 where nothing is refracted.
-fn dielectric(material: &Material, at: &SurfaceInteraction) -> f32 {
-    fresnel::dielectric(at.n.cos(at.e), relative_ior(material, at))
-}
+impl Parting8 {
+    pub(super) const NONE: Self = Self {
+        origin: [[0.0; 8]; 3],
+        dir: [[0.0; 8]; 3],
+        weight: [[0.0; 8]; 3],
+        fresnel: [f32::NAN; 8],
+        goes: 0,
+    };
 
-/// Where the mirror ray goes, its weight, and F where it was asked for.
-pub(super) fn mirrored(material: &Material, at: &SurfaceInteraction) -> (Dir3, Rgb, Option<f32>) {
-    let facing = at.facing_ng();
-    let mirrored = reflect(-at.e, at.n);
-    // A shading normal can send the mirror ray into the surface: the real normal does not.
-    let dir = if mirrored.dot(facing) > 0.0 { mirrored } else { reflect(-at.e, facing) };
-    if material.fresnel {
-        let f = dielectric(material, at);
-        return (dir, material.reflection * f, Some(f));
+    /// The ray that goes on from one surface.
+    pub(super) fn ray(&self, lane: usize) -> Ray {
+        Ray::new(get(&self.origin, lane).into(), get(&self.dir, lane).into())
     }
-    let total = !material.transmission.is_black() && refracted(material, at).is_none();
-    let weight =
-        if total { material.reflection + material.transmission } else { material.reflection };
-    (dir, weight, None)
+
+    /// Its weight, and F where it was asked for.
+    pub(super) fn weight(&self, lane: usize) -> (Rgb, Option<f32>) {
+        let fresnel = Some(self.fresnel[lane]).filter(|f| !f.is_nan());
+        (Rgb::from(get(&self.weight, lane)), fresnel)
+    }
 }
 
-/// Where the refracted ray goes, its weight, and F where it was asked for; `None` under total
-/// internal reflection.
-pub(super) fn refracted(
-    material: &Material,
-    at: &SurfaceInteraction,
-) -> Option<(Dir3, Rgb, Option<f32>)> {
-    let eta = relative_ior(material, at);
-    let facing = at.facing_ng();
-    let dir = refract(at.e, at.n, eta)?;
-    let dir = if dir.dot(facing) < 0.0 { dir } else { refract(at.e, facing, eta)? };
-    if material.fresnel {
-        let f = dielectric(material, at);
-        return Some((dir, material.transmission * (1.0 - f), Some(f)));
+/// Sends the mirror rays, or the refracted ones, on from all surfaces met.
+pub(super) struct Part<'a> {
+    pub(super) scene: &'a CompiledScene,
+    pub(super) branch: Branch,
+    pub(super) rays: &'a [Rays8],
+    pub(super) met: &'a Met,
+    pub(super) to: &'a mut [Parting8],
+}
+
+impl Kernel for Part<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let Self { scene, branch, rays, met, to } = self;
+        for (i, (rays, to)) in rays.iter().zip(to).enumerate() {
+            let (surface, dressed) = (&met.surfaces[i], &met.dressed[i]);
+            to.goes = 0;
+            let mut left = met.hits[i].met;
+            while left != 0 {
+                let (number, same) = same_material(simd, &dressed.material, left);
+                left &= !same;
+                let material = &scene.materials()[number];
+                if !material.bounces() {
+                    continue;
+                }
+                let at = Side::new(
+                    material,
+                    load3(simd, &dressed.n),
+                    load3(simd, &surface.ng),
+                    to_eye(simd, rays),
+                );
+                let (dir, weight, share) = match branch {
+                    Branch::Reflection => at.mirrored(material),
+                    Branch::Transmission => at.refracted(material),
+                };
+                let zero = f32x8::splat(simd, 0.0);
+                let black =
+                    weight[0].simd_eq(zero) & weight[1].simd_eq(zero) & weight[2].simd_eq(zero);
+                to.goes |= same & !(black.to_bitmask() as u32);
+                let same = mask32x8::from_bitmask(simd, same.into());
+                let origin = origins(simd, surface, dir);
+                to.origin = store3(select3(same, origin, load3(simd, &to.origin)));
+                to.dir = store3(select3(same, dir, load3(simd, &to.dir)));
+                to.weight = store3(select3(same, weight, load3(simd, &to.weight)));
+                let old = f32x8::load_array(simd, to.fresnel);
+                to.fresnel = same.select(share, old).into();
+            }
+        }
     }
-    Some((dir, material.transmission, None))
+}
+
+/// Where a ray goes on, its weight, and F, not a number where it was not asked for.
+type Parted<F> = ([F; 3], [F; 3], F);
+
+/// Eight surfaces from the side that their rays came from.
+struct Side<F> {
+    n: [F; 3],
+    e: [F; 3],
+    /// The geometric normal on this side.
+    facing: [F; 3],
+    /// The index of refraction of the far side relative to this one.
+    eta: F,
+}
+
+impl<S: Simd> Side<f32x8<S>> {
+    #[inline(always)]
+    fn new(material: &Material, n: [f32x8<S>; 3], ng: [f32x8<S>; 3], e: [f32x8<S>; 3]) -> Self {
+        let cos = dot(ng, e);
+        let inside = cos.simd_lt(cos.like(0.0));
+        let facing = select3(inside, [-ng[0], -ng[1], -ng[2]], ng);
+        let eta = inside.select(cos.like(1.0 / material.ior), cos.like(material.ior));
+        Self { n, e, facing, eta }
+    }
+
+    /// The exact reflectance.
+    #[inline(always)]
+    fn dielectric(&self) -> f32x8<S> {
+        fresnel::boundary(dot(self.n, self.e).positive(), self.eta)
+    }
+
+    /// The mirror rays.
+    #[inline(always)]
+    fn mirrored(&self, material: &Material) -> Parted<f32x8<S>> {
+        let Self { n, e, facing, eta } = *self;
+        let simd = eta.token();
+        let dir = mirror(n, e);
+        // A shading normal can send the mirror ray into the surface: the real normal does not.
+        let out = dot(dir, facing).simd_gt(eta.like(0.0));
+        let dir = select3(out, dir, mirror(facing, e));
+        let weight = splat3(simd, material.reflection.to_array());
+        if material.fresnel {
+            let f = self.dielectric();
+            return (dir, times(f, weight), f);
+        }
+        let not_asked = eta.like(f32::NAN);
+        if material.transmission.is_black() {
+            return (dir, weight, not_asked);
+        }
+        // Under total reflection the mirror ray has the refracted one's weight as well.
+        let both = splat3(simd, (material.reflection + material.transmission).to_array());
+        (dir, select3(self.refract().1, weight, both), not_asked)
+    }
+
+    /// The refracted rays; without weight under total internal reflection.
+    #[inline(always)]
+    fn refracted(&self, material: &Material) -> Parted<f32x8<S>> {
+        let (dir, passes) = self.refract();
+        let (simd, zero) = (self.eta.token(), self.eta.like(0.0));
+        let weight = splat3(simd, material.transmission.to_array());
+        let (weight, f) = if material.fresnel {
+            let f = self.dielectric();
+            (times(f.like(1.0) - f, weight), f)
+        } else {
+            (weight, zero.like(f32::NAN))
+        };
+        (dir, select3(passes, weight, [zero; 3]), f)
+    }
+
+    /// Where light goes beyond the surface, and where it does.
+    #[inline(always)]
+    fn refract(&self) -> ([f32x8<S>; 3], mask32x8<S>) {
+        let Self { n, e, facing, eta } = *self;
+        let (dir, passes) = refract(n, e, eta);
+        // A shading normal can keep the ray on this side: the real normal does not.
+        let in_there = dot(dir, facing).simd_lt(eta.like(0.0));
+        let (again, passes_again) = refract(facing, e, eta);
+        (select3(in_there, dir, again), passes & (in_there | passes_again))
+    }
 }
 
 /// Snell's law: `sin θ_i = η sin θ_t`, η the index of the far side relative to the near one, `e`
-/// and `n` on the near side. `None` under total internal reflection.
-fn refract(e: Dir3, n: Dir3, eta: f32) -> Option<Dir3> {
-    let cos_i = n.dot(e);
-    let sin2_t = (1.0 - cos_i * cos_i).max(0.0) / (eta * eta);
-    if sin2_t >= 1.0 {
-        return None;
-    }
-    let cos_t = (1.0 - sin2_t).sqrt();
-    let (e, n): (Vec3, Vec3) = (e.to_vec(), n.to_vec());
-    Dir3::new((cos_i / eta - cos_t) * n - e / eta)
+/// and `n` on the near side. The direction, and where there is one: not under total internal
+/// reflection.
+#[inline(always)]
+fn refract<S: Simd>(
+    n: [f32x8<S>; 3],
+    e: [f32x8<S>; 3],
+    eta: f32x8<S>,
+) -> ([f32x8<S>; 3], mask32x8<S>) {
+    let one = eta.like(1.0);
+    let cos_i = dot(n, e);
+    let sin2_t = (one - cos_i * cos_i).positive() / (eta * eta);
+    let cos_t = (one - sin2_t).root();
+    let along = cos_i / eta - cos_t;
+    let dir = f32x8::unit([
+        along * n[0] - e[0] / eta,
+        along * n[1] - e[1] / eta,
+        along * n[2] - e[2] / eta,
+    ]);
+    (dir, sin2_t.simd_lt(one))
 }

@@ -27,6 +27,12 @@ pub(crate) trait Real:
     /// This where it is above 0, else 0.
     fn positive(self) -> Self;
 
+    /// The square root; of what is below 0, that of 0.
+    fn root(self) -> Self;
+
+    /// `yes` where this is below `other`, else `no`.
+    fn below(self, other: Self, yes: Self, no: Self) -> Self;
+
     /// [`lobe`].
     fn lobe(self, alpha: f32) -> Self;
 
@@ -46,6 +52,16 @@ impl Real for f32 {
     #[inline(always)]
     fn positive(self) -> Self {
         self.max(0.0)
+    }
+
+    #[inline(always)]
+    fn root(self) -> Self {
+        self.positive().sqrt()
+    }
+
+    #[inline(always)]
+    fn below(self, other: Self, yes: Self, no: Self) -> Self {
+        if self < other { yes } else { no }
     }
 
     #[inline(always)]
@@ -74,6 +90,16 @@ impl<S: Simd> Real for f32x8<S> {
     fn positive(self) -> Self {
         let zero = self.like(0.0);
         self.simd_gt(zero).select(self, zero)
+    }
+
+    #[inline(always)]
+    fn root(self) -> Self {
+        self.positive().sqrt()
+    }
+
+    #[inline(always)]
+    fn below(self, other: Self, yes: Self, no: Self) -> Self {
+        self.simd_lt(other).select(yes, no)
     }
 
     #[inline(always)]
@@ -170,6 +196,12 @@ pub(crate) fn dot<F: Real>([ax, ay, az]: [F; 3], [bx, by, bz]: [F; 3]) -> F {
 #[inline(always)]
 pub(crate) fn add<F: Real>([ax, ay, az]: [F; 3], [bx, by, bz]: [F; 3]) -> [F; 3] {
     [ax + bx, ay + by, az + bz]
+}
+
+/// `k v`.
+#[inline(always)]
+pub(crate) fn times<F: Real>(k: F, [x, y, z]: [F; 3]) -> [F; 3] {
+    [k * x, k * y, k * z]
 }
 
 /// `R = 2(L·N)N − L`: [`Dir3::mirror`].

@@ -5,6 +5,7 @@ use std::f32::consts::FRAC_2_PI;
 use phong_scene::{Fresnel, Rgb};
 
 use crate::math::acos;
+use crate::math::lanes::Real;
 
 /// The share of light that facets of this kind mirror, per channel, in [0, 1], at the angle of
 /// incidence whose cosine is `cos`.
@@ -43,14 +44,19 @@ pub fn pov_ray(cos: f32) -> f32 {
 /// `F = (r∥² + r⊥²)/2` with `r∥ = (η c − c_t)/(η c + c_t)`, `r⊥ = (c − η c_t)/(c + η c_t)`, and by
 /// Snell `sin θ_t = sin θ / η`.
 pub fn dielectric(cos: f32, eta: f32) -> f32 {
-    let sin2_t = (1.0 - cos) * (1.0 + cos) / (eta * eta);
-    if sin2_t >= 1.0 {
-        return 1.0;
-    }
-    let cos_t = (1.0 - sin2_t).sqrt();
+    boundary(cos, eta)
+}
+
+/// [`dielectric`] of one ray, or of eight.
+#[inline(always)]
+pub(crate) fn boundary<F: Real>(cos: F, eta: F) -> F {
+    let one = cos.like(1.0);
+    let sin2_t = (one - cos) * (one + cos) / (eta * eta);
+    let cos_t = (one - sin2_t).root();
     let parallel = (eta * cos - cos_t) / (eta * cos + cos_t);
     let perpendicular = (cos - eta * cos_t) / (cos + eta * cos_t);
-    0.5 * (parallel * parallel + perpendicular * perpendicular)
+    let share = (parallel * parallel + perpendicular * perpendicular) * 0.5;
+    sin2_t.below(one, share, one)
 }
 
 /// The exact reflectance of a conductor whose index, relative to the outside, is `η + i k`.

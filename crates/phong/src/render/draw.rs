@@ -59,10 +59,10 @@ impl Samples {
         self.bundle.clear();
         self.weights.clear();
         let soft = integrator.scene.has_soft_lights();
-        if integrator.scene.camera().is_pinhole() {
+        if integrator.scene.camera().is_flat() {
             let (camera, to) = (integrator.scene.camera(), self);
             let bvh = integrator.scene.bvh();
-            bvh.run(ThroughPinhole { camera, options, filter, pixels, indices, soft, to });
+            bvh.run(FlatRays { camera, options, filter, pixels, indices, soft, to });
             return;
         }
         for index in indices {
@@ -123,8 +123,8 @@ pub(crate) fn camera_ray(
     Drawn { place, weight: drawn.weight, ray }
 }
 
-/// [`camera_ray`] of eight samples at once, through a pinhole.
-struct ThroughPinhole<'a> {
+/// [`camera_ray`] of eight samples at once, of a flat picture.
+struct FlatRays<'a> {
     camera: &'a Camera,
     options: &'a RenderOptions,
     filter: &'a Filter,
@@ -135,7 +135,7 @@ struct ThroughPinhole<'a> {
     to: &'a mut Samples,
 }
 
-impl Kernel for ThroughPinhole<'_> {
+impl Kernel for FlatRays<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -143,6 +143,7 @@ impl Kernel for ThroughPinhole<'_> {
         let Self { camera, options, filter, pixels, indices, soft, to } = self;
         let low: f64x4<S> = [0.0, 1.0, 2.0, 3.0].simd_into(simd);
         let high: f64x4<S> = [4.0, 5.0, 6.0, 7.0].simd_into(simd);
+        let lens = camera.has_lens();
         let gradient = matches!(options.background, Background::Gradient { .. });
         for index in indices {
             for pixels in pixels {
@@ -153,7 +154,8 @@ impl Kernel for ThroughPinhole<'_> {
                 let [left, top] = [f64::from(pixels.first[0]), f64::from(pixels.first[1]) + 0.5];
                 let x = [low + left + 0.5 + dx.0, high + left + 0.5 + dx.1];
                 let y = [dy.0 + top, dy.1 + top];
-                let mut rays = camera.pinhole_rays(simd, [x, y], options.size);
+                let lens = lens.then(|| pixels.samplers.at(index).pair(Use::Lens));
+                let mut rays = camera.flat_rays(simd, [x, y], options.size, lens.as_ref());
                 rays.there = (1 << pixels.len) - 1;
                 to.push(&rays, samplers, weights);
                 if gradient {
