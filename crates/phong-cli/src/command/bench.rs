@@ -8,7 +8,7 @@ use glam::DVec2;
 use phong::compile::CompiledScene;
 use phong::film::{Film, Window};
 use phong::render::RenderOptions;
-use phong_bvh::{Hit, Ray};
+use phong_bvh::{Hits8, Ray, Rays8, lanes};
 use rayon::prelude::*;
 use serde_json::{Map, Value as Json, json};
 
@@ -83,11 +83,11 @@ pub(crate) fn run(Args { question: args }: &Args) -> Result<(), Failure> {
 #[derive(Debug, Default)]
 struct Bundles {
     /// Through the middle of every pixel.
-    primary: Vec<Vec<Ray>>,
+    primary: Vec<Vec<Rays8>>,
     /// From where those meet a surface to every light.
-    shadow: Vec<Vec<Ray>>,
+    shadow: Vec<Vec<Rays8>>,
     /// From there on as off a mirror.
-    secondary: Vec<Vec<Ray>>,
+    secondary: Vec<Vec<Rays8>>,
 }
 
 impl Bundles {
@@ -103,13 +103,14 @@ impl Bundles {
                     scene.camera().ray(middle, size, [0.5; 2])
                 })
                 .collect();
-            let mut hits = vec![Hit::NONE; rays.len()];
-            scene.bvh().intersect_bundle(&rays, &mut hits);
+            let rays = Rays8::of(&rays);
+            let mut hits = vec![Hits8::NONE; rays.len()];
+            scene.bvh().intersect_eights(&rays, &mut hits);
             let met: Vec<_> = rays
                 .iter()
                 .zip(&hits)
-                .filter(|(_, hit)| hit.is_some())
-                .map(|(ray, hit)| scene.interaction(ray, hit))
+                .flat_map(|(rays, hits)| lanes(hits.met).map(|i| (rays.get(i), hits.get(i))))
+                .map(|(ray, hit)| scene.interaction(&ray, &hit))
                 .collect();
             for light in scene.lights() {
                 let shadow = met.iter().filter_map(|at| {
@@ -117,10 +118,10 @@ impl Bundles {
                     (sample.l.dot(at.facing_ng()) > 0.0)
                         .then(|| at.spawn(sample.l, sample.distance))
                 });
-                bundles.shadow.push(shadow.collect());
+                bundles.shadow.push(Rays8::of(&shadow.collect::<Vec<_>>()));
             }
             let mirror = met.iter().map(|at| at.spawn(at.n.mirror(at.e), f32::INFINITY));
-            bundles.secondary.push(mirror.collect());
+            bundles.secondary.push(Rays8::of(&mirror.collect::<Vec<_>>()));
             bundles.primary.push(rays);
         }
         bundles
@@ -135,8 +136,8 @@ struct Measured {
 }
 
 /// The shortest of as many runs over all bundles as fit into a second, three at least.
-fn best(bundles: &[Vec<Ray>], trace: impl Fn(&[Ray]) + Sync) -> Measured {
-    let rays = bundles.iter().map(|rays| rays.len() as u64).sum();
+fn best(bundles: &[Vec<Rays8>], trace: impl Fn(&[Rays8]) + Sync) -> Measured {
+    let rays = bundles.iter().flatten().map(|rays| u64::from(rays.there.count_ones())).sum();
     let begun = Instant::now();
     let mut seconds = f64::INFINITY;
     let mut runs = 0;
@@ -149,14 +150,14 @@ fn best(bundles: &[Vec<Ray>], trace: impl Fn(&[Ray]) + Sync) -> Measured {
     Measured { rays, seconds }
 }
 
-fn closest(scene: &CompiledScene, rays: &[Ray]) {
-    let mut hits = vec![Hit::NONE; rays.len()];
-    scene.bvh().intersect_bundle(rays, &mut hits);
+fn closest(scene: &CompiledScene, rays: &[Rays8]) {
+    let mut hits = vec![Hits8::NONE; rays.len()];
+    scene.bvh().intersect_eights(rays, &mut hits);
     black_box(hits);
 }
 
-fn any(scene: &CompiledScene, rays: &[Ray]) {
-    let mut blocked = vec![false; rays.len()];
-    scene.bvh().occluded_bundle(rays, &mut blocked);
+fn any(scene: &CompiledScene, rays: &[Rays8]) {
+    let mut blocked = vec![0; rays.len()];
+    scene.bvh().occluded_eights(rays, &mut blocked);
     black_box(blocked);
 }
