@@ -21,8 +21,10 @@
 //! ```text
 //! BUILD  <scene> <DEFAULT|COMPACT> <ratio> <our bytes per primitive> <their bytes per primitive> <our ms>
 //! RATIO  <scene> <rays> <peer> <single> <bundle> <their ns per ray>
-//! DIFFER <scene> <rays> <share of rays for which the answers differ>
+//! DIFFER <scene> <rays> <share of rays for which the answers differ> [<ours right> <theirs right> <of>]
 //! ```
+//!
+//! Off triangles, up to 200 of the rays that differ are judged in f64, against every triangle.
 //!
 //! `PHONG_EMBREE` names the library, `PHONG_PEERS` the folder of `setup.sh` (default `target/peers`).
 //! Without Embree only our own times are printed.
@@ -42,6 +44,8 @@ use phong_bvh::{BuildOptions, Bvh, Geometry, Hit, Preset, Ray};
 mod clock;
 #[path = "peers/embree.rs"]
 mod embree;
+#[path = "peers/judge.rs"]
+mod judge;
 #[path = "peers/rays.rs"]
 mod rays;
 #[path = "peers/scenes.rs"]
@@ -248,8 +252,9 @@ impl Contest<'_> {
             let (single, bundle, ns) = (seconds / single, seconds / bundle, ns(seconds));
             println!("RATIO  {name} {rays} {peer} {single:.2} {bundle:.2} {ns:.0}");
         }
-        if let Some(share) = differ {
-            println!("DIFFER {name} {rays} {share:.6}");
+        if let Some(differing) = differ {
+            let share = differing.len() as f64 / count as f64;
+            println!("DIFFER {name} {rays} {share:.6}{}", self.judged(&differing));
         }
         if peers.is_empty() {
             println!("OURS   {name} {rays} {:.0} {:.0} ns per ray", ns(single), ns(bundle));
@@ -282,17 +287,43 @@ impl Contest<'_> {
         }
     }
 
-    /// The share of rays blocked for one and not for the other, or hit at a different distance. That
-    /// two primitives at one distance are told apart by number is no difference.
-    fn differ(&self, ours: &Answers, theirs: &Answers) -> f64 {
-        let far = |a: &Hit, b: &Hit| {
-            a.is_some() != b.is_some() || (a.is_some() && (a.t - b.t).abs() > 1e-4 * (a.t + b.t))
+    /// The rays blocked for one and not for the other, or hit at a different distance; and both answers.
+    /// That two primitives at one distance are told apart by number is no difference.
+    fn differ(&self, ours: &Answers, theirs: &Answers) -> Vec<(usize, [Answer; 2])> {
+        let answer = |of: &Answers, i: usize| match (self.set.any, of.hits[i]) {
+            (true, _) => of.blocked[i].then_some(0.0),
+            (_, hit) => hit.is_some().then_some(hit.t),
         };
-        let differing = if self.set.any {
-            ours.blocked.iter().zip(&theirs.blocked).filter(|(a, b)| a != b).count()
-        } else {
-            ours.hits.iter().zip(&theirs.hits).filter(|(a, b)| far(a, b)).count()
-        };
-        differing as f64 / self.set.rays.len() as f64
+        let both = |i: usize| (i, [answer(ours, i), answer(theirs, i)]);
+        (0..self.set.rays.len()).map(both).filter(|(_, [a, b])| !same(*a, *b)).collect()
+    }
+
+    /// How many of some answers are right, ours and theirs.
+    fn judged(&self, differing: &[(usize, [Answer; 2])]) -> String {
+        let geometry = &self.bvh.geometry()[0];
+        if differing.is_empty() || !matches!(geometry, Geometry::Triangles { .. }) {
+            return String::new();
+        }
+        let mut right = [0, 0];
+        let step = differing.len().div_ceil(judge::CASES);
+        for (i, answers) in differing.iter().step_by(step) {
+            let t = judge::closest(geometry, &self.set.rays[*i]).map(|t| t as f32);
+            let truth = if self.set.any { t.map(|_| 0.0) } else { t };
+            for (answer, right) in answers.iter().zip(&mut right) {
+                *right += i32::from(same(*answer, truth));
+            }
+        }
+        format!(" {} {} {}", right[0], right[1], differing.len().div_ceil(step))
+    }
+}
+
+/// Where a ray hits, or 0 where any hit will do; none: nowhere.
+type Answer = Option<f32>;
+
+/// Whether two answers agree, but for rounding.
+fn same(a: Answer, b: Answer) -> bool {
+    match (a, b) {
+        (Some(a), Some(b)) => (a - b).abs() <= 1e-4 * (a + b),
+        (a, b) => a.is_none() == b.is_none(),
     }
 }

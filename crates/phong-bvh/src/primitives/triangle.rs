@@ -18,7 +18,7 @@
 //!
 //! Coordinates beyond 10¹⁸ overflow the filter's products.
 
-use fearless_simd::{Simd, f32x8, prelude::*};
+use fearless_simd::{Simd, f32x8, f64x4, prelude::*};
 use glam::{DVec3, Vec3};
 
 use crate::{node8::Row, primitives::splat3, ray::Ray};
@@ -164,6 +164,136 @@ impl<S: Simd> Shear8<S> {
         let y = load(y) - self.origin[1] - self.slope[1] * z;
         [x, y]
     }
+}
+
+/// [`Shear`] of eight rays, whose directions are longest along the same axis, for one triangle at a time.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shears<S: Simd> {
+    pub(crate) origin: [f32x8<S>; 3],
+    pub(crate) slope: [f32x8<S>; 2],
+    pub(crate) along: f32x8<S>,
+    pub(crate) t_min: f32x8<S>,
+    pub(crate) t_max: f32x8<S>,
+}
+
+impl<S: Simd> Shears<S> {
+    /// The rays that hit a triangle, its corners' coordinates in the order of the rays' axes; and where, as
+    /// [`verdict`] has it, step by step.
+    #[inline(always)]
+    pub(crate) fn intersect(
+        &self,
+        simd: S,
+        [a, b, c]: [[f32x8<S>; 3]; 3],
+        among: u32,
+    ) -> (u32, [f32x8<S>; 3]) {
+        let zero = f32x8::splat(simd, 0.0);
+        let ([ax, ay, az], [bx, by, bz], [cx, cy, cz]) =
+            (self.corner(a), self.corner(b), self.corner(c));
+        let u = cx * by - cy * bx;
+        let v = ax * cy - ay * cx;
+        let w = bx * ay - by * ax;
+        let inside = u.min(v).min(w).simd_ge(zero) | u.max(v).max(w).simd_le(zero);
+        if inside.to_bitmask() as u32 & among == 0 {
+            return (0, [zero; 3]);
+        }
+        let (ax, ay, az) = (ax.widen(), ay.widen(), az.widen());
+        let (bx, by, bz) = (bx.widen(), by.widen(), bz.widen());
+        let (cx, cy, cz) = (cx.widen(), cy.widen(), cz.widen());
+        let along = self.along.widen();
+        let (low, [t, v, w]) =
+            verdict4(simd, along.0, [[ax.0, ay.0, az.0], [bx.0, by.0, bz.0], [cx.0, cy.0, cz.0]]);
+        let (high, [t_high, v_high, w_high]) =
+            verdict4(simd, along.1, [[ax.1, ay.1, az.1], [bx.1, by.1, bz.1], [cx.1, cy.1, cz.1]]);
+        let (t, v, w) = (t.narrow(t_high), v.narrow(v_high), w.narrow(w_high));
+        let within = self.t_min.simd_lt(t) & t.simd_lt(self.t_max);
+        ((low | high << 4) & within.to_bitmask() as u32 & among, [t, v, w])
+    }
+
+    /// [`Shear::corner`], step by step.
+    #[inline(always)]
+    fn corner(&self, [x, y, z]: [f32x8<S>; 3]) -> [f32x8<S>; 3] {
+        let z = z - self.origin[2];
+        let x = x - self.origin[0] - self.slope[0] * z;
+        let y = y - self.origin[1] - self.slope[1] * z;
+        [x, y, z]
+    }
+}
+
+/// [`verdict`] from the corners in the sheared space of each of four rays, step by step.
+#[inline(always)]
+fn verdict4<S: Simd>(
+    simd: S,
+    along: f64x4<S>,
+    [[ax, ay, az], [bx, by, bz], [cx, cy, cz]]: [[f64x4<S>; 3]; 3],
+) -> (u32, [f64x4<S>; 3]) {
+    let zero = f64x4::splat(simd, 0.0);
+    let u = cx * by - cy * bx;
+    let v = ax * cy - ay * cx;
+    let w = bx * ay - by * ax;
+    let inside = (u.simd_ge(zero) & v.simd_ge(zero) & w.simd_ge(zero))
+        | (u.simd_le(zero) & v.simd_le(zero) & w.simd_le(zero));
+    let det = u + v + w;
+    let hit = inside & !det.simd_eq(zero);
+    let scale = f64x4::splat(simd, 1.0) / (det * along);
+    let t = (u * az + v * bz + w * cz) * scale;
+    let scale = scale * along;
+    (hit.to_bitmask() as u32, [t, v * scale, w * scale])
+}
+
+/// [`Shear`] of many rays as one: every number from a least to a greatest.
+///
+/// Rounding is monotone, so what any of the rays would compute lies within what is computed here.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ShearBounds {
+    /// [`Shear::axes`], the same for all.
+    pub(crate) axes: [usize; 3],
+    /// The least and the greatest origin along each.
+    pub(crate) origin: [[f32; 2]; 3],
+    /// The least and the greatest slopes.
+    pub(crate) slope: [[f32; 2]; 2],
+}
+
+/// The least and the greatest.
+type Between<S> = [f32x8<S>; 2];
+
+impl ShearBounds {
+    /// The lanes that some ray may hit: none is missing.
+    #[inline(always)]
+    pub(crate) fn filter<S: Simd>(&self, simd: S, block: &[Row; BLOCK]) -> u32 {
+        let [ax, ay] = self.corner(simd, block, 0);
+        let [bx, by] = self.corner(simd, block, 3);
+        let [cx, cy] = self.corner(simd, block, 6);
+        let u = minus(times(cx, by), times(cy, bx));
+        let v = minus(times(ax, cy), times(ay, cx));
+        let w = minus(times(bx, ay), times(by, ax));
+        let least = u[1].min(v[1]).min(w[1]);
+        let most = u[0].max(v[0]).max(w[0]);
+        let zero = f32x8::splat(simd, 0.0);
+        (least.simd_ge(zero) | most.simd_le(zero)).to_bitmask() as u32
+    }
+
+    #[inline(always)]
+    fn corner<S: Simd>(&self, simd: S, block: &[Row; BLOCK], first: usize) -> [Between<S>; 2] {
+        let load = |axis: usize| f32x8::load_array_ref(simd, &block[first + (axis & 3)].0);
+        let ([x, y, z], [ox, oy, oz]) = (self.axes, self.origin);
+        let (x, y, z) = (load(x), load(y), load(z));
+        let spread = |[low, high]: [f32; 2]| [f32x8::splat(simd, low), f32x8::splat(simd, high)];
+        let z = [z - oz[1], z - oz[0]];
+        let x = minus([x - ox[1], x - ox[0]], times(spread(self.slope[0]), z));
+        let y = minus([y - oy[1], y - oy[0]], times(spread(self.slope[1]), z));
+        [x, y]
+    }
+}
+
+#[inline(always)]
+fn minus<S: Simd>(a: Between<S>, b: Between<S>) -> Between<S> {
+    [a[0] - b[1], a[1] - b[0]]
+}
+
+#[inline(always)]
+fn times<S: Simd>(a: Between<S>, b: Between<S>) -> Between<S> {
+    let (p, q, r, s) = (a[0] * b[0], a[0] * b[1], a[1] * b[0], a[1] * b[1]);
+    [p.min(q).min(r.min(s)), p.max(q).max(r.max(s))]
 }
 
 /// The corners of one lane.

@@ -7,19 +7,20 @@
 
 use std::marker::PhantomData;
 
-use fearless_simd::{Simd, f32x8, prelude::*};
+use fearless_simd::{Simd, prelude::*};
 
 use super::{
     World,
-    columns::{Columns, GROUP},
+    columns::{Columns, GROUP, PACKETS},
     errand::Errand,
     frustum::Frustum,
-    leaves::Content,
+    leaves::{Content, Leaves},
+    sheared::Sheared,
 };
 use crate::{
     Ray,
     level::Kernel,
-    node8::{NODE, REFS, Ref, Row, rows},
+    node8::{Kind, NODE, REFS, Ref, Row, rows},
 };
 
 /// Nodes and leaves per ray after which a group gives up.
@@ -27,18 +28,31 @@ const PATIENCE: usize = 2;
 
 /// Where a child is entered, what it is, and where its box is: row of the node times eight, plus lane.
 #[derive(Clone, Copy)]
-pub(super) struct Entry {
+struct Entry {
     key: u64,
     parent: u32,
 }
 
 impl Entry {
     /// Nothing.
-    pub(super) const NONE: Self = Self { key: 0, parent: 0 };
+    const NONE: Self = Self { key: 0, parent: 0 };
+}
+
+/// What a group works on.
+pub(super) struct Group {
+    columns: Columns,
+    sheared: Sheared,
+    entries: Entries,
+}
+
+impl Group {
+    /// No rays.
+    pub(super) const EMPTY: Self =
+        Self { columns: Columns::EMPTY, sheared: Sheared::EMPTY, entries: [Entry::NONE; _] };
 }
 
 /// Nodes and leaves to visit.
-pub(super) type Entries = [Entry; super::STACK];
+type Entries = [Entry; super::STACK];
 
 /// Whether `rays` are worth going together: they agree in sign, and all but in direction.
 pub(super) fn is_coherent(rays: &[Ray]) -> bool {
@@ -61,7 +75,7 @@ pub(super) struct Together<'a, E, C> {
     pub(super) root: Ref,
     pub(super) rays: &'a [Ray],
     pub(super) errand: &'a mut E,
-    pub(super) entries: &'a mut Entries,
+    pub(super) group: &'a mut Group,
     pub(super) content: PhantomData<C>,
 }
 
@@ -70,11 +84,17 @@ impl<E: Errand, C: Content> Kernel for Together<'_, E, C> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> bool {
-        let Self { world, root, rays, errand, entries, .. } = self;
-        let mut columns = Columns::new(simd, rays, |i| errand.t_max(&rays[i], i));
+        let Self { world, root, rays, errand, group, .. } = self;
+        let Group { columns, sheared, entries } = group;
+        columns.fill(simd, rays);
+        columns.t_max = [[-1.0; 8]; PACKETS];
+        for (i, ray) in rays.iter().enumerate().take(GROUP) {
+            columns.t_max[i / 8][i % 8] = errand.t_max(ray, i);
+        }
         // Where any hit will do, it does not matter from which end it is looked for.
-        let backwards = if E::ANY { Frustum::backwards(simd, &columns, rays) } else { None };
-        let frustum = backwards.unwrap_or_else(|| Frustum::new(simd, &columns));
+        let backwards = if E::ANY { Frustum::backwards(columns) } else { None };
+        let frustum = backwards.unwrap_or_else(|| Frustum::new(columns));
+        let sheared = (C::TRIANGLES && sheared.fill(simd, columns, rays)).then_some(&*sheared);
         let mut farthest = columns.farthest(simd);
         let mut patience = PATIENCE * rays.len();
         entries[0] = Entry { key: u64::from(root.0), parent: 0 };
@@ -99,11 +119,18 @@ impl<E: Errand, C: Content> Kernel for Together<'_, E, C> {
             if met == 0 {
                 continue;
             }
-            while met != 0 {
-                let i = met.trailing_zeros() as usize;
-                met &= met - 1;
-                columns.t_max[i / 8][i % 8] =
-                    errand.leaf::<S, C::Leaves<S>>(simd, world, &rays[i], i, at);
+            if at.kind() == Some(Kind::Triangles)
+                && let Some(sheared) = sheared
+            {
+                sheared.leaf(simd, world, rays, (at, met), columns, errand);
+            } else {
+                while met != 0 {
+                    let i = met.trailing_zeros() as usize;
+                    met &= met - 1;
+                    let leaves = C::Leaves::new(simd, &rays[i]);
+                    columns.t_max[i / 8][i % 8] =
+                        errand.leaf(simd, world, &leaves, (&rays[i], i), at);
+                }
             }
             farthest = columns.farthest(simd);
         }
@@ -116,14 +143,14 @@ impl<E: Errand, C: Content> Kernel for Together<'_, E, C> {
 fn visit<S: Simd>(
     simd: S,
     world: &World<'_>,
-    frustum: &Frustum<S>,
+    frustum: &Frustum,
     at: Ref,
     farthest: f32,
     entries: &mut Entries,
     bottom: usize,
 ) -> usize {
     let node: &[Row; NODE] = rows(world.rows, at.row());
-    let (mut mask, enter) = frustum.meet(simd, node, f32x8::splat(simd, farthest));
+    let (mut mask, enter) = frustum.meet(simd, node, farthest);
     let enter = enter.to_array();
     let mut depth = bottom;
     while mask != 0 {

@@ -4,81 +4,132 @@ use fearless_simd::{Simd, f32x8, prelude::*};
 
 use super::slabs::SLACK;
 use crate::{
-    Ray,
+    Aabb, Ray,
     node8::{NODE, Row},
 };
 
 /// The most rays side by side.
 pub(super) const GROUP: usize = 64;
-const PACKETS: usize = GROUP / 8;
+/// Their packets.
+pub(super) const PACKETS: usize = GROUP / 8;
 
 /// One number of each ray, in packets of eight.
 pub(super) type Column = [[f32; 8]; PACKETS];
 
+/// Zeros.
+pub(super) const ZERO: Column = [[0.0; 8]; PACKETS];
+
 /// The rays by columns: what eight of them need to be tested against one box.
+#[derive(Debug)]
 pub(super) struct Columns {
-    pub(super) near_origin: [Column; 3],
-    pub(super) far_origin: [Column; 3],
-    pub(super) near_reciprocal: [Column; 3],
-    pub(super) far_reciprocal: [Column; 3],
+    pub(super) origin: [Column; 3],
+    pub(super) dir: [Column; 3],
+    near_origin: [Column; 3],
+    far_origin: [Column; 3],
+    near_reciprocal: [Column; 3],
+    far_reciprocal: [Column; 3],
     pub(super) t_min: Column,
+    /// Where the rays end.
+    pub(super) end: Column,
     /// The best hit so far; −1 where there is no ray, or a blocked one, so that no box is met.
     pub(super) t_max: Column,
     pub(super) packets: usize,
     /// The rows of near sides.
     pub(super) near: [usize; 3],
+    /// What the numbers lie between.
+    pub(super) bounds: Bounds,
+}
+
+/// The least and the greatest numbers of all rays.
+#[derive(Debug)]
+pub(super) struct Bounds {
+    /// Of their origins, moved back and on.
+    pub(super) start: Aabb,
+    /// Of the points where they end; without meaning if one has no end.
+    pub(super) end: Aabb,
+    /// Of their reciprocal directions.
+    pub(super) reciprocal: Aabb,
+    /// The least beginning.
+    pub(super) t_min: f32,
+    /// The greatest length.
+    pub(super) longest: f32,
 }
 
 impl Columns {
-    /// The columns of `rays`, which agree in the signs of their directions.
+    /// No rays.
+    pub(super) const EMPTY: Self = Self {
+        origin: [ZERO; 3],
+        dir: [ZERO; 3],
+        near_origin: [ZERO; 3],
+        far_origin: [ZERO; 3],
+        near_reciprocal: [ZERO; 3],
+        far_reciprocal: [ZERO; 3],
+        t_min: ZERO,
+        end: ZERO,
+        t_max: ZERO,
+        packets: 0,
+        near: [0; 3],
+        bounds: Bounds {
+            start: Aabb::EMPTY,
+            end: Aabb::EMPTY,
+            reciprocal: Aabb::EMPTY,
+            t_min: 0.0,
+            longest: 0.0,
+        },
+    };
+
+    /// Takes `rays`, which agree in the signs of their directions; how far each has to go is not known yet.
+    pub(super) fn fill<S: Simd>(&mut self, simd: S, rays: &[Ray]) {
+        simd.vectorize(
+            #[inline(always)]
+            || self.fill_at(simd, rays),
+        );
+    }
+
     #[inline(always)]
-    pub(super) fn new<S: Simd>(simd: S, rays: &[Ray], t_max: impl Fn(usize) -> f32) -> Self {
-        let zero = [[0.0; 8]; PACKETS];
-        let mut columns = Self {
-            near_origin: [zero; 3],
-            far_origin: [zero; 3],
-            near_reciprocal: [zero; 3],
-            far_reciprocal: [zero; 3],
-            t_min: zero,
-            t_max: [[-1.0; 8]; PACKETS],
-            packets: rays.len().div_ceil(8),
-            near: [0; 3],
-        };
+    fn fill_at<S: Simd>(&mut self, simd: S, rays: &[Ray]) {
+        self.packets = rays.len().div_ceil(8).min(PACKETS);
         let negative = rays[0].dir.is_negative_bitmask() as usize;
-        columns.near = [negative & 1, 2 + (negative >> 1 & 1), 4 + (negative >> 2 & 1)];
-        for i in 0..columns.packets * 8 {
-            // The last packet is filled up with rays that end before they begin.
-            let ray = &rays[i.min(rays.len() - 1)];
-            let (packet, lane) = (i / 8, i % 8);
-            for axis in 0..3 {
-                columns.near_origin[axis][packet][lane] = ray.origin[axis];
-                columns.near_reciprocal[axis][packet][lane] = ray.dir[axis];
-            }
-            columns.t_min[packet][lane] = ray.t_min;
-            if i < rays.len() {
-                columns.t_max[packet][lane] = t_max(i);
-            }
-        }
-        for packet in 0..columns.packets {
-            let [x, y, z] = &columns.near_origin;
-            let x = f32x8::load_array_ref(simd, &x[packet]).abs();
-            let y = f32x8::load_array_ref(simd, &y[packet]).abs();
-            let z = f32x8::load_array_ref(simd, &z[packet]).abs();
-            let pad = x.max(y).max(z) * SLACK + 1e-24;
-            for axis in 0..3 {
-                let origin = f32x8::load_array_ref(simd, &columns.near_origin[axis][packet]);
-                let back = if negative >> axis & 1 != 0 { -pad } else { pad };
-                let dir = f32x8::load_array_ref(simd, &columns.near_reciprocal[axis][packet]);
+        self.near = [negative & 1, 2 + (negative >> 1 & 1), 4 + (negative >> 2 & 1)];
+        // Lows, and highs with their signs turned: the least of those is the greatest.
+        let most = f32x8::splat(simd, f32::INFINITY);
+        let (mut starts, mut ends, mut reciprocals) = ([most; 8], [most; 8], [most; 8]);
+        for packet in 0..self.packets {
+            let [x, y, z, t_min, dx, dy, dz, end] = eight(simd, rays, packet);
+            t_min.store_array(&mut self.t_min[packet]);
+            end.store_array(&mut self.end[packet]);
+            starts[6] = starts[6].min(t_min);
+            starts[7] = starts[7].min(-end);
+            let pad = x.abs().max(y.abs()).max(z.abs()) * SLACK + 1e-24;
+            for (axis, (origin, dir)) in [(x, dx), (y, dy), (z, dz)].into_iter().enumerate() {
+                let (low, high) = (origin - pad, origin + pad);
+                let (near, far) = if negative >> axis & 1 != 0 { (low, high) } else { (high, low) };
                 let reciprocal = (f32x8::splat(simd, 1.0) / dir)
                     .max(f32x8::splat(simd, -1e37))
                     .min(f32x8::splat(simd, 1e37));
-                (origin + back).store_array(&mut columns.near_origin[axis][packet]);
-                (origin - back).store_array(&mut columns.far_origin[axis][packet]);
-                reciprocal.store_array(&mut columns.near_reciprocal[axis][packet]);
-                (reciprocal * (1.0 + SLACK)).store_array(&mut columns.far_reciprocal[axis][packet]);
+                origin.store_array(&mut self.origin[axis][packet]);
+                dir.store_array(&mut self.dir[axis][packet]);
+                near.store_array(&mut self.near_origin[axis][packet]);
+                far.store_array(&mut self.far_origin[axis][packet]);
+                reciprocal.store_array(&mut self.near_reciprocal[axis][packet]);
+                (reciprocal * (1.0 + SLACK)).store_array(&mut self.far_reciprocal[axis][packet]);
+                let at = origin + end * dir;
+                starts[axis] = starts[axis].min(low);
+                starts[axis + 3] = starts[axis + 3].min(-high);
+                ends[axis] = ends[axis].min(at);
+                ends[axis + 3] = ends[axis + 3].min(-at);
+                reciprocals[axis] = reciprocals[axis].min(reciprocal);
+                reciprocals[axis + 3] = reciprocals[axis + 3].min(-reciprocal);
             }
         }
-        columns
+        let starts = least(starts);
+        self.bounds = Bounds {
+            start: aabb(starts),
+            end: aabb(least(ends)),
+            reciprocal: aabb(least(reciprocals)),
+            t_min: starts[6],
+            longest: -starts[7],
+        };
     }
 
     /// The rays that meet the box of one child, as bits.
@@ -108,35 +159,56 @@ impl Columns {
     #[inline(always)]
     pub(super) fn farthest<S: Simd>(&self, simd: S) -> f32 {
         let mut most = f32x8::load_array_ref(simd, &self.t_max[0]);
-        for packet in 1..self.packets.min(PACKETS) {
-            most = most.max(f32x8::load_array_ref(simd, &self.t_max[packet]));
+        for packet in &self.t_max[1..self.packets.clamp(1, PACKETS)] {
+            most = most.max(f32x8::load_array_ref(simd, packet));
         }
         highest(most)
     }
 }
 
-/// The least and the greatest of a column.
+/// Eight rays, number by number. The last packet is filled up with the last ray.
 #[inline(always)]
-pub(super) fn bounds<S: Simd>(simd: S, column: &Column, packets: usize) -> [f32; 2] {
-    let first = f32x8::load_array_ref(simd, &column[0]);
-    let (mut low, mut high) = (first, first);
-    for packet in &column[1..packets.clamp(1, PACKETS)] {
-        let next = f32x8::load_array_ref(simd, packet);
-        (low, high) = (low.min(next), high.max(next));
+fn eight<S: Simd>(simd: S, rays: &[Ray], packet: usize) -> [f32x8<S>; 8] {
+    let row = |i: usize| {
+        let Ray { origin: o, t_min, dir: d, t_max } = rays[(8 * packet + i).min(rays.len() - 1)];
+        f32x8::simd_from(simd, [o.x, o.y, o.z, t_min, d.x, d.y, d.z, t_max])
+    };
+    turned([row(0), row(1), row(2), row(3), row(4), row(5), row(6), row(7)])
+}
+
+/// Rows as columns. As with cards: cut in halves that are then merged, three times.
+#[inline(always)]
+fn turned<S: Simd>(mut rows: [f32x8<S>; 8]) -> [f32x8<S>; 8] {
+    for _ in 0..3 {
+        let [a, b, c, d, e, f, g, h] = rows;
+        let [(a, b), (c, d), (e, f), (g, h)] =
+            [a.interleave(e), b.interleave(f), c.interleave(g), d.interleave(h)];
+        rows = [a, b, c, d, e, f, g, h];
     }
-    [lowest(low), highest(high)]
+    rows
+}
+
+/// The least number of each row.
+#[inline(always)]
+pub(super) fn least<S: Simd>(rows: [f32x8<S>; 8]) -> [f32; 8] {
+    let [a, b, c, d, e, f, g, h] = turned(rows);
+    a.min(b).min(c.min(d)).min(e.min(f).min(g.min(h))).to_array()
 }
 
 /// The greatest of eight.
 #[inline(always)]
 pub(super) fn highest<S: Simd>(v: f32x8<S>) -> f32 {
-    let [a, b, c, d, e, f, g, h] = v.to_array();
-    a.max(b).max(c.max(d)).max(e.max(f).max(g.max(h)))
+    v.reduce_max()
 }
 
 /// The least of eight.
 #[inline(always)]
 pub(super) fn lowest<S: Simd>(v: f32x8<S>) -> f32 {
-    let [a, b, c, d, e, f, g, h] = v.to_array();
-    a.min(b).min(c.min(d)).min(e.min(f).min(g.min(h)))
+    v.reduce_min()
+}
+
+/// From lows and turned highs.
+#[inline(always)]
+fn aabb([x, y, z, nx, ny, nz, ..]: [f32; 8]) -> Aabb {
+    Aabb { lo: [x, y, z].into(), hi: [-nx, -ny, -nz].into() }
 }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use fearless_simd::Simd;
+use fearless_simd::{Simd, f32x8, prelude::*};
 
 use super::{
     Best, World,
@@ -44,15 +44,25 @@ pub(super) trait Errand {
     /// A ray on its own is back.
     fn back(&mut self, index: usize, best: Best);
 
-    /// A ray of a group meets a leaf; how far it has to go from now on.
+    /// A ray of a group, prepared, meets a leaf; how far it has to go from now on.
     fn leaf<S: Simd, L: Leaves<S>>(
         &mut self,
         simd: S,
         world: &World<'_>,
-        ray: &Ray,
-        index: usize,
+        leaves: &L,
+        ray: (&Ray, usize),
         leaf: Ref,
     ) -> f32;
+
+    /// Some of eight rays of a group, those in `mask`, hit a primitive; `t_max` is how far each has to go.
+    fn hits<S: Simd>(
+        &mut self,
+        packet: usize,
+        mask: u32,
+        prim: u32,
+        at: [f32x8<S>; 3],
+        t_max: &mut [f32; 8],
+    );
 }
 
 /// The closest hits. They come with the best outside the tree.
@@ -112,14 +122,35 @@ impl Errand for Closest<'_> {
         &mut self,
         simd: S,
         world: &World<'_>,
-        ray: &Ray,
-        index: usize,
+        leaves: &L,
+        (ray, index): (&Ray, usize),
         leaf: Ref,
     ) -> f32 {
         let mut best = Best(self.0[index]);
-        L::new(simd, ray).offer(simd, world, ray, leaf, &mut best);
+        leaves.offer(simd, world, ray, leaf, &mut best);
         self.0[index] = best.0;
         best.0.t
+    }
+
+    #[inline(always)]
+    fn hits<S: Simd>(
+        &mut self,
+        packet: usize,
+        mut mask: u32,
+        prim: u32,
+        [t, u, v]: [f32x8<S>; 3],
+        t_max: &mut [f32; 8],
+    ) {
+        let (t, u, v) = (t.to_array(), u.to_array(), v.to_array());
+        while mask != 0 {
+            let lane = mask.trailing_zeros() as usize & 7;
+            mask &= mask - 1;
+            let hit = &mut self.0[8 * packet + lane];
+            let mut best = Best(*hit);
+            best.offer(t[lane], prim, u[lane], v[lane]);
+            *hit = best.0;
+            t_max[lane] = best.0.t;
+        }
     }
 }
 
@@ -170,13 +201,30 @@ impl Errand for Any<'_> {
         &mut self,
         simd: S,
         world: &World<'_>,
-        ray: &Ray,
-        index: usize,
+        leaves: &L,
+        (ray, index): (&Ray, usize),
         leaf: Ref,
     ) -> f32 {
-        if L::new(simd, ray).any(simd, world, ray, leaf) {
+        if leaves.any(simd, world, ray, leaf) {
             self.0[index] = true;
         }
         self.t_max(ray, index)
+    }
+
+    #[inline(always)]
+    fn hits<S: Simd>(
+        &mut self,
+        packet: usize,
+        mut mask: u32,
+        _: u32,
+        _: [f32x8<S>; 3],
+        t_max: &mut [f32; 8],
+    ) {
+        while mask != 0 {
+            let lane = mask.trailing_zeros() as usize & 7;
+            mask &= mask - 1;
+            self.0[8 * packet + lane] = true;
+            t_max[lane] = -1.0;
+        }
     }
 }

@@ -19,6 +19,8 @@ use crate::{
 pub(super) trait Content {
     /// Its leaves' tests.
     type Leaves<S: Simd>: Leaves<S>;
+    /// Whether there may be leaves of triangles.
+    const TRIANGLES: bool = true;
     /// Whether rays for which any hit will do are worth going together. Among many spheres they are
     /// blocked, each by another, before a group has earned what it cost.
     const ANY_TOGETHER: bool = true;
@@ -49,6 +51,7 @@ impl Content for OnlyTriangles {
 
 impl Content for OnlySpheres {
     type Leaves<S: Simd> = Spheres<S>;
+    const TRIANGLES: bool = false;
     const ANY_TOGETHER: bool = false;
 }
 
@@ -66,8 +69,7 @@ pub(super) struct Triangles<S: Simd> {
 impl<S: Simd> Leaves<S> for Triangles<S> {
     #[inline(always)]
     fn new(simd: S, ray: &Ray) -> Self {
-        let shear = Shear::new(ray);
-        Self { shear, shear8: Shear8::new(simd, &shear) }
+        Self::of(simd, Shear::new(ray))
     }
 
     #[inline(always)]
@@ -82,6 +84,12 @@ impl<S: Simd> Leaves<S> for Triangles<S> {
 }
 
 impl<S: Simd> Triangles<S> {
+    /// A ray that is prepared already.
+    #[inline(always)]
+    pub(super) fn of(simd: S, shear: Shear) -> Self {
+        Self { shear, shear8: Shear8::new(simd, &shear) }
+    }
+
     #[inline(always)]
     fn offer_block(&self, simd: S, block: &[Row; triangle::BLOCK], best: &mut Best) {
         let mut mask = self.shear8.filter(simd, block);

@@ -7,6 +7,7 @@ mod errand;
 mod frustum;
 mod interleaved;
 mod leaves;
+mod sheared;
 mod single;
 mod slabs;
 mod walk;
@@ -16,7 +17,7 @@ pub(crate) use self::eights::Planes;
 use std::{cell::RefCell, marker::PhantomData, ops::Range};
 
 use self::{
-    coherent::{Entries, Entry, Together, is_coherent, same_octant},
+    coherent::{Group, Together, is_coherent, same_octant},
     eights::{AnyOfFew, ClosestOfFew},
     errand::{Any, Closest, Errand},
     interleaved::{Many, RAYS, Stacks},
@@ -164,9 +165,9 @@ impl<'a> World<'a> {
     ) {
         let (world, content, errand) = (self, PhantomData::<C>, &mut errand);
         let done = together
-            && ENTRIES.with_borrow_mut(|entries| {
+            && GROUP.with_borrow_mut(|group| {
                 let errand = &mut *errand;
-                self.token.run(Together { world, root, rays, errand, entries, content })
+                self.token.run(Together { world, root, rays, errand, group, content })
             });
         if !done {
             STACKS.with_borrow_mut(|stacks| {
@@ -194,7 +195,7 @@ thread_local! {
     static LONE: RefCell<single::Stack> = const { RefCell::new([0; STACK]) };
     static STACKS: RefCell<Stacks> = const { RefCell::new([walk::Stack::EMPTY; RAYS]) };
     static GATHERED: RefCell<Gathered> = RefCell::default();
-    static ENTRIES: RefCell<Entries> = const { RefCell::new([Entry::NONE; STACK]) };
+    static GROUP: RefCell<Group> = const { RefCell::new(Group::EMPTY) };
 }
 
 /// Rays of eights one behind the other, and what they meet.

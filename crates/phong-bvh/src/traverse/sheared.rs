@@ -1,0 +1,185 @@
+//! Up to 64 rays side by side, against the triangles of a leaf.
+
+use fearless_simd::{Simd, f32x8, prelude::*};
+
+use super::{
+    World,
+    columns::{Column, Columns, PACKETS, ZERO, least},
+    errand::Errand,
+    leaves::Triangles,
+};
+use crate::{
+    Ray,
+    node8::{Ref, Row, rows},
+    primitives::triangle::{BLOCK, Shear, ShearBounds, Shears},
+};
+
+/// Up to so many rays are tested one by one, each against all triangles at once.
+const FEW: u32 = 8;
+
+/// What [`Columns`] need besides, to be tested against triangles: directions longest along one axis.
+#[derive(Debug)]
+pub(super) struct Sheared {
+    slope: [Column; 2],
+    all: ShearBounds,
+}
+
+impl Sheared {
+    /// No rays.
+    pub(super) const EMPTY: Self = Self {
+        slope: [ZERO; 2],
+        all: ShearBounds { axes: [0; 3], origin: [[0.0; 2]; 3], slope: [[0.0; 2]; 2] },
+    };
+
+    /// Takes the rays of `columns`; false where their directions are not longest along the same axis.
+    pub(super) fn fill<S: Simd>(&mut self, simd: S, columns: &Columns, rays: &[Ray]) -> bool {
+        simd.vectorize(
+            #[inline(always)]
+            || self.fill_at(simd, columns, rays),
+        )
+    }
+
+    #[inline(always)]
+    fn fill_at<S: Simd>(&mut self, simd: S, columns: &Columns, rays: &[Ray]) -> bool {
+        let axes = Shear::new(&rays[0]).axes;
+        let [x, y, z] = axes;
+        let zero = f32x8::splat(simd, 0.0);
+        let most = f32x8::splat(simd, f32::INFINITY);
+        // As in `Columns`: lows, and highs with their signs turned.
+        let mut slopes = [most, most, most, most, zero, zero, zero, zero];
+        for packet in 0..columns.packets.min(PACKETS) {
+            let load = |axis: usize| f32x8::load_array_ref(simd, &columns.dir[axis][packet]);
+            let (dx, dy, dz) = (load(x), load(y), load(z));
+            let [ax, ay, az] = [load(0).abs(), load(1).abs(), load(2).abs()];
+            let is_x = ax.simd_ge(ay) & ax.simd_ge(az);
+            let is_y = !is_x & ay.simd_ge(az);
+            let agree = match z {
+                0 => is_x,
+                1 => is_y,
+                _ => !(is_x | is_y),
+            };
+            if !agree.all_true() {
+                return false;
+            }
+            let (sx, sy) = (dx / dz, dy / dz);
+            sx.store_array(&mut self.slope[0][packet]);
+            sy.store_array(&mut self.slope[1][packet]);
+            slopes[0] = slopes[0].min(sx);
+            slopes[1] = slopes[1].min(-sx);
+            slopes[2] = slopes[2].min(sy);
+            slopes[3] = slopes[3].min(-sy);
+        }
+        let [x_low, x_high, y_low, y_high, ..] = least(slopes);
+        let start = columns.bounds.start;
+        self.all = ShearBounds {
+            axes,
+            origin: axes.map(|axis| [start.lo[axis], start.hi[axis]]),
+            slope: [[x_low, -x_high], [y_low, -y_high]],
+        };
+        true
+    }
+
+    /// The rays `met` against the triangles of a leaf.
+    pub(super) fn leaf<S: Simd, E: Errand>(
+        &self,
+        simd: S,
+        world: &World<'_>,
+        rays: &[Ray],
+        met: (Ref, u64),
+        columns: &mut Columns,
+        errand: &mut E,
+    ) {
+        simd.vectorize(
+            #[inline(always)]
+            || self.leaf_at(simd, world, rays, met, columns, errand),
+        );
+    }
+
+    #[inline(always)]
+    fn leaf_at<S: Simd, E: Errand>(
+        &self,
+        simd: S,
+        world: &World<'_>,
+        rays: &[Ray],
+        (leaf, mut met): (Ref, u64),
+        columns: &mut Columns,
+        errand: &mut E,
+    ) {
+        let block: &[Row; BLOCK] = rows(world.rows, leaf.row());
+        // For few rays, to look for the triangles that all of them miss costs more than it saves.
+        let count = met.count_ones();
+        let few = count <= FEW;
+        let mut lanes = if few { u32::MAX } else { self.all.filter(simd, block) };
+        if few || count < lanes.count_ones() * packets(met) {
+            while met != 0 {
+                let i = met.trailing_zeros() as usize;
+                met &= met - 1;
+                let triangles = Triangles::of(simd, self.one(columns, i));
+                columns.t_max[i / 8][i % 8] =
+                    errand.leaf(simd, world, &triangles, (&rays[i], i), leaf);
+            }
+            return;
+        }
+        while lanes != 0 {
+            let lane = lanes.trailing_zeros() as usize & 7;
+            lanes &= lanes - 1;
+            let prim = block[BLOCK - 1].bits(lane);
+            if prim == u32::MAX {
+                break;
+            }
+            let corner = |first: usize| {
+                let at = |axis: usize| f32x8::splat(simd, block[first + (axis & 3)].0[lane]);
+                [at(self.all.axes[0]), at(self.all.axes[1]), at(self.all.axes[2])]
+            };
+            let corners = [corner(0), corner(3), corner(6)];
+            let mut left = met;
+            while left != 0 {
+                let packet = left.trailing_zeros() as usize / 8;
+                let among = (left >> (8 * packet)) as u32 & 0xff;
+                left &= !(0xff << (8 * packet));
+                let (mask, at) = self.eight(simd, columns, packet).intersect(simd, corners, among);
+                if mask != 0 {
+                    errand.hits(packet, mask, prim, at, &mut columns.t_max[packet]);
+                }
+            }
+        }
+    }
+
+    /// One ray.
+    #[inline(always)]
+    fn one(&self, columns: &Columns, i: usize) -> Shear {
+        let at = |column: &Column| column[i / 8 % 8][i % 8];
+        let [x, y, z] = self.all.axes;
+        Shear {
+            axes: self.all.axes,
+            origin: [at(&columns.origin[x]), at(&columns.origin[y]), at(&columns.origin[z])],
+            slope: [at(&self.slope[0]), at(&self.slope[1])],
+            along: at(&columns.dir[z]),
+            t_min: at(&columns.t_min),
+            t_max: at(&columns.end),
+        }
+    }
+
+    /// Eight rays.
+    #[inline(always)]
+    fn eight<S: Simd>(&self, simd: S, columns: &Columns, packet: usize) -> Shears<S> {
+        let at = |column: &Column| f32x8::load_array_ref(simd, &column[packet % 8]);
+        let [x, y, z] = self.all.axes;
+        Shears {
+            origin: [at(&columns.origin[x]), at(&columns.origin[y]), at(&columns.origin[z])],
+            slope: [at(&self.slope[0]), at(&self.slope[1])],
+            along: at(&columns.dir[z]),
+            t_min: at(&columns.t_min),
+            t_max: at(&columns.end),
+        }
+    }
+}
+
+/// In how many packets there are rays.
+#[inline(always)]
+fn packets(mut rays: u64) -> u32 {
+    rays |= rays >> 4;
+    rays |= rays >> 2;
+    rays |= rays >> 1;
+    (rays & 0x0101_0101_0101_0101).count_ones()
+}
