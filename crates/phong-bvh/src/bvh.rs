@@ -214,8 +214,15 @@ impl Bvh {
     /// If `hits` has not the length of `rays`.
     pub fn intersect_bundle(&self, rays: &[Ray], hits: &mut [Hit]) {
         assert_eq!(rays.len(), hits.len(), "one hit for each ray");
-        for (ray, hit) in rays.iter().zip(&mut *hits) {
-            *hit = self.outside(ray, &mut ()).0;
+        // A loop of its own where nothing is outside: it took a coherent ray a fifth of its time.
+        if self.planes.is_empty() {
+            for (ray, hit) in rays.iter().zip(&mut *hits) {
+                *hit = Best::new(ray.t_max).0;
+            }
+        } else {
+            for (ray, hit) in rays.iter().zip(&mut *hits) {
+                *hit = self.outside(ray, &mut ()).0;
+            }
         }
         self.world().closest_of_many(rays, hits);
         for hit in hits {
