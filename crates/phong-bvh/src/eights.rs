@@ -89,7 +89,8 @@ pub struct Hits8 {
     pub u: [f32; 8],
     /// [`Hit::v`].
     pub v: [f32; 8],
-    /// The rays that hit something, a bit each, the lowest for the first.
+    /// The rays that hit something, a bit each, the lowest for the first; at most `0xff`. What is told
+    /// of the others is of no account.
     pub met: u32,
 }
 

@@ -42,8 +42,8 @@ impl Window {
     #[must_use]
     pub const fn tile(&self, edge: u32, index: usize) -> Self {
         let across = self.width().div_ceil(edge);
-        let (column, row) = (index as u32 % across, index as u32 / across);
-        let (x0, y0) = (self.x0 + column * edge, self.y0 + row * edge);
+        let (column, row) = (index % across as usize, index / across as usize);
+        let (x0, y0) = (self.x0 + column as u32 * edge, self.y0 + row as u32 * edge);
         let [right, lower] = [self.x1 - x0, self.y1 - y0];
         let x1 = x0 + if edge < right { edge } else { right };
         let y1 = y0 + if edge < lower { edge } else { lower };
@@ -281,6 +281,12 @@ mod tests {
             }
         }
         assert_eq!(seen.len(), 9 * 5);
+    }
+
+    #[test]
+    fn tiles_are_told_apart_where_there_are_more_than_32_bits_can_number() {
+        let tile = Window::full([1 << 20; 2]).tile(1, (1 << 32) + 5);
+        assert_eq!(tile, Window { x0: 5, y0: 1 << 12, x1: 6, y1: (1 << 12) + 1 });
     }
 
     #[test]

@@ -59,17 +59,12 @@ impl Material {
     /// where the ambient term is added per light.
     #[inline]
     pub fn ambient(&self, color: Rgb, ambient: Rgb) -> Rgb {
-        match self.ambient_rule {
-            AmbientRule::Once | AmbientRule::Both => {
-                self.k_a * (ambient * self.ambient_color.unwrap_or(color))
-            }
-            AmbientRule::PerLight => Rgb::BLACK,
-        }
+        Rgb::from(self.ambient_of(color.to_array(), ambient))
     }
 
-    /// [`Material::ambient`] of eight surfaces.
+    /// [`Material::ambient`] of one surface, or of eight.
     #[inline(always)]
-    pub(crate) fn ambient8<S: Simd>(&self, color: [f32x8<S>; 3], ambient: Rgb) -> [f32x8<S>; 3] {
+    pub(crate) fn ambient_of<F: Real>(&self, color: [F; 3], ambient: Rgb) -> [F; 3] {
         let like = |c: Rgb| [color[0].like(c.r), color[0].like(c.g), color[0].like(c.b)];
         match self.ambient_rule {
             AmbientRule::Once | AmbientRule::Both => {

@@ -10,7 +10,7 @@ use phong::film::{Film, LayerKind, Window};
 use phong::reflectance::Terms;
 use phong::render::{Cancel, RenderOptions, render};
 use phong_bvh::{BuildOptions, Level, Preset};
-use phong_scene::{Limits, Memory, Reading, Scene};
+use phong_scene::{Background, CameraKind, FilterKind, Limits, Memory, Reading, Rgb, Scene};
 
 /// A scene with its picture as everybody else must draw it: one thread, the default tiles.
 struct Case {
@@ -228,6 +228,59 @@ fn what_is_explained_is_what_is_drawn() {
                 let bits = |values: &[f32]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
                 let told = told.terms.total().to_array();
                 assert_eq!(bits(&told), bits(drawn), "{} at ({x}, {y})", case.name);
+            }
+        }
+    }
+}
+
+/// A few spheres and a floor, of which every ray is one of eight.
+fn few(kind: CameraKind, aperture: f64) -> CompiledScene {
+    let source = Memory::new().with("scene.toml", include_bytes!("agreement/few.toml").to_vec());
+    let Reading { scene, diagnostics, .. } =
+        phong_scene::read("scene.toml", None, &source, &Limits::default());
+    assert!(diagnostics.is_empty(), "{diagnostics:#?}");
+    let mut scene = scene.expect("a scene, for there is no error");
+    (scene.camera.kind, scene.camera.aperture) = (kind, aperture);
+    CompiledScene::new(scene, CompileOptions::default()).expect("compiles")
+}
+
+#[test]
+fn every_camera_filter_and_background_is_drawn_as_explained_in_tiles_of_any_size() {
+    let black_to_grey = Background::Gradient { top: Rgb::BLACK, bottom: Rgb::grey(0.5) };
+    for (kind, aperture, samples, filter, background) in [
+        (CameraKind::Perspective { fov: 40.0 }, 0.2, 5, FilterKind::Mitchell, black_to_grey),
+        (CameraKind::Perspective { fov: 40.0 }, 0.0, 1, FilterKind::Box, Background::Transparent),
+        (CameraKind::Orthographic { height: 4.0 }, 0.1, 3, FilterKind::Tent, black_to_grey),
+        (CameraKind::Fisheye { fov: 170.0 }, 0.0, 6, FilterKind::Mitchell, Background::Transparent),
+        (CameraKind::Fisheye { fov: 100.0 }, 0.0, 1, FilterKind::Mitchell, black_to_grey),
+        (CameraKind::Panorama, 0.0, 2, FilterKind::Gaussian, Background::Color(Rgb::grey(0.3))),
+    ] {
+        let name = format!("{kind:?}, {samples} samples, {filter:?}, {background:?}");
+        let scene = few(kind, aperture);
+        let size = [21, 13];
+        let options = RenderOptions {
+            terms: true,
+            samples,
+            filter,
+            background,
+            ..RenderOptions::of(&phong_scene::Image { size, ..phong_scene::Image::default() })
+        };
+        let film = drawn(&scene, &options, 1);
+        for tile in [1, 3, 9, 64] {
+            let options = RenderOptions { tile, ..options.clone() };
+            assert_same(&format!("{name}, tiles of {tile}"), &drawn(&scene, &options, 2), &film);
+        }
+        for (x, y) in (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y))) {
+            let told = explain(&scene, &options, [x, y]).expect("a pixel of it");
+            let is = |kind, told: &[f32]| {
+                let bits = |values: &[f32]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
+                let drawn = film.at(kind, x, y).expect("a pixel of it");
+                assert_eq!(bits(told), bits(drawn), "{name}: {} at ({x}, {y})", kind.name());
+            };
+            is(LayerKind::Picture, &told.linear.to_array());
+            is(LayerKind::Alpha, &[told.alpha]);
+            for (i, term) in told.terms.to_array().iter().enumerate() {
+                is(LayerKind::Term(i), &term.to_array());
             }
         }
     }

@@ -57,7 +57,9 @@ impl Kernel for ClosestOfFew<'_> {
                         offer(simd, &mut best, there & met, t, number);
                     }
                 }
-                if let Some((block, near)) = near {
+                if let Some((block, near)) = near
+                    && near != 0
+                {
                     let closest = Closest8::of_rays(simd, rays);
                     for lane in lanes(near) {
                         if let Some((met, t)) = closest.intersect_one(simd, block, lane) {
@@ -171,8 +173,9 @@ fn bounds<S: Simd>(simd: S, rays: &[Rays8]) -> Option<[[f32; 2]; 6]> {
         let there = mask32x8::from_bitmask(simd, (*there).into());
         for (i, column) in [ox, oy, oz, dx, dy, dz].into_iter().enumerate() {
             let column = f32x8::load_array_ref(simd, column);
-            low[i] = low[i].min(there.select(column, most));
-            high[i] = high[i].max(there.select(column, -most));
+            // In this order what is not a number, which no ray should hold, changes nothing.
+            low[i] = there.select(column, most).min(low[i]);
+            high[i] = there.select(column, -most).max(high[i]);
         }
     }
     let bounds = [

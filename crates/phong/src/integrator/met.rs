@@ -103,9 +103,10 @@ impl Kernel for Begin<'_> {
                         let color = splat3(simd, color.to_array());
                         *to = store3(select3(missed, color, load3(simd, to)));
                     }
-                    Background::Gradient { .. } => {
+                    Background::Gradient { top, bottom } => {
                         for lane in lanes(missed) {
-                            let seen = seen(background, || height(i, lane));
+                            let height = height(i, lane);
+                            let seen = (1.0 - height) * top + height * bottom;
                             set(to, lane, seen.to_array());
                         }
                     }
@@ -123,23 +124,11 @@ impl Kernel for Begin<'_> {
                 let (number, same) = same_material(simd, &dressed.material, left);
                 left &= !same;
                 let color = load3(simd, &dressed.color);
-                let own = scene.materials()[number].ambient8(color, scene.ambient());
+                let own = scene.materials()[number].ambient_of(color, scene.ambient());
                 let same = mask32x8::from_bitmask(simd, same.into());
                 *ambient = store3(select3(same, own, load3(simd, ambient)));
             }
         }
-    }
-}
-
-/// The background at a height: 0 its top, 1 its bottom. Transparent is black.
-fn seen(background: Background, height: impl Fn() -> f32) -> Rgb {
-    match background {
-        Background::Color(color) => color,
-        Background::Gradient { top, bottom } => {
-            let height = height();
-            (1.0 - height) * top + height * bottom
-        }
-        Background::Transparent => Rgb::BLACK,
     }
 }
 

@@ -197,3 +197,90 @@ fn refract<S: Simd>(
     ]);
     (dir, sin2_t.simd_lt(one))
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::math::Dir3;
+
+    /// Snell's law in f64, about a normal on the side of `e`.
+    fn snell(n: DVec3, e: DVec3, eta: f64) -> Option<DVec3> {
+        let across = n * n.dot(e) - e;
+        let sin = across.length() / eta;
+        let along = (sin < 1.0).then(|| (1.0 - sin * sin).sqrt())?;
+        Some(across / eta - along * n)
+    }
+
+    #[test]
+    fn eight_rays_go_on_as_snell_and_the_mirror_have_it_each_by_itself() {
+        let simd = fearless_simd::Fallback::new();
+        let x = |i: usize, k: usize| ((i * 37 + k * k * 61 + i * k * 13) % 83) as f64 / 41.5 - 1.0;
+        let unit = |v: DVec3| v.normalize_or(DVec3::X);
+        let dir = |i: usize, k: usize| unit(DVec3::new(x(i, k), x(i, k + 1), x(i, k + 2)));
+        let material = |fresnel| {
+            let (reflection, transmission) = (Rgb::grey(0.25), Rgb::new(0.5, 0.75, 0.0));
+            let written = phong_scene::Material {
+                reflection,
+                transmission,
+                fresnel,
+                ior: 1.5,
+                ..phong_scene::Material::default()
+            };
+            Material::new(&written, Dir3::Z)
+        };
+        let [plain, exact] = [material(false), material(true)];
+        let lanes = |v: [DVec3; 8]| -> [f32x8<_>; 3] {
+            let lanes = std::array::from_fn(|k| std::array::from_fn(|i| v[i][k] as f32));
+            load3(simd, &lanes)
+        };
+        let (mut total, mut passed, mut turned) = (0, 0, 0);
+        for round in 0..100 {
+            let e: [DVec3; 8] = std::array::from_fn(|i| dir(8 * round + i, 0));
+            let ng: [DVec3; 8] = std::array::from_fn(|i| dir(8 * round + i, 5));
+            // Shading normals lie about the real one, far off in some lanes.
+            let n: [DVec3; 8] = std::array::from_fn(|i| {
+                let n = unit(ng[i] + 0.2 * (i % 4) as f64 * dir(8 * round + i, 9));
+                if n.dot(e[i]) < 0.0 { -n } else { n }
+            });
+            let (n8, ng8, e8) = (lanes(n), lanes(ng), lanes(e));
+            let at = Side::new(&plain, n8, ng8, e8);
+            let (mirrored, refracted) = (at.mirrored(&plain), at.refracted(&plain));
+            let shared = [at.mirrored(&exact), at.refracted(&exact)];
+            for i in 0..8 {
+                let inside = ng[i].dot(e[i]) < 0.0;
+                let facing = if inside { -ng[i] } else { ng[i] };
+                let eta = if inside { 1.0 / 1.5 } else { 1.5 };
+                let mirror = |n: DVec3| 2.0 * n.dot(e[i]) * n - e[i];
+                let out = mirror(n[i]).dot(facing) > 0.0;
+                turned += u32::from(!out);
+                let want = if out { mirror(n[i]) } else { mirror(facing) };
+                let lane =
+                    |v: [f32x8<_>; 3]| DVec3::new(v[0][i].into(), v[1][i].into(), v[2][i].into());
+                let near = |a: DVec3, b: DVec3| assert!((a - b).length() < 2e-5, "{a} is not {b}");
+                near(lane(mirrored.0), want);
+                let want = match snell(n[i], e[i], eta) {
+                    Some(dir) if dir.dot(facing) < 0.0 => Some(dir),
+                    Some(_) => snell(facing, e[i], eta),
+                    None => None,
+                };
+                let weight = DVec3::new(0.5, 0.75, 0.0);
+                let Some(dir) = want else {
+                    assert_eq!(lane(refracted.1), DVec3::ZERO);
+                    assert_eq!(lane(mirrored.1), weight + DVec3::splat(0.25));
+                    total += 1;
+                    continue;
+                };
+                near(lane(refracted.0), dir);
+                assert_eq!([lane(refracted.1), lane(mirrored.1)], [weight, DVec3::splat(0.25)]);
+                let f = f64::from(shared[0].2[i]);
+                assert!(f > 0.0 && f < 1.0 && f64::from(shared[1].2[i]) == f);
+                near(lane(shared[0].1), DVec3::splat(0.25 * f));
+                near(lane(shared[1].1), (1.0 - f) * weight);
+                passed += 1;
+            }
+        }
+        assert!(total > 50 && passed > 300 && turned > 10, "{total}, {passed}, {turned}");
+    }
+}
