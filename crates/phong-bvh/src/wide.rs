@@ -25,12 +25,16 @@ pub trait Wide:
     /// Without its sign.
     #[must_use]
     fn size(self) -> Self;
-    /// The larger one.
-    #[must_use]
-    fn or_larger(self, other: Self) -> Self;
     /// `yes` where this is above `other`, else `no`.
     #[must_use]
     fn above(self, other: Self, yes: Self, no: Self) -> Self;
+
+    /// The larger one.
+    #[must_use]
+    #[inline(always)]
+    fn or_larger(self, other: Self) -> Self {
+        self.above(other, self, other)
+    }
 }
 
 impl Wide for f64 {
@@ -45,10 +49,6 @@ impl Wide for f64 {
     #[inline(always)]
     fn size(self) -> Self {
         self.abs()
-    }
-    #[inline(always)]
-    fn or_larger(self, other: Self) -> Self {
-        self.above(other, self, other)
     }
     #[inline(always)]
     fn above(self, other: Self, yes: Self, no: Self) -> Self {
@@ -68,10 +68,6 @@ impl<S: Simd> Wide for f64x4<S> {
     #[inline(always)]
     fn size(self) -> Self {
         self.abs()
-    }
-    #[inline(always)]
-    fn or_larger(self, other: Self) -> Self {
-        self.above(other, self, other)
     }
     #[inline(always)]
     fn above(self, other: Self, yes: Self, no: Self) -> Self {

@@ -126,21 +126,14 @@ impl Samplers8 {
         Self { index: [index; 8], ..*self }
     }
 
-    /// [`Sampler::pair`] of each: straight code, which the compiler makes vector code of.
+    /// [`Sampler::pair`] of each.
     #[inline(always)]
     pub(crate) fn pair(&self, purpose: Use) -> [[f32; 8]; 2] {
-        let mut out = [[0.5; 8]; 2];
-        if !self.centred {
-            let [x, y] = &mut out;
-            for (lane, (x, y)) in x.iter_mut().zip(y).enumerate() {
-                [*x, *y] = self.get(lane).scrambled(purpose);
-            }
-        }
-        out
+        Places8::new(self, purpose).at(self.index)
     }
 }
 
-/// Places in eight pixels: [`Samplers8::pair`] for many samples.
+/// Where the samples of eight pixels fall, for one use: what they have in common.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
 pub(crate) struct Places8 {
@@ -151,27 +144,28 @@ pub(crate) struct Places8 {
 }
 
 impl Places8 {
-    pub(crate) fn new(samplers: &Samplers8) -> Self {
+    #[inline(always)]
+    pub(crate) fn new(samplers: &Samplers8, purpose: Use) -> Self {
         let Samplers8 { key, centred, .. } = *samplers;
         let mut places = Self { index: key, x: key, y: key, centred };
         if !centred {
             for lane in 0..8 {
-                let Keys { index, x, y } = samplers.get(lane).keys(Use::Pixel);
+                let Keys { index, x, y } = samplers.get(lane).keys(purpose);
                 (places.index[lane], places.x[lane], places.y[lane]) = (index, x, y);
             }
         }
         places
     }
 
-    /// The place of sample `index` in each.
+    /// The places of the samples `index`: straight code, which the compiler makes vector code of.
     #[inline(always)]
-    pub(crate) fn at(&self, index: u32) -> [[f32; 8]; 2] {
+    pub(crate) fn at(&self, index: [u32; 8]) -> [[f32; 8]; 2] {
         let mut out = [[0.5; 8]; 2];
         if !self.centred {
             let [x, y] = &mut out;
             for (lane, (x, y)) in x.iter_mut().zip(y).enumerate() {
                 let keys = Keys { index: self.index[lane], x: self.x[lane], y: self.y[lane] };
-                [*x, *y] = keys.pair(index);
+                [*x, *y] = keys.pair(index[lane]);
             }
         }
         out
@@ -290,7 +284,7 @@ mod tests {
             let mut samplers = Samplers8::splat(own(0));
             (0..8).for_each(|i| samplers.set(i, own(i)));
             let [x, y] = samplers.pair(Use::Pixel);
-            let [u, v] = Places8::new(&samplers).at(7);
+            let [u, v] = Places8::new(&samplers, Use::Pixel).at([7; 8]);
             for i in 0..8 {
                 assert_eq!([x[i], y[i]], own(i).pair(Use::Pixel));
                 assert_eq!([u[i], v[i]], own(i).at(7).pair(Use::Pixel));

@@ -18,7 +18,7 @@ pub struct CameraRay {
 
 /// Rays from the camera that are traced together, eight side by side.
 #[derive(Clone, Debug, Default)]
-pub struct Bundle {
+pub(crate) struct Bundle {
     /// The rays.
     pub(crate) rays: Vec<Rays8>,
     /// Where the samples of each come from, eight for eight rays; asked for under soft lights alone.

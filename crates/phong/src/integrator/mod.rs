@@ -12,7 +12,8 @@ mod lights;
 mod met;
 mod optics;
 
-pub use bundle::{Bundle, CameraRay, Radiance8, RayCounts};
+pub(crate) use bundle::Bundle;
+pub use bundle::{CameraRay, Radiance8, RayCounts};
 
 use phong_bvh::{Ray, Rays8, lanes};
 use phong_scene::{Background, Rgb};

@@ -30,7 +30,7 @@ impl Pixels8 {
         let sampler = |x: u32| Sampler::new([x, y], 0, options.samples, options.seed);
         let mut samplers = Samplers8::splat(sampler(x));
         (0..len).for_each(|lane| samplers.set(lane as usize, sampler(x + lane)));
-        Self { first: [x, y], len, samplers, places: Places8::new(&samplers) }
+        Self { first: [x, y], len, samplers, places: Places8::new(&samplers, Use::Pixel) }
     }
 
     fn pixel(&self, lane: usize) -> [u32; 2] {
@@ -148,7 +148,7 @@ impl Kernel for FlatRays<'_> {
         for index in indices {
             for pixels in pixels {
                 let samplers = soft.then(|| pixels.samplers.at(index));
-                let [x, y, weights] = filter.sample8(pixels.places.at(index));
+                let [x, y, weights] = filter.sample8(pixels.places.at([index; 8]));
                 let dx = f32x8::load_array(simd, x).widen();
                 let dy = f32x8::load_array(simd, y).widen();
                 let [left, top] = [f64::from(pixels.first[0]), f64::from(pixels.first[1]) + 0.5];
