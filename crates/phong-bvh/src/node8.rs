@@ -38,18 +38,20 @@ pub(crate) const REFS: usize = 6;
 /// The most rows a tree can have.
 pub(crate) const MAX_ROWS: usize = 1 << 29;
 
-const LEAF: u32 = 1 << 31;
-const KIND: u32 = 3 << 29;
-const ROW: u32 = (1 << 29) - 1;
+/// Bits below those of the tag.
+const TAG: u32 = 29;
+const ROW: u32 = (1 << TAG) - 1;
 
-/// What a child is, and where: bit 31 leaf, bits 30–29 kind of leaf, bits 28–0 row.
+/// What a child is, and where: in bits 31–29 a tag, in bits 28–0 a row. The tag of a node is 0, and
+/// that of a leaf is its [`Kind`], so there is room for seven kinds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Ref(pub(crate) u32);
 
 /// The kinds of leaves: up to eight primitives, or one solid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u32)]
 pub(crate) enum Kind {
-    Triangles,
+    Triangles = 1,
     Spheres,
     Solid,
     /// Triangles that are looked up in their geometry: less memory, more time.
@@ -76,7 +78,7 @@ impl Ref {
 
     /// A leaf.
     pub(crate) const fn leaf(kind: Kind, row: usize) -> Self {
-        Self(row as u32 | LEAF | (kind as u32) << 29)
+        Self(row as u32 | (kind as u32) << TAG)
     }
 
     /// The row it begins at.
@@ -88,11 +90,11 @@ impl Ref {
     /// What kind of leaf it is, or none: a node.
     #[inline(always)]
     pub(crate) const fn kind(self) -> Option<Kind> {
-        match (self.0 & LEAF, (self.0 & KIND) >> 29) {
-            (0, _) => None,
-            (_, 0) => Some(Kind::Triangles),
-            (_, 1) => Some(Kind::Spheres),
-            (_, 2) => Some(Kind::Solid),
+        match self.0 >> TAG {
+            0 => None,
+            1 => Some(Kind::Triangles),
+            2 => Some(Kind::Spheres),
+            3 => Some(Kind::Solid),
             _ => Some(Kind::Indexed),
         }
     }
@@ -119,7 +121,11 @@ mod tests {
         for kind in [Kind::Triangles, Kind::Spheres, Kind::Solid, Kind::Indexed] {
             let leaf = Ref::leaf(kind, 7).from(100);
             assert_eq!((leaf.kind(), leaf.row()), (Some(kind), 107));
+            let last = Ref::leaf(kind, MAX_ROWS - 1);
+            assert_eq!((last.kind(), last.row()), (Some(kind), MAX_ROWS - 1));
         }
         assert_eq!((Ref::node(3).from(4).kind(), Ref::node(3).from(4).row()), (None, 7));
+        let last = Ref::node(MAX_ROWS - 1);
+        assert_eq!((last.kind(), last.row()), (None, MAX_ROWS - 1));
     }
 }
