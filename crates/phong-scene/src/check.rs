@@ -4,7 +4,10 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::{Diagnostic, Label, Light, LightKind, Object, Place, Scene, Shape, Span};
+use crate::diagnostic::{Diagnostic, Label, Place, Span};
+use crate::light::{Light, LightKind};
+use crate::scene::{Object, Scene};
+use crate::shape::Shape;
 
 /// Most pairs of a light and an object that are looked at: a check must not outlast the render.
 const MOST_PAIRS: usize = 10_000_000;

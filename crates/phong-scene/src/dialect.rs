@@ -30,7 +30,7 @@
 //! one of facets: Blinn's distribution of exponent `shininess`, `shadowing = "implicit"`, and `f0` =
 //! `k_s` × `specular_color`. It becomes that as it is read, and its switches cannot be set.
 
-use crate::{AmbientRule, Dialect, Distribution, Model, Shadowing, Tint, Viewer};
+use crate::material::{AmbientRule, Dialect, Distribution, Model, Shadowing, Tint, Viewer};
 
 /// The dialects' names in the scene text, in the order of [`Dialect::ALL`].
 pub(crate) const NAMES: [&str; 14] = {

@@ -2,11 +2,15 @@
 
 use glam::{DAffine3, DVec3};
 
+use crate::bounds::Bounds;
+use crate::camera::{Camera, CameraKind};
+use crate::color::Rgb;
+use crate::diagnostic::Place;
 use crate::format::model::{Model, Part};
-use crate::{
-    Background, Bounds, Camera, CameraKind, Image, Light, LightKind, Material, MaterialId, Object,
-    Place, Rgb, Scene, Shape,
-};
+use crate::light::{Light, LightKind};
+use crate::material::{Material, MaterialId};
+use crate::scene::{Background, Image, Object, Scene};
+use crate::shape::Shape;
 
 /// Share of the picture that the model's box may fill, along the tighter direction.
 const FILL: f64 = 0.9;
@@ -237,7 +241,7 @@ mod tests {
     use glam::Vec3;
 
     use super::*;
-    use crate::Mesh;
+    use crate::mesh::Mesh;
 
     const SIDES: [Side; 7] =
         [Side::Front, Side::Back, Side::Left, Side::Right, Side::Top, Side::Bottom, Side::Iso];

@@ -40,8 +40,8 @@ pub use material::{
     Viewer, WardForm,
 };
 pub use mesh::{Mesh, NO_INDEX, Points};
-pub use scene::{Background, FilterKind, Group, GroupId, Image, Object, Reading, Scene};
-pub use shape::Shape;
+pub use scene::{Background, FilterKind, Group, Image, Object, Reading, Scene};
+pub use shape::{GroupId, Shape};
 pub use source::{Blob, Folder, Memory, Source, trouble};
 pub use transform::{cofactor, even_scale};
 pub use wording::closest;

@@ -37,7 +37,8 @@
 
 use glam::DVec3;
 
-use crate::{Place, Rgb};
+use crate::color::Rgb;
+use crate::diagnostic::Place;
 
 /// One light of the sum over lights.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,5 +1,8 @@
 //! What a reader may use at most, so that no input can exhaust the machine.
 
+/// The largest magnitude of any number in a scene: its square still fits an f32.
+pub(crate) const LARGEST: f64 = 1e18;
+
 /// Upper bounds that every reader takes; going over one is an error at its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Limits {

@@ -54,7 +54,8 @@
 //! | `ambient_rule` | `once`, `per-light` or `both` | the dialect's | How often the ambient term is added: once under the ambient light, once for every light times the light's colour, or both. |
 //! | `viewer` (phong, blinn-phong, blinn-fast) | `local` or `distant` | the dialect's | Where highlights are seen from: the eye, or from infinitely far along the camera's axis, which gives each distant light one halfway vector. |
 
-use crate::{Place, Rgb};
+use crate::color::Rgb;
+use crate::diagnostic::Place;
 
 /// Index into [`Scene::materials`](crate::Scene::materials).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]

@@ -87,7 +87,12 @@
 
 use glam::DAffine3;
 
-use crate::{Camera, Diagnostic, Light, Material, MaterialId, Place, Rgb, Shape};
+use crate::camera::Camera;
+use crate::color::Rgb;
+use crate::diagnostic::{Diagnostic, Place};
+use crate::light::Light;
+use crate::material::{Material, MaterialId};
+use crate::shape::Shape;
 
 /// A whole scene, resolved and checked: what the renderer takes.
 #[derive(Clone, Debug)]
@@ -178,10 +183,6 @@ pub enum FilterKind {
     /// Mitchell–Netravali, B = C = ⅓, radius 2 pixels; weights are signed.
     Mitchell,
 }
-
-/// Index into [`Scene::groups`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct GroupId(pub u32);
 
 /// Shapes to be placed together. A group may hold instances of earlier groups, never of itself.
 #[derive(Clone, Debug)]

@@ -174,7 +174,11 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::{GroupId, Mesh, Points};
+use crate::mesh::{Mesh, Points};
+
+/// Index into [`Scene::groups`](crate::Scene::groups).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct GroupId(pub u32);
 
 /// One shape, in its object's own space. All numbers are finite, radii > 0, directions not zero.
 #[derive(Clone, Debug)]

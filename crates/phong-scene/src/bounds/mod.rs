@@ -5,7 +5,9 @@ mod reach;
 use glam::{DAffine3, DVec3, Vec3};
 use rayon::prelude::*;
 
-use crate::{Mesh, Object, Points, Scene, Shape};
+use crate::mesh::{Mesh, Points};
+use crate::scene::{Object, Scene};
+use crate::shape::Shape;
 
 /// Along the axes, and against them.
 const AXES: [DVec3; 6] = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
@@ -158,7 +160,9 @@ mod tests {
     use glam::DQuat;
 
     use super::*;
-    use crate::{GroupId, Material, MaterialId, Place};
+    use crate::diagnostic::Place;
+    use crate::material::{Material, MaterialId};
+    use crate::shape::GroupId;
 
     fn object(shape: Shape, transform: DAffine3) -> Object {
         let (material, place) = (MaterialId(0), Place::default());
@@ -168,7 +172,7 @@ mod tests {
     fn scene(objects: Vec<Object>) -> Scene {
         let mut scene = crate::frame::frame(
             crate::format::model::Model::default(),
-            &crate::View::default(),
+            &crate::frame::View::default(),
             &Place::default(),
         );
         scene.materials = vec![Material::default()];
@@ -241,7 +245,7 @@ mod tests {
             object(ball.clone(), DAffine3::from_scale(DVec3::splat(2.0))),
         ]);
         let inner = object(Shape::Instance(GroupId(0)), up);
-        let group = |objects| crate::Group { name: String::new(), objects };
+        let group = |objects| crate::scene::Group { name: String::new(), objects };
         all.groups = vec![group(vec![object(ball, DAffine3::IDENTITY)]), group(vec![inner])];
         close(all.bounds(), [0.0, -2.0, -2.0], [4.0, 21.0, 2.0]);
         assert!(scene(Vec::new()).bounds().is_empty());

@@ -9,7 +9,9 @@ use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use super::Bounds;
-use crate::{Mesh, Object, Points, Scene, Shape};
+use crate::mesh::{Mesh, Points};
+use crate::scene::{Object, Scene};
+use crate::shape::Shape;
 
 impl Scene {
     /// The largest `p · n` of all points p of all objects but planes, for each n of `along`;

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::Rgb;
+use crate::color::Rgb;
 use crate::wording::{closest, quoted};
 
 /// Why a text is no colour.

@@ -11,8 +11,12 @@ pub(crate) mod toml;
 
 use std::fmt;
 
+use crate::diagnostic::{Diagnostic, Place, Span};
 use crate::format::model::Model;
-use crate::{Diagnostic, Limits, Place, Reading, Source, Span, View};
+use crate::frame::View;
+use crate::limits::Limits;
+use crate::scene::Reading;
+use crate::source::Source;
 
 /// What a file is written in.
 ///
@@ -201,7 +205,7 @@ fn refused(diagnostic: Diagnostic) -> Reading {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Memory;
+    use crate::source::Memory;
 
     #[test]
     fn an_ending_names_its_format_in_any_case() {

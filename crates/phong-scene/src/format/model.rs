@@ -1,6 +1,7 @@
 //! What a model file holds: geometry and the materials it names, without camera or lights.
 
-use crate::{Material, Mesh, Points};
+use crate::material::Material;
+use crate::mesh::{Mesh, Points};
 
 /// The contents of one model file.
 #[derive(Debug, Default)]

@@ -3,10 +3,8 @@
 use std::fmt;
 
 use super::Table;
+use crate::limits::LARGEST;
 use crate::wording::list;
-
-/// The largest magnitude of any number in a scene: its square still fits an f32.
-pub(crate) const LARGEST: f64 = 1e18;
 
 /// What may stand as a key's value. No number is ever NaN, infinite or beyond [`LARGEST`].
 #[derive(Clone, Copy, Debug)]

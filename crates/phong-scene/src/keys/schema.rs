@@ -2,7 +2,8 @@
 
 use serde_json::{Map, Value, json};
 
-use super::{BACKGROUND, Default, Key, Kind, LARGEST, Range, SCENE, Table};
+use super::{BACKGROUND, Default, Key, Kind, Range, SCENE, Table};
+use crate::limits::LARGEST;
 
 /// The scene text as a JSON schema (draft 7, which TOML editors understand).
 ///

@@ -11,7 +11,7 @@ pub(crate) use polygon::cut_polygons;
 
 use glam::{DVec3, Vec2, Vec3};
 
-use crate::Rgb;
+use crate::color::Rgb;
 
 /// In `normal_indices` and `uv_indices`: this corner has none (the geometric normal; (0, 0)).
 pub const NO_INDEX: u32 = u32::MAX;

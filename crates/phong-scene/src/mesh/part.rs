@@ -75,7 +75,7 @@ mod tests {
     use glam::{Vec2, Vec3};
 
     use super::*;
-    use crate::Rgb;
+    use crate::color::Rgb;
 
     #[test]
     fn a_part_keeps_its_corners_and_nothing_else() {

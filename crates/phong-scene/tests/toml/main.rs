@@ -5,6 +5,7 @@
 //! the scenes include. `PHONG_BLESS=1 cargo test -p phong-scene --test toml` writes the texts.
 
 mod cases;
+mod docs;
 mod generated;
 mod hostile;
 mod roundtrip;

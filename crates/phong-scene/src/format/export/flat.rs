@@ -4,8 +4,14 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::merge::{Merged, Size, merge, spheres};
 use super::{Account, Content, ExportOptions, File, split_all};
+use crate::color::Rgb;
+use crate::diagnostic::{Diagnostic, Place, Span};
+use crate::format::Format;
 use crate::format::mtl::{Difference, write_material};
-use crate::{Diagnostic, Format, Image, Light, Material, Object, Place, Rgb, Scene, Shape, Span};
+use crate::light::Light;
+use crate::material::Material;
+use crate::scene::{Image, Object, Scene};
+use crate::shape::Shape;
 
 /// Most names that a message lists.
 const NAMED: usize = 5;

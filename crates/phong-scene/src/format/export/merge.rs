@@ -5,10 +5,13 @@ use std::collections::BTreeMap;
 
 use glam::{DAffine3, DMat3, DVec2, DVec3, Vec3};
 
+use crate::color::Rgb;
+use crate::diagnostic::Diagnostic;
 use crate::format::origin::origin_of;
-use crate::{
-    Diagnostic, Group, Mesh, NO_INDEX, Object, Points, Rgb, Scene, Shape, cofactor, even_scale,
-};
+use crate::mesh::{Mesh, NO_INDEX, Points};
+use crate::scene::{Group, Object, Scene};
+use crate::shape::Shape;
+use crate::transform::{cofactor, even_scale};
 
 /// A scene's triangles.
 #[derive(Debug, Default)]

@@ -12,7 +12,11 @@ pub(crate) use split::split_all;
 
 use super::Format;
 use super::toml::write::write_toml;
-use crate::{Diagnostic, Material, Mesh, PlyEncoding, Points, Scene};
+use crate::diagnostic::Diagnostic;
+use crate::format::ply::PlyEncoding;
+use crate::material::Material;
+use crate::mesh::{Mesh, Points};
+use crate::scene::Scene;
 
 /// How a scene is to be written.
 ///

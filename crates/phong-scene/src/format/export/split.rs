@@ -3,7 +3,9 @@
 use std::collections::BTreeSet;
 
 use super::Account;
-use crate::{MaterialId, Object, Shape};
+use crate::material::MaterialId;
+use crate::scene::Object;
+use crate::shape::Shape;
 
 /// Every object, those of several materials cut into one for each, which is told.
 pub(crate) fn split_all(objects: Vec<Object>, account: &mut Account) -> Vec<Object> {

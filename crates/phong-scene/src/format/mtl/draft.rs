@@ -1,7 +1,9 @@
 //! A material as its statements say it, and what it becomes.
 
+use crate::color::Rgb;
+use crate::diagnostic::Span;
 use crate::format::text::Findings;
-use crate::{Dialect, Material, Model, Rgb, Span};
+use crate::material::{Dialect, Material, Model};
 
 /// What the statements behind one `newmtl` say.
 #[derive(Debug)]

@@ -43,7 +43,11 @@ pub(crate) use write::{Difference, write as write_material};
 
 use self::draft::Draft;
 use super::text::{Cursor, Decimal, Findings, Piece, blame, read_text, whole};
-use crate::{Diagnostic, Limits, Material, Rgb, Source, trouble};
+use crate::color::Rgb;
+use crate::diagnostic::Diagnostic;
+use crate::limits::Limits;
+use crate::material::Material;
+use crate::source::{Source, trouble};
 
 /// Reads an MTL file: its materials in order, those before an error included.
 pub(crate) fn read_mtl(
@@ -81,7 +85,7 @@ pub(crate) fn read_mtl(
             let name = &material.name;
             findings.warning(
                 "materials defined before",
-                || crate::Span { place, ..crate::Span::default() },
+                || crate::diagnostic::Span { place, ..crate::diagnostic::Span::default() },
                 || format!("the material `{name}` is defined on line {line}, which counts"),
             );
         } else {

@@ -3,8 +3,10 @@
 use std::fmt::Write as _;
 
 use super::draft::Draft;
+use crate::color::Rgb;
+use crate::diagnostic::Span;
 use crate::format::text::Findings;
-use crate::{AmbientRule, Distribution, Fresnel, Material, Model, Rgb, Shadowing, Span, Tint};
+use crate::material::{AmbientRule, Distribution, Fresnel, Material, Model, Shadowing, Tint};
 
 /// A difference between a material and what its statements mean.
 #[derive(Debug, PartialEq)]

@@ -6,10 +6,13 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::block::{BAD_INDEX, Block, Context, Indices, Mark, NO_COLOR};
+use crate::diagnostic::Span;
 use crate::format::model::{Model, Part, flat};
 use crate::format::text::{Cursor, Findings, Piece, TOLD, whole};
-use crate::mesh::cut_polygons;
-use crate::{Blob, Limits, Material, Mesh, NO_INDEX, Span};
+use crate::limits::Limits;
+use crate::material::Material;
+use crate::mesh::{Mesh, NO_INDEX, cut_polygons};
+use crate::source::Blob;
 
 /// What the three indices of a corner refer to.
 const KINDS: [&str; 3] = ["position", "texture coordinate", "normal"];

@@ -8,8 +8,10 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec2, Vec3};
 
+use crate::color::Rgb;
+use crate::diagnostic::Span;
 use crate::format::text::{Cursor, Findings, Piece, blame, take_digits};
-use crate::{NO_INDEX, Rgb, Span};
+use crate::mesh::NO_INDEX;
 
 /// An index that no file can use: out of range, said where it is resolved.
 pub(super) const BAD_INDEX: u32 = NO_INDEX - 1;

@@ -2,9 +2,12 @@
 
 use std::collections::BTreeMap;
 
+use crate::diagnostic::{Diagnostic, Span};
 use crate::format::mtl::read_mtl;
 use crate::format::text::Findings;
-use crate::{Diagnostic, Limits, Material, Source, Span};
+use crate::limits::Limits;
+use crate::material::Material;
+use crate::source::Source;
 
 /// Reads all files behind `mtllib`; of materials of one name, the first counts.
 ///

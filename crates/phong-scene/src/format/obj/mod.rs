@@ -34,7 +34,9 @@ use self::block::{Block, Context};
 use super::model::Model;
 use super::origin::{SAMPLES, origin_of};
 use super::text::{Cursor, Decimal, Lines, Piece, open_text, whole};
-use crate::{Blob, Diagnostic, Limits, Source, trouble};
+use crate::diagnostic::Diagnostic;
+use crate::limits::Limits;
+use crate::source::{Blob, Source, trouble};
 
 #[cfg(test)]
 mod tests;

@@ -4,7 +4,8 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::format::model::Part;
-use crate::{Memory, Mesh};
+use crate::mesh::Mesh;
+use crate::source::Memory;
 
 fn read(files: &[(&str, &[u8])], limits: &Limits) -> (Option<(Mesh, usize)>, String) {
     let source = files.iter().fold(Memory::new(), |m, (path, bytes)| m.with(*path, *bytes));

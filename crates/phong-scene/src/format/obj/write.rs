@@ -4,7 +4,8 @@ use std::io::{self, BufWriter, Write};
 
 use glam::DVec3;
 
-use crate::{Material, Mesh, NO_INDEX};
+use crate::material::Material;
+use crate::mesh::{Mesh, NO_INDEX};
 
 impl Mesh {
     /// Writes the mesh as OBJ text that reads back to the same bits: positions with their colours,

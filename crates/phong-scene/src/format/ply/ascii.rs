@@ -8,7 +8,7 @@ use glam::DVec3;
 use super::body::{Body, Contents, FaceList, ORIGIN_SAMPLES, face_list};
 use super::header::Element;
 use super::vertices::{Plan, Row, tell};
-use crate::Span;
+use crate::diagnostic::Span;
 use crate::format::origin::origin_of;
 use crate::format::text::{Cursor, Decimal, Findings, Lines, Piece, blame};
 

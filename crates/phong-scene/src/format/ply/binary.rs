@@ -13,9 +13,9 @@ use super::body::{Body, Contents, FaceList, ORIGIN_SAMPLES, face_list};
 use super::faces::{Faces, Kind, out_of_range};
 use super::header::{Element, Encoding, Type};
 use super::vertices::{Columns, Row, Vertices, tell};
-use crate::Blob;
 use crate::format::origin::origin_of;
 use crate::format::text::Findings;
+use crate::source::Blob;
 
 /// Bytes that a task reads at once.
 const BLOCK: usize = 256 << 10;

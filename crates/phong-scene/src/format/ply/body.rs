@@ -5,8 +5,10 @@ use std::sync::Arc;
 use super::faces::{Faces, Kind};
 use super::header::{Element, Header};
 use super::vertices::{Plan, Vertices};
+use crate::diagnostic::Span;
 use crate::format::text::{Findings, whole};
-use crate::{Blob, Limits, Span};
+use crate::limits::Limits;
+use crate::source::Blob;
 
 /// Positions that are looked at to find the origin.
 pub(super) const ORIGIN_SAMPLES: u64 = 4096;

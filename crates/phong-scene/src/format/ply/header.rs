@@ -3,8 +3,9 @@
 use std::io;
 use std::sync::Arc;
 
+use crate::diagnostic::Span;
 use crate::format::text::{Cursor, Decimal, Findings, Piece, whole};
-use crate::{Blob, Span};
+use crate::source::Blob;
 
 /// Bytes that a header may take.
 const LONGEST: usize = 1 << 20;

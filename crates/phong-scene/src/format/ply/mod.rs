@@ -45,8 +45,10 @@ use self::header::{Encoding, Header};
 use self::vertices::{Plan, RADIUS};
 use super::model::{Model, Part, flat};
 use super::text::{Findings, whole};
+use crate::diagnostic::Diagnostic;
+use crate::limits::Limits;
 use crate::mesh::cut_polygons;
-use crate::{Diagnostic, Limits, Source, trouble};
+use crate::source::{Source, trouble};
 
 /// Reads a PLY file; `None` if a diagnostic is an error. A file without faces is a cloud of
 /// points, drawn as spheres of `default_radius` where the file gives none.

@@ -4,7 +4,9 @@ use glam::Vec3;
 use proptest::prelude::*;
 
 use super::*;
-use crate::{Memory, Mesh, Points, Rgb};
+use crate::color::Rgb;
+use crate::mesh::{Mesh, Points};
+use crate::source::Memory;
 
 fn model(bytes: &[u8], limits: &Limits, radius: Option<f32>) -> (Option<Part>, String) {
     let source = Memory::new().with("a.ply", bytes);
@@ -246,7 +248,7 @@ fn what_is_written_reads_back_to_the_bit() {
         positions: vec![Vec3::ZERO, Vec3::X, Vec3::new(0.1, 1e-7, 0.0), Vec3::Z],
         indices: vec![[0, 1, 2], [0, 2, 3]],
         normals: vec![Vec3::Z, Vec3::X],
-        normal_indices: vec![[0, 0, 0], [1, 0, crate::NO_INDEX]],
+        normal_indices: vec![[0, 0, 0], [1, 0, crate::mesh::NO_INDEX]],
         colors: [0.1, 0.5, 2.0, 0.0].map(Rgb::grey).to_vec(),
         ..Mesh::default()
     };

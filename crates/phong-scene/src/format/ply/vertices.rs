@@ -3,8 +3,10 @@
 use glam::{DVec3, Vec2, Vec3};
 
 use super::header::{Element, Type};
+use crate::color::{Rgb, srgb_decode};
+use crate::diagnostic::Span;
 use crate::format::text::Findings;
-use crate::{Mesh, Points, Rgb, Span, srgb_decode};
+use crate::mesh::{Mesh, Points};
 
 /// What a number of a vertex can be: places in [`Row`].
 pub(super) const RADIUS: usize = 3;

@@ -5,7 +5,8 @@ use std::io::{self, Write};
 
 use glam::{DVec3, Vec2, Vec3};
 
-use crate::{Mesh, NO_INDEX, Points, Rgb};
+use crate::color::Rgb;
+use crate::mesh::{Mesh, NO_INDEX, Points};
 
 /// How numbers stand in a PLY file that is written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -2,7 +2,8 @@
 
 use std::io;
 
-use crate::{Blob, Limits, Source};
+use crate::limits::Limits;
+use crate::source::{Blob, Source};
 
 /// Text that was decoded into memory.
 struct Decoded(Vec<u8>);

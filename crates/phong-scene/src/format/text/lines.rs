@@ -12,7 +12,8 @@ use rayon::prelude::*;
 
 use super::number::Decimal;
 use super::report::span;
-use crate::{Blob, Span};
+use crate::diagnostic::Span;
+use crate::source::Blob;
 
 /// Bytes of a piece, about.
 const PIECE: usize = 512 << 10;
@@ -385,7 +386,7 @@ impl<'a> Cursor<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Memory, Source};
+    use crate::source::{Memory, Source};
 
     /// Every line of a text as the parsers meet it, with its number.
     fn walk(text: &str, joined: bool) -> Vec<(u64, u64, String)> {

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::{Diagnostic, Place, Severity, Span};
+use crate::diagnostic::{Diagnostic, Place, Severity, Span};
 
 /// How many findings of one kind are told in full.
 pub(crate) const TOLD: usize = 5;

@@ -6,8 +6,10 @@ use glam::DAffine3;
 
 use super::notes::Notes;
 use super::text::Spot;
+use crate::diagnostic::{Diagnostic, Place};
+use crate::mesh::Mesh;
+use crate::shape::Shape;
 use crate::wording::quoted;
-use crate::{Diagnostic, Mesh, Place, Shape};
 
 /// Things by name, in the order of the text.
 #[derive(Debug)]

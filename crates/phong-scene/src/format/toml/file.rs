@@ -8,7 +8,10 @@ use super::table::Values;
 use super::text::{self, Spot, Text};
 use crate::format::model::Part;
 use crate::format::{Format, models_are_read_from, read_model};
-use crate::{Mesh, Points, Shape, trouble, wording};
+use crate::mesh::{Mesh, Points};
+use crate::shape::Shape;
+use crate::source::trouble;
+use crate::wording;
 
 /// Most files that a scene may include, those included by others too: a file that includes the
 /// next one twice, and so on, would otherwise double the work at every step.

@@ -5,7 +5,7 @@ use super::notes::Notes;
 
 use super::resolve::say_unknown_name;
 use super::text::Spot;
-use crate::Limits;
+use crate::limits::Limits;
 use crate::wording::list;
 
 /// Most objects that a scene's instances may unfold into.

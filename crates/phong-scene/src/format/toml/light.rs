@@ -2,7 +2,7 @@
 
 use super::notes::Notes;
 use super::table::Values;
-use crate::{Light, LightKind};
+use crate::light::{Light, LightKind};
 
 /// The light that is the `number`th of the scene; what is wrong with it has been said.
 pub(super) fn light(v: &Values, number: usize, notes: &mut Notes) -> Option<Light> {

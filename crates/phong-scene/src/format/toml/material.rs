@@ -2,9 +2,9 @@
 
 use super::notes::Notes;
 use super::table::Values;
-use crate::{
-    AmbientRule, Dialect, Distribution, Fresnel, Material, Model, Rgb, Shadowing, Tint, Viewer,
-    WardForm,
+use crate::color::Rgb;
+use crate::material::{
+    AmbientRule, Dialect, Distribution, Fresnel, Material, Model, Shadowing, Tint, Viewer, WardForm,
 };
 
 /// A material; what is wrong with it has been said.

@@ -23,7 +23,10 @@ mod text;
 mod value;
 pub(crate) mod write;
 
-use crate::{Diagnostic, Limits, Place, Reading, Source, Span};
+use crate::diagnostic::{Diagnostic, Place, Span};
+use crate::limits::Limits;
+use crate::scene::Reading;
+use crate::source::Source;
 
 /// Reads a scene and what it includes.
 pub(crate) fn read_toml(path: &str, source: &dyn Source, limits: &Limits) -> Reading {

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::text::{Spot, Text};
-use crate::{Diagnostic, Place, Severity, Span};
+use crate::diagnostic::{Diagnostic, Place, Severity, Span};
 
 /// Most diagnostics that are told; the rest is counted, and said to be. A generated file may be
 /// wrong a million times in the same way, and each takes some 700 bytes to tell.

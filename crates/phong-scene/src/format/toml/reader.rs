@@ -12,9 +12,16 @@ use super::notes::Notes;
 use super::table::{Values, say_unknown};
 use super::text::{Spot, Text};
 use super::{file, light, material, settings, shape, syntax};
+use crate::camera::Camera;
+use crate::color::Rgb;
+use crate::diagnostic::Diagnostic;
 use crate::keys::{self, Kind, Table};
+use crate::light::Light;
+use crate::limits::Limits;
+use crate::material::Material;
+use crate::scene::{Image, Scene};
+use crate::source::Source;
 use crate::wording::quoted;
-use crate::{Camera, Diagnostic, Image, Light, Limits, Material, Rgb, Scene, Source};
 
 /// Reads a scene's files; names between them are looked up when all are read.
 pub(super) struct Reader<'a> {

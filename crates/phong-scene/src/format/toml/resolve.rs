@@ -8,8 +8,11 @@ use super::notes::Notes;
 use super::reader::Reader;
 use super::text::Spot;
 use crate::check::check;
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::material::{Material, MaterialId};
+use crate::scene::{Group, Object, Scene};
+use crate::shape::{GroupId, Shape};
 use crate::wording::{closest, list, quoted};
-use crate::{Diagnostic, Group, GroupId, Material, MaterialId, Object, Scene, Severity, Shape};
 
 /// Most names that a message lists.
 const MOST_LISTED: usize = 12;

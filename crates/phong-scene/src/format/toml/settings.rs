@@ -2,7 +2,8 @@
 
 use super::notes::Notes;
 use super::table::Values;
-use crate::{Camera, CameraKind, FilterKind, Image};
+use crate::camera::{Camera, CameraKind};
+use crate::scene::{FilterKind, Image};
 
 /// `[image]`; what is wrong with it has been said.
 pub(super) fn image(v: &Values) -> Option<Image> {

@@ -5,7 +5,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use super::notes::Notes;
 use super::table::Values;
 use super::value::is_regular;
-use crate::Shape;
+use crate::shape::Shape;
 
 /// A shape of this kind; `None`: something is wrong, which has been said.
 pub(super) fn shape(kind: &str, v: &Values, notes: &mut Notes) -> Option<Shape> {

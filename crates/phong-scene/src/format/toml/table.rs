@@ -5,9 +5,11 @@ use toml::de::DeTable;
 use super::notes::Notes;
 use super::text::Spot;
 use super::value::{Value, ValueReader};
+use crate::color::Rgb;
+use crate::diagnostic::Severity;
 use crate::keys::{Default, Key, Kind, Table};
+use crate::scene::Background;
 use crate::wording::{closest, list};
-use crate::{Background, Rgb, Severity};
 use glam::{DAffine3, DVec2, DVec3, DVec4};
 
 /// What one table of the text says: every value checked, every default at hand.

@@ -3,7 +3,9 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::{Limits, Place, Source, Span, trouble};
+use crate::diagnostic::{Place, Span};
+use crate::limits::Limits;
+use crate::source::{Source, trouble};
 
 /// Longest excerpt of a line, in characters; longer lines are cut around the place.
 const EXCERPT: usize = 160;

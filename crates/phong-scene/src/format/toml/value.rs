@@ -7,9 +7,11 @@ use toml::de::DeValue;
 use super::notes::Notes;
 use super::table::Values;
 use super::text::Spot;
-use crate::keys::{self, Key, Kind, LARGEST, Range};
+use crate::color::Rgb;
+use crate::keys::{self, Key, Kind, Range};
+use crate::limits::LARGEST;
+use crate::scene::Background;
 use crate::wording::{closest, quoted};
-use crate::{Background, Rgb};
 
 /// A value, read or to be written.
 #[derive(Clone, Debug, PartialEq)]
@@ -206,7 +208,7 @@ impl ValueReader<'_> {
         let channels = match value.get_ref() {
             DeValue::String(text) => match text.parse() {
                 Ok(color) => return Some(color),
-                Err(crate::ColorError { message, help }) => {
+                Err(crate::color::ColorError { message, help }) => {
                     let spot = self.spot(value);
                     self.notes.error(spot, message).help = help;
                     return None;

@@ -5,11 +5,15 @@
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::text::{degrees, short};
+use crate::camera::{Camera, CameraKind};
+use crate::color::Rgb;
 use crate::format::toml::value::Value;
-use crate::{
-    AmbientRule, Background, Camera, CameraKind, Dialect, Distribution, FilterKind, Fresnel, Image,
-    Light, LightKind, Material, Model, Rgb, Shadowing, Shape, Tint, Viewer, WardForm,
+use crate::light::{Light, LightKind};
+use crate::material::{
+    AmbientRule, Dialect, Distribution, Fresnel, Material, Model, Shadowing, Tint, Viewer, WardForm,
 };
+use crate::scene::{Background, FilterKind, Image};
+use crate::shape::Shape;
 
 pub(super) fn image(image: &Image, key: &str) -> Option<Value> {
     Some(match key {

@@ -14,9 +14,15 @@ use glam::DVec3;
 
 use super::table::default;
 use super::value::Value;
+use crate::diagnostic::{Diagnostic, Span};
 use crate::format::export::{Account, Content, File, free_name, split_all};
-use crate::keys::{self, Kind, LARGEST, Table};
-use crate::{Diagnostic, Material, MaterialId, Mesh, Object, PlyEncoding, Scene, Shape, Span};
+use crate::format::ply::PlyEncoding;
+use crate::keys::{self, Kind, Table};
+use crate::limits::LARGEST;
+use crate::material::{Material, MaterialId};
+use crate::mesh::Mesh;
+use crate::scene::{Object, Scene};
+use crate::shape::Shape;
 
 /// The scene as the text of `file` and the files that it names, in the order of the text.
 ///

@@ -4,9 +4,10 @@ use std::fmt::Write as _;
 
 use glam::{DVec2, DVec3};
 
+use crate::color::{Rgb, srgb_encode};
 use crate::format::toml::value::Value;
 use crate::keys::{BACKGROUND, Kind};
-use crate::{Background, Rgb, srgb_encode};
+use crate::scene::Background;
 
 /// A value as text; its kind tells how short it may be.
 pub(super) fn value(value: &Value, kind: Kind) -> String {
