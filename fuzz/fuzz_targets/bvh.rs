@@ -9,7 +9,7 @@
 
 use glam::Vec3;
 use libfuzzer_sys::fuzz_target;
-use phong_bvh::{BuildOptions, Bvh, Geometry, Hit, Hits8, Level, Preset, Ray, Rays8, Sphere};
+use phong_bvh::{BuildOptions, Bvh, Primitives, Hit, Hits8, Level, Preset, Ray, Rays8, Sphere};
 
 const PRESETS: &[Preset] = &[Preset::Fast, Preset::Balanced, Preset::Best, Preset::Compact];
 
@@ -54,7 +54,7 @@ fn repeat(shapes: &mut (Vec<Sphere>, Vec<Vec3>), step: Vec3, most: usize) {
     }
 }
 
-fn read(numbers: &mut Numbers<'_>) -> Option<(Vec<Geometry>, Vec<Ray>, &'static [Preset])> {
+fn read(numbers: &mut Numbers<'_>) -> Option<(Vec<Primitives>, Vec<Ray>, &'static [Preset])> {
     let (spheres, vertices, repeated) = (numbers.byte()?, numbers.byte()?, numbers.byte()?);
     let large = repeated >= 240;
     let most = if large { 128 * usize::from(numbers.byte()?) } else { 0 };
@@ -67,7 +67,7 @@ fn read(numbers: &mut Numbers<'_>) -> Option<(Vec<Geometry>, Vec<Ray>, &'static 
     let mut shapes = (spheres, (0..vertices).map_while(|_| numbers.point()).collect());
     repeat(&mut shapes, step, most);
     let (spheres, positions) = shapes;
-    let indices = (2..positions.len() as u32).map(|i| [i - 2, i - 1, i]).collect();
+    let indices: Vec<_> = (2..positions.len() as u32).map(|i| [i - 2, i - 1, i]).collect();
     let mut rays = Vec::new();
     while let (Some(origin), Some(dir)) = (numbers.point(), numbers.point()) {
         if let Some(dir) = dir.try_normalize() {
@@ -80,7 +80,7 @@ fn read(numbers: &mut Numbers<'_>) -> Option<(Vec<Geometry>, Vec<Ray>, &'static 
         rays.truncate(32);
         presets = std::slice::from_ref(&PRESETS[usize::from(repeated) % PRESETS.len()]);
     }
-    let geometry = vec![Geometry::Spheres(spheres), Geometry::Triangles { positions, indices }];
+    let geometry = vec![Primitives::spheres(spheres), Primitives::triangles(positions, indices)];
     Some((geometry, rays, presets))
 }
 

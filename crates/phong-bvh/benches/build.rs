@@ -30,7 +30,7 @@ use std::{
     time::Instant,
 };
 
-use phong_bvh::{BuildOptions, Bvh, Cost, Geometry, Hit, Preset, Ray};
+use phong_bvh::{BuildOptions, Bvh, Cost, Hit, Preset, Primitives, Ray};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 #[path = "peers/clock.rs"]
@@ -147,7 +147,7 @@ impl Bench {
     /// Builds with every preset, and Embree's default, in turn; the latter's ns and bytes come first.
     fn builds(
         &self,
-        geometry: &Geometry,
+        geometry: &Primitives,
         presets: &[(&str, Preset)],
         rounds: usize,
         with_peer: bool,
@@ -182,7 +182,7 @@ impl Bench {
         (theirs, ours)
     }
 
-    fn compare(&self, name: &str, geometry: &Geometry, options: &Options) {
+    fn compare(&self, name: &str, geometry: &Primitives, options: &Options) {
         let presets = &options.presets;
         let ([ns, their_bytes], ours) = self.builds(geometry, presets, 5, true);
         for (&(preset, _), Built { cpu, wall, bytes }) in presets.iter().zip(&ours) {
@@ -233,7 +233,7 @@ impl Bench {
         kind: &str,
         most: u32,
         presets: &[(&'static str, Preset)],
-        make: fn(u32) -> Geometry,
+        make: fn(u32) -> Primitives,
     ) {
         let steps = (3..8).flat_map(|power| [1, 2, 5].map(|digit| digit * 10_u32.pow(power)));
         for count in steps.filter(|&count| count <= most) {
@@ -248,13 +248,13 @@ impl Bench {
     }
 }
 
-fn build(geometry: Geometry, preset: Preset) -> Bvh {
+fn build(geometry: Primitives, preset: Preset) -> Bvh {
     Bvh::build(vec![geometry], BuildOptions { preset, ..BuildOptions::default() })
         .expect("fewer than 2³² primitives")
 }
 
 /// A terrain of about `count` triangles.
-fn terrain(count: u32) -> Geometry {
+fn terrain(count: u32) -> Primitives {
     scenes::terrain(f64::from(count / 2).sqrt() as u32 + 1)
 }
 

@@ -16,7 +16,7 @@
 use std::{env, fs, hint::black_box, io, path::Path, process::Command, process::ExitCode};
 
 use glam::{DAffine3, DQuat, DVec3, Vec3, swizzles::Vec3Swizzles};
-use phong_bvh::{BuildOptions, Bvh, Canonical, Geometry, Hit, Ray, Solid, Sphere};
+use phong_bvh::{BuildOptions, Bvh, Canonical, Hit, Primitives, Ray, Solid, Sphere};
 
 const CASES: [&str; 8] = [
     "triangles closest",
@@ -151,7 +151,7 @@ fn ray(i: usize) -> Ray {
 
 /// Twenty thousand primitives of one kind, along a sequence that fills [−1, 1]³ evenly (Roberts's:
 /// multiples of powers of the plastic number's cousin in three dimensions).
-fn geometry(scene: &str) -> Vec<Geometry> {
+fn geometry(scene: &str) -> Vec<Primitives> {
     const STEP: DVec3 =
         DVec3::new(0.819_172_513_396_164_5, 0.671_043_606_703_789_3, 0.549_700_477_901_970_2);
     let places = (1..=20_000).map(|i| 2.0 * (f64::from(i) * STEP).fract() - 1.0);
@@ -162,19 +162,19 @@ fn geometry(scene: &str) -> Vec<Geometry> {
                 [p, p + x, p + y].map(DVec3::as_vec3)
             };
             let positions: Vec<Vec3> = places.flat_map(corners).collect();
-            let indices = (0..20_000).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-            vec![Geometry::Triangles { positions, indices }]
+            let indices: Vec<_> = (0..20_000).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+            vec![Primitives::triangles(positions, indices)]
         }
         "spheres" => {
             let sphere = |p: DVec3| Sphere { center: p.as_vec3(), radius: 0.015 };
-            vec![Geometry::Spheres(places.map(sphere).collect())]
+            vec![Primitives::spheres(places.map(sphere).collect::<Vec<_>>())]
         }
         "cylinders" => {
             let cylinder = |p: DVec3| {
                 let turn = DQuat::from_rotation_arc(DVec3::Z, p.normalize_or(DVec3::Z));
                 let scale = DVec3::new(0.008, 0.008, 0.04);
                 let to_world = DAffine3::from_scale_rotation_translation(scale, turn, p);
-                Geometry::Solid(Solid { shape: Canonical::Cylinder { capped: true }, to_world })
+                Primitives::Solid(Solid { shape: Canonical::Cylinder { capped: true }, to_world })
             };
             places.map(cylinder).collect()
         }

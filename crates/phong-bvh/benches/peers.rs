@@ -38,7 +38,7 @@ use std::{
     process::ExitCode,
 };
 
-use phong_bvh::{BuildOptions, Bvh, Geometry, Hit, Preset, Ray};
+use phong_bvh::{BuildOptions, Bvh, Hit, Preset, Primitives, Ray};
 
 #[path = "peers/clock.rs"]
 mod clock;
@@ -139,7 +139,7 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-fn measure(name: &str, geometry: Geometry, embree: Option<&Embree>, options: &Options) {
+fn measure(name: &str, geometry: Primitives, embree: Option<&Embree>, options: &Options) {
     let arrays = Arrays::of(&geometry);
     if let Some(embree) = embree {
         let presets = [(Flavour::Default, Preset::Balanced), (Flavour::Compact, Preset::Compact)];
@@ -148,7 +148,7 @@ fn measure(name: &str, geometry: Geometry, embree: Option<&Embree>, options: &Op
             compare_builds(name, &geometry, (embree, &arrays, flavour), preset, options);
         }
     }
-    let triangles = matches!(geometry, Geometry::Triangles { .. });
+    let triangles = matches!(geometry, Primitives::Triangles { .. });
     let bvh = build(geometry, Preset::Balanced);
     let scene = embree.map(|embree| embree.build(&arrays, Flavour::Default));
     let robust = embree.filter(|_| triangles).map(|embree| embree.build(&arrays, Flavour::Robust));
@@ -168,14 +168,14 @@ fn measure(name: &str, geometry: Geometry, embree: Option<&Embree>, options: &Op
     }
 }
 
-fn build(geometry: Geometry, preset: Preset) -> Bvh {
+fn build(geometry: Primitives, preset: Preset) -> Bvh {
     Bvh::build(vec![geometry], BuildOptions { preset, ..BuildOptions::default() })
         .expect("fewer than 2³² primitives")
 }
 
 fn compare_builds(
     name: &str,
-    geometry: &Geometry,
+    geometry: &Primitives,
     (embree, arrays, flavour): (&Embree, &Arrays, Flavour),
     preset: Preset,
     options: &Options,
@@ -301,7 +301,7 @@ impl Contest<'_> {
     /// How many of some answers are right, ours and theirs.
     fn judged(&self, differing: &[(usize, [Answer; 2])]) -> String {
         let geometry = &self.bvh.geometry()[0];
-        if differing.is_empty() || !matches!(geometry, Geometry::Triangles { .. }) {
+        if differing.is_empty() || !matches!(geometry, Primitives::Triangles { .. }) {
             return String::new();
         }
         let mut right = [0, 0];

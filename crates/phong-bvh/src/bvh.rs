@@ -5,7 +5,7 @@ use std::ops::Range;
 use thiserror::Error;
 
 use crate::{
-    Coordinates, Geometry, Hit, Hits8, Level, Ray, Rays8, Surface,
+    Coordinates, Hit, Hits8, Level, Primitives, Ray, Rays8, Surface,
     build::{self, Tree},
     level::{Kernel, Token},
     reference,
@@ -16,7 +16,7 @@ use crate::{
 /// A built hierarchy, with the geometry it was built from.
 #[derive(Debug)]
 pub struct Bvh {
-    geometry: Vec<Geometry>,
+    geometry: Vec<Primitives>,
     /// First primitive number of each geometry, and the total at the end.
     first: Vec<u32>,
     /// Indices of the planes among the geometry: they have no bounds and stay out of the tree.
@@ -109,7 +109,7 @@ impl Bvh {
     ///
     /// # Errors
     /// [`BuildError::TooMany`], [`BuildError::NoSuchLevel`].
-    pub fn build(geometry: Vec<Geometry>, options: BuildOptions) -> Result<Self, BuildError> {
+    pub fn build(geometry: Vec<Primitives>, options: BuildOptions) -> Result<Self, BuildError> {
         let level = options.level.unwrap_or_else(Level::detect);
         let token = Token::of(level).ok_or(BuildError::NoSuchLevel(level))?;
         let total: u64 = geometry.iter().map(|g| g.len() as u64).sum();
@@ -122,7 +122,7 @@ impl Bvh {
             end += g.len() as u32;
             end
         }));
-        let planes = (0..geometry.len()).filter(|&i| matches!(geometry[i], Geometry::Plane(_)));
+        let planes = (0..geometry.len()).filter(|&i| matches!(geometry[i], Primitives::Plane(_)));
         let planes = planes.collect();
         let tree = build::build(&geometry, &first, options.preset, token)
             .map_err(|build::TooLarge| BuildError::TooMany(total))?;
@@ -131,7 +131,7 @@ impl Bvh {
 
     /// The geometry, in the order it was given.
     #[inline]
-    pub fn geometry(&self) -> &[Geometry] {
+    pub fn geometry(&self) -> &[Primitives] {
         &self.geometry
     }
 
@@ -181,7 +181,7 @@ impl Bvh {
         let mut best = Best::new(ray.t_max);
         for &index in &self.planes {
             meter.primitive();
-            if let Geometry::Plane(plane) = &self.geometry[index]
+            if let Primitives::Plane(plane) = &self.geometry[index]
                 && let Some(t) = plane.intersect(ray)
             {
                 best.offer(t, self.first[index], 0.0, 0.0);
@@ -193,7 +193,7 @@ impl Bvh {
     /// Whether anything outside the tree is hit.
     fn blocked_outside(&self, ray: &Ray) -> bool {
         self.planes.iter().any(|&index| match &self.geometry[index] {
-            Geometry::Plane(plane) => plane.intersect(ray).is_some(),
+            Primitives::Plane(plane) => plane.intersect(ray).is_some(),
             _ => false,
         })
     }

@@ -3,27 +3,50 @@
 //! Triangles and spheres are met in f32: beyond coordinates of 10¹⁸, or below sizes of 10⁻¹⁸, their
 //! squares overflow or vanish, and hits are missed or made up; nothing worse happens.
 
+use std::sync::Arc;
+
 use glam::{DAffine3, DVec3, Vec3};
 
-/// A batch of primitives. Primitive numbers run through the batches in the order given.
+/// Primitives of one kind. Their arrays are shared: copies of a batch are copies of a reference.
+///
+/// ```
+/// use glam::Vec3;
+/// use phong_bvh::Primitives;
+///
+/// let triangle = Primitives::triangles(vec![Vec3::ZERO, Vec3::X, Vec3::Y], vec![[0, 1, 2]]);
+/// assert_eq!(triangle.clone().len(), 1);
+/// ```
 #[derive(Clone, Debug)]
-pub enum Geometry {
+pub enum Primitives {
     /// Indexed triangles; every index is in range. Degenerate ones are never hit.
     Triangles {
         /// Corners.
-        positions: Vec<Vec3>,
+        positions: Arc<Vec<Vec3>>,
         /// Three corners a triangle, counter-clockwise seen from the side of the geometric normal.
-        indices: Vec<[u32; 3]>,
+        indices: Arc<Vec<[u32; 3]>>,
     },
     /// Spheres.
-    Spheres(Vec<Sphere>),
+    Spheres(Arc<Vec<Sphere>>),
     /// One infinite plane: one primitive.
     Plane(Plane),
     /// One curved or flat solid under any invertible transform: one primitive.
     Solid(Solid),
 }
 
-impl Geometry {
+impl Primitives {
+    /// Indexed triangles, from arrays that are shared already or become so.
+    pub fn triangles(
+        positions: impl Into<Arc<Vec<Vec3>>>,
+        indices: impl Into<Arc<Vec<[u32; 3]>>>,
+    ) -> Self {
+        Self::Triangles { positions: positions.into(), indices: indices.into() }
+    }
+
+    /// Spheres, from an array that is shared already or becomes so.
+    pub fn spheres(spheres: impl Into<Arc<Vec<Sphere>>>) -> Self {
+        Self::Spheres(spheres.into())
+    }
+
     /// How many primitives the batch holds.
     pub fn len(&self) -> usize {
         match self {

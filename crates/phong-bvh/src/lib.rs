@@ -1,6 +1,6 @@
 //! Rays against primitives, eight at a time.
 //!
-//! The door is [`Bvh`]: build it from [`Geometry`], then ask [`Bvh::intersect`] (the closest hit)
+//! The door is [`Bvh`]: build it from [`Primitives`], then ask [`Bvh::intersect`] (the closest hit)
 //! or [`Bvh::occluded`] (any hit), for one ray or a bundle. This crate knows no colours, no scene
 //! and no files, and never imports another crate of the project.
 //!
@@ -26,7 +26,7 @@ mod wide;
 pub use aabb::Aabb;
 pub use bvh::{BuildError, BuildOptions, Bvh, Cost, Preset, Stats};
 pub use eights::{Hits8, Rays8, lanes};
-pub use geometry::{Canonical, Geometry, Plane, Solid, Sphere};
+pub use geometry::{Canonical, Plane, Primitives, Solid, Sphere};
 pub use level::{Kernel, Level};
 pub use ray::{Coordinates, Hit, Ray, Surface};
 pub use surface::{Surfaces8, offset_origin};

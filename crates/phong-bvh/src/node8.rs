@@ -12,7 +12,7 @@
 //! is a run of rows that means the same wherever it is put: subtrees are built apart, by as
 //! many threads as there are, and then laid end to end.
 
-use crate::Geometry;
+use crate::Primitives;
 
 /// Eight numbers: f32, or the bits of u32.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,12 +60,12 @@ pub(crate) enum Kind {
 
 impl Kind {
     /// The kind of leaf a geometry's primitives make, or none: they have no bounds.
-    pub(crate) const fn of(geometry: &Geometry) -> Option<Self> {
+    pub(crate) const fn of(geometry: &Primitives) -> Option<Self> {
         match geometry {
-            Geometry::Triangles { .. } => Some(Self::Triangles),
-            Geometry::Spheres(_) => Some(Self::Spheres),
-            Geometry::Solid(_) => Some(Self::Solid),
-            Geometry::Plane(_) => None,
+            Primitives::Triangles { .. } => Some(Self::Triangles),
+            Primitives::Spheres(_) => Some(Self::Spheres),
+            Primitives::Solid(_) => Some(Self::Solid),
+            Primitives::Plane(_) => None,
         }
     }
 }

@@ -4,7 +4,7 @@
 //! with the kernels; so what the two return is equal bit for bit.
 
 use crate::{
-    Bvh, Geometry, Hit, Ray,
+    Bvh, Hit, Primitives, Ray,
     primitives::{sphere, triangle},
     traverse::Best,
 };
@@ -17,8 +17,8 @@ pub(crate) fn intersect(bvh: &Bvh, ray: &Ray) -> Hit {
     for (index, geometry) in bvh.geometry().iter().enumerate() {
         let first = bvh.primitives(index).start;
         match geometry {
-            Geometry::Triangles { positions, indices } => {
-                for (prim, corners) in (first..).zip(indices) {
+            Primitives::Triangles { positions, indices } => {
+                for (prim, corners) in (first..).zip(&**indices) {
                     let corners = corners.map(|i| positions[i as usize]);
                     if !triangle::is_degenerate(corners)
                         && let Some([t, u, v]) = shear.intersect(corners)
@@ -27,19 +27,19 @@ pub(crate) fn intersect(bvh: &Bvh, ray: &Ray) -> Hit {
                     }
                 }
             }
-            Geometry::Spheres(spheres) => {
-                for (prim, sphere) in (first..).zip(spheres) {
+            Primitives::Spheres(spheres) => {
+                for (prim, sphere) in (first..).zip(&**spheres) {
                     if let Some(t) = closest.intersect(sphere) {
                         best.offer(t, prim, 0.0, 0.0);
                     }
                 }
             }
-            Geometry::Plane(plane) => {
+            Primitives::Plane(plane) => {
                 if let Some(t) = plane.intersect(ray) {
                     best.offer(t, first, 0.0, 0.0);
                 }
             }
-            Geometry::Solid(solid) => {
+            Primitives::Solid(solid) => {
                 if let Some(t) = solid.intersect(ray) {
                     best.offer(t, first, 0.0, 0.0);
                 }

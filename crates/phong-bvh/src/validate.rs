@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use crate::{
-    Aabb, Bvh, Geometry,
+    Aabb, Bvh, Primitives,
     build::Tree,
     node8::{Kind, NODE, REFS, Ref, Row, rows},
     primitives::{sphere, triangle},
@@ -29,13 +29,13 @@ pub(crate) fn validate(bvh: &Bvh) -> Result<(), String> {
 }
 
 /// Whether a primitive belongs into a tree.
-fn belongs(geometry: &Geometry, local: usize) -> bool {
+fn belongs(geometry: &Primitives, local: usize) -> bool {
     match geometry {
-        Geometry::Triangles { positions, indices } => {
+        Primitives::Triangles { positions, indices } => {
             !triangle::is_degenerate(indices[local].map(|i| positions[i as usize]))
         }
-        Geometry::Spheres(_) | Geometry::Solid(_) => true,
-        Geometry::Plane(_) => false,
+        Primitives::Spheres(_) | Primitives::Solid(_) => true,
+        Primitives::Plane(_) => false,
     }
 }
 
@@ -76,7 +76,7 @@ fn visit(bvh: &Bvh, at: Ref, bounds: &Aabb, seen: &mut [bool]) -> Result<(), Str
             let [locals, geometries]: &[Row; 2] = rows(tree, at.row());
             for lane in (0..8).filter(|&lane| locals.bits(lane) != u32::MAX) {
                 let (index, local) = (geometries.bits(lane) as usize, locals.bits(lane) as usize);
-                if let Geometry::Triangles { positions, indices } = &bvh.geometry()[index] {
+                if let Primitives::Triangles { positions, indices } = &bvh.geometry()[index] {
                     let [a, b, c] = indices[local].map(|i| positions[i as usize]);
                     let inside = Aabb { lo: a.min(b).min(c), hi: a.max(b).max(c) };
                     found(bvh.primitives(index).start + local as u32, inside)?;
@@ -94,7 +94,7 @@ fn visit(bvh: &Bvh, at: Ref, bounds: &Aabb, seen: &mut [bool]) -> Result<(), Str
         }
         Some(Kind::Solid) => {
             let row = tree[at.row()];
-            if let Geometry::Solid(solid) = &bvh.geometry()[row.bits(1) as usize] {
+            if let Primitives::Solid(solid) = &bvh.geometry()[row.bits(1) as usize] {
                 let [lo, hi] = solid.bounds();
                 found(row.bits(0), Aabb { lo, hi })?;
             }
@@ -111,14 +111,14 @@ mod tests {
     #[test]
     fn every_preset_makes_a_sound_tree_of_mixed_geometry() {
         let at = |i: u32| Vec3::new((i % 17) as f32, (i % 29) as f32, (i / 500) as f32 * 0.1);
-        let spheres = (0..40_000).map(|i| Sphere { center: at(i), radius: 0.3 }).collect();
+        let spheres: Vec<_> = (0..40_000).map(|i| Sphere { center: at(i), radius: 0.3 }).collect();
         let positions: Vec<Vec3> = (0..9_000).map(|i| at(i) * 1.7).collect();
-        let indices = (0..8_000).map(|i| [i, i + 1, i + 17]).collect();
+        let indices: Vec<_> = (0..8_000).map(|i| [i, i + 1, i + 17]).collect();
         let geometry = vec![
-            Geometry::Spheres(spheres),
-            Geometry::Triangles { positions, indices },
-            Geometry::Plane(crate::Plane { point: glam::DVec3::ZERO, normal: glam::DVec3::Z }),
-            Geometry::Solid(crate::Solid {
+            Primitives::spheres(spheres),
+            Primitives::triangles(positions, indices),
+            Primitives::Plane(crate::Plane { point: glam::DVec3::ZERO, normal: glam::DVec3::Z }),
+            Primitives::Solid(crate::Solid {
                 shape: crate::Canonical::Box,
                 to_world: glam::DAffine3::IDENTITY,
             }),

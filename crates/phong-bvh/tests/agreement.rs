@@ -3,7 +3,7 @@
 
 use glam::{DAffine3, DVec3, Vec3};
 use phong_bvh::{
-    BuildOptions, Bvh, Canonical, Geometry, Hit, Hits8, Level, Plane, Preset, Ray, Rays8, Solid,
+    BuildOptions, Bvh, Canonical, Hit, Hits8, Level, Plane, Preset, Primitives, Ray, Rays8, Solid,
     Sphere,
 };
 use proptest::prelude::*;
@@ -44,7 +44,7 @@ impl Numbers {
 }
 
 /// Some triangles, spheres, planes and solids: many coincide, are flat, thin, huge or tiny.
-fn geometry(numbers: &mut Numbers, most: usize) -> Vec<Geometry> {
+fn geometry(numbers: &mut Numbers, most: usize) -> Vec<Primitives> {
     let mut all = Vec::new();
     for _ in 0..numbers.below(4) {
         let (scale, at) = (numbers.scale(), numbers.point());
@@ -54,25 +54,25 @@ fn geometry(numbers: &mut Numbers, most: usize) -> Vec<Geometry> {
             0..=3 => {
                 let vertices = 3 + count / 2;
                 let positions = (0..vertices).map(|_| scale * (at + size * numbers.point()));
-                let positions = positions.collect();
-                let indices = (0..count)
+                let positions: Vec<_> = positions.collect();
+                let indices: Vec<_> = (0..count)
                     .map(|_| [0; 3].map(|_: u32| numbers.below(vertices) as u32))
                     .collect();
-                Geometry::Triangles { positions, indices }
+                Primitives::triangles(positions, indices)
             }
-            4 | 5 => Geometry::Spheres(
+            4 | 5 => Primitives::spheres(
                 (0..count)
                     .map(|_| Sphere {
                         center: scale * (at + size * numbers.point()),
                         radius: scale * size * (0.01 + numbers.signed().abs()),
                     })
-                    .collect(),
+                    .collect::<Vec<_>>(),
             ),
-            6 => Geometry::Plane(Plane {
+            6 => Primitives::Plane(Plane {
                 point: numbers.point().as_dvec3(),
                 normal: [DVec3::X, DVec3::Y, DVec3::new(0.6, 0.0, 0.8)][numbers.below(3)],
             }),
-            _ => Geometry::Solid(Solid {
+            _ => Primitives::Solid(Solid {
                 shape: [
                     Canonical::Sphere,
                     Canonical::Disc,
@@ -93,13 +93,13 @@ fn geometry(numbers: &mut Numbers, most: usize) -> Vec<Geometry> {
 }
 
 /// A ray towards a corner, a middle or nothing in particular; often along an axis or within a plane.
-fn ray(numbers: &mut Numbers, geometry: &[Geometry]) -> Ray {
+fn ray(numbers: &mut Numbers, geometry: &[Primitives]) -> Ray {
     let target = match geometry.get(numbers.below(geometry.len() + 1)) {
-        Some(Geometry::Triangles { positions, indices }) if !indices.is_empty() => {
+        Some(Primitives::Triangles { positions, indices }) if !indices.is_empty() => {
             let [a, b, c] = indices[numbers.below(indices.len())].map(|i| positions[i as usize]);
             [a, (a + b) / 2.0, a.lerp(b, 0.25), (a + b + c) / 3.0][numbers.below(4)]
         }
-        Some(Geometry::Spheres(spheres)) if !spheres.is_empty() => {
+        Some(Primitives::Spheres(spheres)) if !spheres.is_empty() => {
             let sphere = spheres[numbers.below(spheres.len())];
             sphere.center + sphere.radius * [Vec3::ZERO, Vec3::Y, numbers.point()][numbers.below(3)]
         }
@@ -136,7 +136,7 @@ fn levels() -> impl Iterator<Item = Level> {
 
 const PRESETS: [Preset; 4] = [Preset::Fast, Preset::Balanced, Preset::Best, Preset::Compact];
 
-fn agrees_with_brute_force(geometry: &[Geometry], rays: &[Ray]) {
+fn agrees_with_brute_force(geometry: &[Primitives], rays: &[Ray]) {
     let mut expected: Option<Vec<Hit>> = None;
     for (level, preset) in levels()
         .zip(PRESETS.iter().cycle())
@@ -198,7 +198,7 @@ proptest! {
                 Ray::new(origin, (rim - origin).try_normalize().unwrap_or(Vec3::X))
             })
             .collect();
-        agrees_with_brute_force(&[Geometry::Spheres(spheres)], &rays);
+        agrees_with_brute_force(&[Primitives::spheres(spheres)], &rays);
     }
 
     #[test]
@@ -244,11 +244,11 @@ proptest! {
 #[test]
 fn nothing_is_hit_where_there_is_nothing() {
     let ray = Ray::new(Vec3::ZERO, Vec3::X);
-    let flat = Geometry::Triangles { positions: vec![Vec3::X; 3], indices: vec![[0, 1, 2]; 40] };
+    let flat = Primitives::triangles(vec![Vec3::X; 3], vec![[0, 1, 2]; 40]);
     for geometry in [
         vec![],
-        vec![Geometry::Spheres(vec![])],
-        vec![Geometry::Triangles { positions: vec![], indices: vec![] }],
+        vec![Primitives::spheres(vec![])],
+        vec![Primitives::triangles(vec![], vec![])],
         vec![flat],
     ] {
         let bvh = Bvh::build(geometry, BuildOptions::default()).unwrap();
@@ -263,8 +263,7 @@ fn of_thousands_of_coincident_primitives_the_lowest_number_is_hit() {
         vec![Vec3::new(-1.0, -1.0, 2.0), Vec3::new(1.0, -1.0, 2.0), Vec3::new(0.0, 1.0, 2.0)];
     let indices = vec![[0, 1, 2]; 20_000];
     let spheres = vec![Sphere { center: Vec3::new(0.0, 0.0, 3.0), radius: 1.0 }; 20_000];
-    let geometry =
-        vec![Geometry::Spheres(spheres), Geometry::Triangles { positions: corners, indices }];
+    let geometry = vec![Primitives::spheres(spheres), Primitives::triangles(corners, indices)];
     let ray = Ray::new(Vec3::ZERO, Vec3::Z);
     for preset in PRESETS {
         let bvh = Bvh::build(geometry.clone(), BuildOptions { preset, level: None }).unwrap();
@@ -280,7 +279,7 @@ fn a_thousand_sizes_from_tiny_to_huge_make_no_tree_too_deep() {
         let size = libm::exp2f(i as f32 * 0.14 - 50.0);
         Sphere { center: Vec3::new(size, 0.0, size), radius: 0.4 * size }
     };
-    let geometry = vec![Geometry::Spheres((0..700).map(sphere).collect())];
+    let geometry = vec![Primitives::spheres((0..700).map(sphere).collect::<Vec<_>>())];
     let rays: Vec<Ray> = (0..700)
         .map(|i| {
             let Sphere { center, radius } = sphere(i);
@@ -301,7 +300,7 @@ fn a_tree_does_not_depend_on_the_number_of_threads() {
         .collect();
     let costs = [1, 2, 7].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let geometry = vec![Geometry::Spheres(spheres.clone())];
+        let geometry = vec![Primitives::spheres(spheres.clone())];
         let bvh = pool.install(|| Bvh::build(geometry, BuildOptions::default())).unwrap();
         let counted: Vec<_> = rays.iter().map(|ray| bvh.intersect_counted(ray)).collect();
         (bvh.stats(), counted)
@@ -318,8 +317,8 @@ fn a_hundred_thousand_primitives_in_order_are_all_found() {
         Vec3::new((heap * 3 % 8) as f32 + row as f32 * 0.007, column as f32 * 0.01, 0.0)
     };
     let count = 120_000;
-    let spheres = (0..count).map(|i| Sphere { center: place(i), radius: 0.004 }).collect();
-    let geometry = vec![Geometry::Spheres(spheres)];
+    let spheres: Vec<_> = (0..count).map(|i| Sphere { center: place(i), radius: 0.004 }).collect();
+    let geometry = vec![Primitives::spheres(spheres)];
     for preset in [Preset::Fast, Preset::Balanced] {
         let options = BuildOptions { preset, level: None };
         let bvh = Bvh::build(geometry.clone(), options).expect("few primitives");
@@ -348,7 +347,7 @@ fn no_ray_slips_between_the_triangles_of_a_closed_mesh() {
     let positions: Vec<Vec3> = triangles.iter().flatten().copied().collect();
     let indices: Vec<[u32; 3]> =
         (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-    let bvh = Bvh::build(vec![Geometry::Triangles { positions, indices }], BuildOptions::default())
+    let bvh = Bvh::build(vec![Primitives::triangles(positions, indices)], BuildOptions::default())
         .unwrap();
     for origin in [Vec3::ZERO, Vec3::new(0.1, 0.2, -0.3), Vec3::new(0.0, 0.5, 0.0)] {
         for [a, b, c] in &triangles {

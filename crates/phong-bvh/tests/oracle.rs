@@ -14,7 +14,7 @@
 //! Every other answer is held to these bounds, and enough cases must lie outside of the doubt.
 
 use glam::{DVec3, Vec3};
-use phong_bvh::{BuildOptions, Bvh, Geometry, Hit, Ray, Sphere};
+use phong_bvh::{BuildOptions, Bvh, Hit, Primitives, Ray, Sphere};
 
 const U: f64 = 1.0 / 16_777_216.0;
 
@@ -137,7 +137,7 @@ fn ray(random: &mut Random, target: DVec3, dir: DVec3, size: f64) -> Ray {
     ray
 }
 
-fn bvh(geometry: Geometry) -> Bvh {
+fn bvh(geometry: Primitives) -> Bvh {
     Bvh::build(vec![geometry], BuildOptions::default()).expect("one primitive")
 }
 
@@ -166,8 +166,7 @@ fn a_triangle_is_hit_where_f64_says() {
         let graze = along.normalize_or(DVec3::X) + random.of(&[1e-2, 1e-5]) * random.point();
         let dir = if random.bits().is_multiple_of(4) { graze } else { random.point() };
         let ray = ray(&mut random, target, dir, scale);
-        let geometry =
-            Geometry::Triangles { positions: corners.to_vec(), indices: vec![[0, 1, 2]] };
+        let geometry = Primitives::triangles(corners.to_vec(), vec![[0, 1, 2]]);
         let bvh = bvh(geometry);
         let (hit, verdict) = (bvh.intersect(&ray), triangle(&ray, corners));
         if !holds(verdict, hit, &(ray, corners)) {
@@ -198,7 +197,7 @@ fn a_sphere_is_hit_where_f64_says() {
         let target = random.of(&[c, c + r * beside * 0.5, c + r * beside * graze]);
         let ray = ray(&mut random, target, dir, scale);
         let s = Sphere { center, radius };
-        let bvh = bvh(Geometry::Spheres(vec![s]));
+        let bvh = bvh(Primitives::spheres(vec![s]));
         let (hit, verdict) = (bvh.intersect(&ray), sphere(&ray, &s));
         if !holds(verdict, hit, &(ray, s)) {
             doubts += 1;

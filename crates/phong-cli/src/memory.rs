@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use phong_bvh::{Bvh, Geometry};
+use phong_bvh::{Bvh, Primitives};
 
 /// The most bytes this process has held at once; `None` where the system does not say.
 pub(crate) fn peak() -> Option<u64> {
@@ -24,13 +24,13 @@ fn kilobytes(file: &str, key: &str) -> Option<u64> {
 
 /// Bytes that a hierarchy takes, its geometry included.
 pub(crate) fn of_hierarchy(bvh: &Bvh) -> u64 {
-    let bytes = |geometry: &Geometry| match geometry {
-        Geometry::Triangles { positions, indices } => {
+    let bytes = |geometry: &Primitives| match geometry {
+        Primitives::Triangles { positions, indices } => {
             size_of_val(&positions[..]) + size_of_val(&indices[..])
         }
-        Geometry::Spheres(all) => size_of_val(&all[..]),
-        Geometry::Plane(plane) => size_of_val(plane),
-        Geometry::Solid(solid) => size_of_val(solid),
+        Primitives::Spheres(all) => size_of_val(&all[..]),
+        Primitives::Plane(plane) => size_of_val(plane),
+        Primitives::Solid(solid) => size_of_val(solid),
     };
     bvh.stats().bytes + bvh.geometry().iter().map(bytes).sum::<usize>() as u64
 }

@@ -9,7 +9,7 @@ mod geometry;
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*, u32x8};
 use glam::{DVec3, Vec3};
 use phong_bvh::{
-    BuildError, BuildOptions, Bvh, Coordinates, Geometry, Hit, Hits8, Preset, Ray, Surface, lanes,
+    BuildError, BuildOptions, Bvh, Coordinates, Hit, Hits8, Preset, Primitives, Ray, Surface, lanes,
 };
 use phong_scene::{Image, MaterialId, Place, Rgb, Scene};
 use thiserror::Error;
@@ -342,7 +342,7 @@ impl CompiledScene {
     #[inline]
     fn corners(&self, geometry: usize, local: u32) -> Option<[u32; 3]> {
         match &self.bvh.geometry()[geometry] {
-            Geometry::Triangles { indices, .. } => Some(indices[local as usize]),
+            Primitives::Triangles { indices, .. } => Some(indices[local as usize]),
             _ => None,
         }
     }

@@ -11,7 +11,7 @@ use std::{
 
 use glam::Vec3;
 use libloading::Library;
-use phong_bvh::{Geometry, Hit, Ray};
+use phong_bvh::{Hit, Primitives, Ray};
 
 type Handle = *mut c_void;
 type Intersect1 = unsafe extern "C" fn(Handle, *mut RayHit, *mut Arguments);
@@ -221,19 +221,19 @@ pub(crate) struct Arrays {
 }
 
 impl Arrays {
-    pub(crate) fn of(geometry: &Geometry) -> Self {
+    pub(crate) fn of(geometry: &Primitives) -> Self {
         const TRIANGLE: u32 = 0;
         const SPHERE_POINT: u32 = 50;
         let (kind, mut vertices, indices) = match geometry {
-            Geometry::Triangles { positions, indices } => {
+            Primitives::Triangles { positions, indices } => {
                 let vertices = positions.iter().flat_map(Vec3::to_array).collect::<Vec<_>>();
-                (TRIANGLE, vertices, indices.clone())
+                (TRIANGLE, vertices, indices.to_vec())
             }
-            Geometry::Spheres(spheres) => {
+            Primitives::Spheres(spheres) => {
                 let four = |s: &phong_bvh::Sphere| [s.center.x, s.center.y, s.center.z, s.radius];
                 (SPHERE_POINT, spheres.iter().flat_map(four).collect(), Vec::new())
             }
-            Geometry::Plane(_) | Geometry::Solid(_) => panic!("Embree has no such primitive"),
+            Primitives::Plane(_) | Primitives::Solid(_) => panic!("Embree has no such primitive"),
         };
         vertices.extend([0.0; 4]);
         Self { kind, vertices, indices }

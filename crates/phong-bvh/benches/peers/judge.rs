@@ -1,15 +1,15 @@
 //! Who is right where ours and Embree's differ: every triangle against the ray, in f64.
 
 use glam::DVec3;
-use phong_bvh::{Geometry, Ray};
+use phong_bvh::{Primitives, Ray};
 
 /// Judging takes every triangle: so many rays are enough.
 pub(crate) const CASES: usize = 200;
 
 /// Where a ray first meets a triangle; none: nowhere. Möller and Trumbore's way: of f32 numbers, its
 /// products have no error to speak of in f64.
-pub(crate) fn closest(geometry: &Geometry, ray: &Ray) -> Option<f64> {
-    let Geometry::Triangles { positions, indices } = geometry else { return None };
+pub(crate) fn closest(geometry: &Primitives, ray: &Ray) -> Option<f64> {
+    let Primitives::Triangles { positions, indices } = geometry else { return None };
     let (o, d) = (ray.origin.as_dvec3(), ray.dir.as_dvec3());
     let meet = |corners: &[u32; 3]| {
         let [a, b, c] = corners.map(|i| positions[i as usize].as_dvec3());

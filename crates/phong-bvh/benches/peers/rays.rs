@@ -1,7 +1,7 @@
 //! What is asked: rays of a picture, and the rays that leave what they hit.
 
 use glam::Vec3;
-use phong_bvh::{Bvh, Geometry, Hit, Ray, offset_origin};
+use phong_bvh::{Bvh, Hit, Primitives, Ray, offset_origin};
 
 use crate::scenes::Random;
 
@@ -17,7 +17,7 @@ pub(crate) struct Set {
 }
 
 /// A pinhole camera's rays for `side`² pixels, tile by tile of 8 × 8, in rows within each.
-pub(crate) fn primary(geometry: &Geometry, side: u32) -> Vec<Ray> {
+pub(crate) fn primary(geometry: &Primitives, side: u32) -> Vec<Ray> {
     let (low, high) = bounds(geometry);
     let (middle, size) = (0.5 * (low + high), (high - low).max_element());
     let eye = middle + size * Vec3::new(0.35, 0.55, 0.9);
@@ -110,15 +110,15 @@ impl Start {
     }
 }
 
-fn bounds(geometry: &Geometry) -> (Vec3, Vec3) {
+fn bounds(geometry: &Primitives) -> (Vec3, Vec3) {
     let around = |points: &mut dyn Iterator<Item = (Vec3, f32)>| {
         points.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), (p, r)| {
             (low.min(p - r), high.max(p + r))
         })
     };
     match geometry {
-        Geometry::Triangles { positions, .. } => around(&mut positions.iter().map(|&p| (p, 0.0))),
-        Geometry::Spheres(spheres) => around(&mut spheres.iter().map(|s| (s.center, s.radius))),
-        Geometry::Plane(_) | Geometry::Solid(_) => (Vec3::NEG_ONE, Vec3::ONE),
+        Primitives::Triangles { positions, .. } => around(&mut positions.iter().map(|&p| (p, 0.0))),
+        Primitives::Spheres(spheres) => around(&mut spheres.iter().map(|s| (s.center, s.radius))),
+        Primitives::Plane(_) | Primitives::Solid(_) => (Vec3::NEG_ONE, Vec3::ONE),
     }
 }

@@ -3,13 +3,13 @@
 use std::{fs, io, path::Path};
 
 use glam::Vec3;
-use phong_bvh::{Geometry, Sphere};
+use phong_bvh::{Primitives, Sphere};
 
 /// The names of all scenes.
 pub(crate) const NAMES: [&str; 6] = ["bunny", "dragon", "terrain", "sticks", "spheres", "clusters"];
 
 /// A scene by name; the meshes are read from `folder`.
-pub(crate) fn load(name: &str, folder: &Path) -> io::Result<Geometry> {
+pub(crate) fn load(name: &str, folder: &Path) -> io::Result<Primitives> {
     Ok(match name {
         "bunny" | "dragon" => mesh(&folder.join(format!("{name}.mesh")))?,
         "terrain" => terrain(1025),
@@ -54,7 +54,7 @@ impl Random {
 }
 
 /// The file `setup.sh` writes: counts, positions, corners; little-endian.
-fn mesh(path: &Path) -> io::Result<Geometry> {
+fn mesh(path: &Path) -> io::Result<Primitives> {
     let bytes = fs::read(path)?;
     let (words, rest) = bytes.as_chunks::<4>();
     let count = |i: usize| words.get(i).map_or(0, |&word| u32::from_le_bytes(word) as usize);
@@ -63,14 +63,13 @@ fn mesh(path: &Path) -> io::Result<Geometry> {
         return Err(io::Error::new(io::ErrorKind::InvalidData, "not a mesh file, or cut short"));
     }
     let (positions, indices) = words[2..].as_chunks::<3>().0.split_at(vertices);
-    Ok(Geometry::Triangles {
-        positions: positions.iter().map(|p| Vec3::from(p.map(f32::from_le_bytes))).collect(),
-        indices: indices.iter().map(|t| t.map(u32::from_le_bytes)).collect(),
-    })
+    let positions = positions.iter().map(|p| Vec3::from(p.map(f32::from_le_bytes)));
+    let indices = indices.iter().map(|t| t.map(u32::from_le_bytes));
+    Ok(Primitives::triangles(positions.collect::<Vec<_>>(), indices.collect::<Vec<_>>()))
 }
 
 /// A square of `side`² heights, ten octaves of value noise: 2 (side − 1)² triangles.
-pub(crate) fn terrain(side: u32) -> Geometry {
+pub(crate) fn terrain(side: u32) -> Primitives {
     let mut height = vec![0.0_f32; (side * side) as usize];
     for octave in 1..=10_u32 {
         let cells = 1_u32 << octave;
@@ -99,14 +98,15 @@ pub(crate) fn terrain(side: u32) -> Geometry {
         let corner = k / (side - 1) * side + k % (side - 1);
         [[corner, corner + 1, corner + side], [corner + side, corner + 1, corner + side + 1]]
     };
-    Geometry::Triangles {
-        positions: (0..side * side).map(position).collect(),
-        indices: (0..(side - 1) * (side - 1)).flat_map(cell).collect(),
-    }
+    let indices = (0..(side - 1) * (side - 1)).flat_map(cell);
+    Primitives::triangles(
+        (0..side * side).map(position).collect::<Vec<_>>(),
+        indices.collect::<Vec<_>>(),
+    )
 }
 
 /// Square sticks, 250 times as long as they are thick, every way up: 12 triangles each.
-fn sticks(count: u32) -> Geometry {
+fn sticks(count: u32) -> Primitives {
     const FACES: [[u32; 3]; 12] = [
         [0, 2, 1],
         [1, 2, 3],
@@ -134,18 +134,18 @@ fn sticks(count: u32) -> Geometry {
         }
         indices.extend(FACES.map(|face| face.map(|corner| 8 * stick + corner)));
     }
-    Geometry::Triangles { positions, indices }
+    Primitives::triangles(positions, indices)
 }
 
 /// Small spheres all over a cube.
-pub(crate) fn uniform(count: u32) -> Geometry {
+pub(crate) fn uniform(count: u32) -> Primitives {
     let mut random = Random(1);
     let mut sphere = |_| Sphere { center: random.cube(), radius: 0.004 * (0.5 + random.unit()) };
-    Geometry::Spheres((0..count).map(&mut sphere).collect())
+    Primitives::spheres((0..count).map(&mut sphere).collect::<Vec<_>>())
 }
 
 /// Spheres of very different sizes, crowded around a few hundred places.
-fn clustered(count: u32) -> Geometry {
+fn clustered(count: u32) -> Primitives {
     let mut random = Random(2);
     let places: Vec<(Vec3, f32)> =
         (0..300).map(|_| (random.cube(), 0.02 + 0.1 * random.unit())).collect();
@@ -158,5 +158,5 @@ fn clustered(count: u32) -> Geometry {
         let size = size * size;
         Sphere { center, radius: spread * (0.002 + 0.04 * size * size * size) }
     };
-    Geometry::Spheres((0..count).map(sphere).collect())
+    Primitives::spheres((0..count).map(sphere).collect::<Vec<_>>())
 }

@@ -4,7 +4,7 @@ use fearless_simd::{Simd, f32x8, prelude::*};
 use glam::Vec3;
 use rayon::prelude::*;
 
-use crate::{Aabb, Geometry, primitives::triangle, simd::Rows};
+use crate::{Aabb, Primitives, primitives::triangle, simd::Rows};
 
 /// A primitive's box as `[−lo, index within its geometry, hi, index of the geometry]`.
 ///
@@ -57,9 +57,9 @@ pub(super) fn half_area(b: &[f32; 8]) -> f32 {
 
 /// A box of every primitive that has bounds and can be hit, and how many those are: not planes, not
 /// degenerate triangles.
-pub(super) fn of(geometry: &[Geometry]) -> (Rows, usize) {
+pub(super) fn of(geometry: &[Primitives]) -> (Rows, usize) {
     const CHUNK: usize = 1 << 14;
-    let bounded = |g: &Geometry| if matches!(g, Geometry::Plane(_)) { 0 } else { g.len() };
+    let bounded = |g: &Primitives| if matches!(g, Primitives::Plane(_)) { 0 } else { g.len() };
     let most = geometry.iter().map(bounded).sum();
     let mut boxes = Rows::zeroed(most);
     let mut rest = boxes.as_mut_slice();
@@ -88,10 +88,10 @@ pub(super) fn of(geometry: &[Geometry]) -> (Rows, usize) {
 }
 
 /// The boxes of the primitives of one geometry from number `first` on; how many there are.
-fn fill(boxes: &mut [Boxed], first: usize, geometry: &Geometry, index: usize) -> usize {
+fn fill(boxes: &mut [Boxed], first: usize, geometry: &Primitives, index: usize) -> usize {
     let mut used = boxes.len();
     match geometry {
-        Geometry::Triangles { positions, indices } => {
+        Primitives::Triangles { positions, indices } => {
             for (local, slot) in (first..).zip(boxes) {
                 let corners @ [a, b, c] = indices[local].map(|i| positions[i as usize]);
                 if triangle::is_degenerate(corners) {
@@ -102,7 +102,7 @@ fn fill(boxes: &mut [Boxed], first: usize, geometry: &Geometry, index: usize) ->
                 }
             }
         }
-        Geometry::Spheres(spheres) => {
+        Primitives::Spheres(spheres) => {
             for (local, slot) in (first..).zip(boxes) {
                 let sphere = spheres[local];
                 let radius = Vec3::splat(sphere.radius);
@@ -110,11 +110,11 @@ fn fill(boxes: &mut [Boxed], first: usize, geometry: &Geometry, index: usize) ->
                 *slot = Boxed::boxed(bounds, local, index);
             }
         }
-        Geometry::Solid(solid) => {
+        Primitives::Solid(solid) => {
             let [lo, hi] = solid.bounds();
             boxes[0] = Boxed::boxed(Aabb { lo, hi }, 0, index);
         }
-        Geometry::Plane(_) => {}
+        Primitives::Plane(_) => {}
     }
     used
 }

@@ -6,7 +6,7 @@ use super::{
     grow::{Branch, Shape},
 };
 use crate::{
-    Geometry,
+    Primitives,
     node8::{Kind, NODE, REFS, Ref, Row},
     primitives::{sphere, triangle},
     simd::prefetch_item,
@@ -96,7 +96,7 @@ fn leaf_rows(kind: Kind, indexed: bool) -> usize {
 
 /// Writes one subtree, or the tree over all of them.
 pub(super) struct Writer<'a> {
-    pub(super) geometry: &'a [Geometry],
+    pub(super) geometry: &'a [Primitives],
     pub(super) first: &'a [u32],
     pub(super) indexed: bool,
     pub(super) branches: &'a [Branch],
@@ -156,13 +156,13 @@ impl Writer<'_> {
         if !self.indexed {
             for b in &self.boxes[range(2 * AHEAD)] {
                 match &self.geometry[b.geometry()] {
-                    Geometry::Triangles { indices, .. } => prefetch_item(indices, b.local()),
-                    Geometry::Spheres(spheres) => prefetch_item(spheres, b.local()),
-                    Geometry::Solid(_) | Geometry::Plane(_) => {}
+                    Primitives::Triangles { indices, .. } => prefetch_item(indices, b.local()),
+                    Primitives::Spheres(spheres) => prefetch_item(spheres, b.local()),
+                    Primitives::Solid(_) | Primitives::Plane(_) => {}
                 }
             }
             for b in &self.boxes[range(AHEAD)] {
-                if let Geometry::Triangles { positions, indices } = &self.geometry[b.geometry()] {
+                if let Primitives::Triangles { positions, indices } = &self.geometry[b.geometry()] {
                     for &index in &indices[b.local()] {
                         prefetch_item(positions, index as usize);
                     }
@@ -193,7 +193,7 @@ impl Writer<'_> {
         for lane in 0..WIDTH {
             let b = boxes.get(lane).unwrap_or(&boxes[0]);
             match &self.geometry[b.geometry()] {
-                Geometry::Triangles { positions, indices } => {
+                Primitives::Triangles { positions, indices } => {
                     for (corner, &index) in indices[b.local()].iter().enumerate() {
                         let [x, y, z] = positions[index as usize].to_array();
                         block[3 * corner].0[lane] = x;
@@ -201,14 +201,14 @@ impl Writer<'_> {
                         block[3 * corner + 2].0[lane] = z;
                     }
                 }
-                Geometry::Spheres(spheres) => {
+                Primitives::Spheres(spheres) => {
                     let sphere = spheres[b.local()];
                     let [x, y, z] = sphere.center.to_array();
                     for (row, value) in [x, y, z, sphere.radius].into_iter().enumerate() {
                         block[row].0[lane] = value;
                     }
                 }
-                Geometry::Solid(_) | Geometry::Plane(_) => {}
+                Primitives::Solid(_) | Primitives::Plane(_) => {}
             }
             let number = if lane < boxes.len() { number(b) } else { f32::from_bits(u32::MAX) };
             block[block.len() - 1].0[lane] = number;

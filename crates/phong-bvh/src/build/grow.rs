@@ -14,7 +14,7 @@ use super::{
     sah::{Bins, Cut, Cuts, Run},
 };
 use crate::{
-    Geometry,
+    Primitives,
     level::{Kernel, Token},
     node8::{Kind, Ref},
 };
@@ -70,7 +70,7 @@ impl Subtree {
 /// What every step needs.
 #[derive(Clone, Copy)]
 pub(super) struct Grower<'a> {
-    pub(super) geometry: &'a [Geometry],
+    pub(super) geometry: &'a [Primitives],
     pub(super) settings: Settings,
     /// The kind of all primitives, if it is one.
     pub(super) only: Option<Kind>,

@@ -23,7 +23,7 @@ use self::{
 #[cfg(test)]
 use crate::node8::NODE;
 use crate::{
-    Geometry,
+    Primitives,
     bvh::Preset,
     level::Token,
     node8::{Kind, MAX_ROWS, Ref, Row},
@@ -74,7 +74,7 @@ pub(crate) const MOST_OF_ONE: usize = boxes::MOST;
 
 /// Builds the tree over all geometry that has bounds.
 pub(crate) fn build(
-    geometry: &[Geometry],
+    geometry: &[Primitives],
     first: &[u32],
     preset: Preset,
     token: Token,
@@ -96,7 +96,7 @@ pub(crate) fn build(
 }
 
 /// The kind of all primitives that have bounds, if it is one.
-fn only(geometry: &[Geometry]) -> Option<Kind> {
+fn only(geometry: &[Primitives]) -> Option<Kind> {
     let mut kinds = geometry.iter().filter(|g| !g.is_empty()).filter_map(Kind::of);
     let first = kinds.next()?;
     kinds.all(|kind| kind == first).then_some(first)
@@ -104,7 +104,7 @@ fn only(geometry: &[Geometry]) -> Option<Kind> {
 
 /// What is to be written.
 struct Plan<'a> {
-    geometry: &'a [Geometry],
+    geometry: &'a [Primitives],
     first: &'a [u32],
     indexed: bool,
     boxes: &'a [Boxed],

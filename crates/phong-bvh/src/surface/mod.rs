@@ -28,7 +28,7 @@ use self::point::{
     Point, corners, flat, line, on_plane, on_sphere, rounded, sphere, triangle, unit,
 };
 use crate::{
-    Bvh, Coordinates, Geometry, Hit, Hits8, Kernel, Ray, Rays8, Sphere, Surface, lanes,
+    Bvh, Coordinates, Hit, Hits8, Kernel, Primitives, Ray, Rays8, Sphere, Surface, lanes,
     primitives::{ellipsoid, solid::Patch},
 };
 
@@ -64,19 +64,19 @@ pub fn offset_origin(p: Vec3, p_error: Vec3, ng: Vec3, dir: Vec3) -> Vec3 {
 pub(crate) fn surface(bvh: &Bvh, ray: &Ray, hit: &Hit) -> Surface {
     let (index, local) = bvh.locate(hit.prim);
     let point = match &bvh.geometry()[index] {
-        Geometry::Triangles { positions, indices } => {
+        Primitives::Triangles { positions, indices } => {
             triangle(corners(positions, indices[local as usize]), hit.u.into(), hit.v.into())
         }
-        Geometry::Spheres(spheres) => {
+        Primitives::Spheres(spheres) => {
             let Sphere { center, radius } = spheres[local as usize];
             let (o, d) = line(ray);
             sphere(center.as_dvec3().to_array(), radius.into(), o, d, hit.t.into())
         }
-        Geometry::Plane(plane) => {
+        Primitives::Plane(plane) => {
             let (o, d) = line(ray);
             flat(plane, o, d)
         }
-        Geometry::Solid(solid) => {
+        Primitives::Solid(solid) => {
             let Patch { p, normal, curvature, .. } = solid.patch(ray, hit.t);
             let slack = f64::EPSILON * 64.0 * solid.largest();
             rounded(p.to_array(), unit(normal.to_array()), curvature, slack.to_array())
@@ -132,7 +132,7 @@ impl Kernel for Surfaces<'_> {
                 let same = left & within(&hits.prim, &range);
                 left &= !same;
                 match &bvh.geometry()[index] {
-                    Geometry::Solid(_) => {
+                    Primitives::Solid(_) => {
                         for lane in lanes(same) {
                             out.set(lane, surface(bvh, &rays.get(lane), &hits.get(lane)));
                         }
@@ -181,7 +181,7 @@ fn put<S: Simd>(simd: S, to: &mut [[f32; 8]; 3], lanes: mask32x8<S>, value: [f32
 #[inline(always)]
 fn eight<S: Simd>(
     simd: S,
-    geometry: &Geometry,
+    geometry: &Primitives,
     locals: &[usize; 8],
     rays: &Rays8,
     hits: &Hits8,
@@ -194,20 +194,20 @@ fn eight<S: Simd>(
     let (low_d, high_d) = ([dx.0, dy.0, dz.0], [dx.1, dy.1, dz.1]);
     let [a, b, c, d, e, f, g, h] = *locals;
     let (low, high) = match geometry {
-        Geometry::Triangles { positions, indices } => {
+        Primitives::Triangles { positions, indices } => {
             let (u, v) = (load(&hits.u), load(&hits.v));
             let four = |of| corners_of_four(simd, positions, indices, of);
             (triangle(four([a, b, c, d]), u.0, v.0), triangle(four([e, f, g, h]), u.1, v.1))
         }
-        Geometry::Spheres(spheres) => {
+        Primitives::Spheres(spheres) => {
             let t = load(&hits.t);
             let (center, radius) = four_spheres(simd, spheres, [a, b, c, d]);
             let low = sphere(center, radius, low_o, low_d, t.0);
             let (center, radius) = four_spheres(simd, spheres, [e, f, g, h]);
             (low, sphere(center, radius, high_o, high_d, t.1))
         }
-        Geometry::Plane(plane) => (flat(plane, low_o, low_d), flat(plane, high_o, high_d)),
-        Geometry::Solid(_) => unreachable!("solids are worked out one by one"),
+        Primitives::Plane(plane) => (flat(plane, low_o, low_d), flat(plane, high_o, high_d)),
+        Primitives::Solid(_) => unreachable!("solids are worked out one by one"),
     };
     let join = |l: [f64x4<S>; 3], h: [f64x4<S>; 3]| -> [f32x8<S>; 3] {
         [l[0].narrow(h[0]), l[1].narrow(h[1]), l[2].narrow(h[2])]
@@ -264,11 +264,11 @@ fn corners_of_four<S: Simd>(
 pub(crate) fn coordinates(bvh: &Bvh, ray: &Ray, hit: &Hit) -> Coordinates {
     let (index, local) = bvh.locate(hit.prim);
     let (normal, tangent, uv) = match &bvh.geometry()[index] {
-        Geometry::Triangles { positions, indices } => {
+        Primitives::Triangles { positions, indices } => {
             let [a, b, c] = corners(positions, indices[local as usize]).map(DVec3::from_array);
             ((b - a).cross(c - a), b - a, DVec2::new(hit.u.into(), hit.v.into()))
         }
-        Geometry::Spheres(spheres) => {
+        Primitives::Spheres(spheres) => {
             let Sphere { center, radius } = spheres[local as usize];
             let (o, d) = line(ray);
             let center = center.as_dvec3().to_array();
@@ -276,14 +276,14 @@ pub(crate) fn coordinates(bvh: &Bvh, ray: &Ray, hit: &Hit) -> Coordinates {
             let patch = ellipsoid::patch(DVec3::from_array(normal));
             (patch.normal, patch.tangent, patch.uv)
         }
-        Geometry::Plane(plane) => {
+        Primitives::Plane(plane) => {
             let [u, v] = plane.axes();
             let (o, d) = line(ray);
             let p = on_plane(plane.point.to_array(), plane.normal.to_array(), o, d);
             let from = DVec3::from_array(p) - plane.point;
             (plane.normal, u, DVec2::new(from.dot(u), from.dot(v)))
         }
-        Geometry::Solid(solid) => {
+        Primitives::Solid(solid) => {
             let patch = solid.patch(ray, hit.t);
             (patch.normal, patch.tangent, patch.uv)
         }

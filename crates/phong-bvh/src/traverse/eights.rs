@@ -5,7 +5,7 @@ use fearless_simd::{Simd, f32x8, mask32x8, prelude::*, u32x8};
 
 use super::columns::{highest, lowest};
 use crate::{
-    Geometry, Hits8, Plane, Rays8, lanes,
+    Hits8, Plane, Primitives, Rays8, lanes,
     level::Kernel,
     node8::Row,
     primitives::sphere::{BLOCK, Closest8},
@@ -14,7 +14,7 @@ use crate::{
 /// The geometry that has no bounds.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Planes<'a> {
-    pub(crate) geometry: &'a [Geometry],
+    pub(crate) geometry: &'a [Primitives],
     /// Which of the geometries are planes.
     pub(crate) which: &'a [usize],
     /// First primitive number of each geometry.
@@ -25,7 +25,7 @@ impl<'a> Planes<'a> {
     #[inline(always)]
     fn each(self) -> impl Iterator<Item = (&'a Plane, u32)> {
         self.which.iter().filter_map(move |&index| match &self.geometry[index] {
-            Geometry::Plane(plane) => Some((plane, self.first[index])),
+            Primitives::Plane(plane) => Some((plane, self.first[index])),
             _ => None,
         })
     }

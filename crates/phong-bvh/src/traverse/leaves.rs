@@ -7,7 +7,7 @@ use fearless_simd::{Simd, prelude::*};
 
 use super::{Best, World};
 use crate::{
-    Geometry, Ray,
+    Primitives, Ray,
     node8::{Kind, Ref, Row, rows},
     primitives::{
         sphere::{self, Closest, Closest8},
@@ -200,7 +200,7 @@ impl<S: Simd> Leaves<S> for Mixed<S> {
 fn solid(world: &World<'_>, ray: &Ray, leaf: Ref) -> (Option<f32>, u32) {
     let row = world.rows[leaf.row()];
     let t = match &world.geometry[row.bits(1) as usize] {
-        Geometry::Solid(solid) => solid.intersect(ray),
+        Primitives::Solid(solid) => solid.intersect(ray),
         _ => None,
     };
     (t, row.bits(0))
@@ -214,7 +214,7 @@ fn gather(world: &World<'_>, leaf: Ref) -> [Row; triangle::BLOCK] {
         let used = locals.bits(lane) != u32::MAX;
         let from = if used { lane } else { 0 };
         let (local, index) = (locals.bits(from) as usize, geometries.bits(from) as usize);
-        if let Geometry::Triangles { positions, indices } = &world.geometry[index] {
+        if let Primitives::Triangles { positions, indices } = &world.geometry[index] {
             for (corner, &vertex) in indices[local].iter().enumerate() {
                 let [x, y, z] = positions[vertex as usize].to_array();
                 block[3 * corner].0[lane] = x;

@@ -24,7 +24,7 @@ use self::{
     leaves::{Anything, Content, OnlySpheres, OnlyTriangles},
 };
 use crate::{
-    Cost, Geometry, Hit, Hits8, Ray, Rays8,
+    Cost, Hit, Hits8, Primitives, Ray, Rays8,
     build::Tree,
     lanes,
     level::Token,
@@ -38,7 +38,7 @@ pub(crate) struct World<'a> {
     rows: &'a [Row],
     root: Option<Ref>,
     only: Option<Kind>,
-    geometry: &'a [Geometry],
+    geometry: &'a [Primitives],
     /// First primitive number of each geometry.
     first: &'a [u32],
     token: Token,
@@ -49,7 +49,7 @@ impl<'a> World<'a> {
     #[inline(always)]
     pub(crate) fn new(
         tree: &'a Tree,
-        geometry: &'a [Geometry],
+        geometry: &'a [Primitives],
         first: &'a [u32],
         token: Token,
     ) -> Self {

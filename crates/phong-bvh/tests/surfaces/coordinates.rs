@@ -1,14 +1,16 @@
 //! Where surface coordinates begin, where they run, and which way normals point.
 
 use glam::{DQuat, DVec3, Vec2, Vec3};
-use phong_bvh::{BuildOptions, Bvh, Canonical, Coordinates, Geometry, Plane, Ray, Sphere, Surface};
+use phong_bvh::{
+    BuildOptions, Bvh, Canonical, Coordinates, Plane, Primitives, Ray, Sphere, Surface,
+};
 use proptest::prelude::*;
 
 use crate::oracle::{Placed, directions, shapes};
 
 type Seen = (Surface, Coordinates);
 
-fn seen(geometry: Geometry, origin: [f32; 3], dir: [f32; 3]) -> Seen {
+fn seen(geometry: Primitives, origin: [f32; 3], dir: [f32; 3]) -> Seen {
     let bvh = Bvh::build(vec![geometry], BuildOptions::default()).expect("few primitives");
     let ray = Ray::new(Vec3::from(origin), Vec3::from(dir));
     let hit = bvh.intersect(&ray);
@@ -18,7 +20,7 @@ fn seen(geometry: Geometry, origin: [f32; 3], dir: [f32; 3]) -> Seen {
 
 fn solid(shape: Canonical, origin: [f32; 3], dir: [f32; 3]) -> Seen {
     let placed = Placed::new(shape, DVec3::ONE, DQuat::IDENTITY, DVec3::ZERO);
-    seen(Geometry::Solid(placed.solid), origin, dir)
+    seen(Primitives::Solid(placed.solid), origin, dir)
 }
 
 #[track_caller]
@@ -31,7 +33,7 @@ fn expect((surface, at): &Seen, ng: Vec3, tangent: Vec3, uv: [f32; 2]) {
 
 #[test]
 fn a_sphere_has_longitude_and_latitude() {
-    let spheres = || Geometry::Spheres(vec![Sphere { center: Vec3::ZERO, radius: 1.0 }]);
+    let spheres = || Primitives::spheres(vec![Sphere { center: Vec3::ZERO, radius: 1.0 }]);
     for looks in [seen, |_, o, d| solid(Canonical::Sphere, o, d)] {
         let front = looks(spheres(), [5.0, 0.0, 0.0], [-1.0, 0.0, 0.0]);
         expect(&front, Vec3::X, Vec3::Y, [0.0, 0.5]);
@@ -110,7 +112,7 @@ fn the_angle_around_the_tube_of_a_torus_begins_outside() {
 #[test]
 fn a_plane_is_measured_from_its_point() {
     let plane = Plane { point: DVec3::new(1.0, 7.0, 1.0), normal: DVec3::Y };
-    let surface = seen(Geometry::Plane(plane), [4.0, 9.0, 3.0], [0.0, -1.0, 0.0]);
+    let surface = seen(Primitives::Plane(plane), [4.0, 9.0, 3.0], [0.0, -1.0, 0.0]);
     expect(&surface, Vec3::Y, Vec3::X, [3.0, -2.0]);
     assert_eq!(surface.0.p, Vec3::new(4.0, 7.0, 3.0));
 }
@@ -118,7 +120,7 @@ fn a_plane_is_measured_from_its_point() {
 #[test]
 fn a_triangle_has_its_weights_and_the_normal_of_its_turning() {
     let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y];
-    let geometry = Geometry::Triangles { positions, indices: vec![[0, 1, 2]] };
+    let geometry = Primitives::triangles(positions, vec![[0, 1, 2]]);
     for (height, dir) in [(2.0, -1.0), (-2.0, 1.0)] {
         let surface = seen(geometry.clone(), [0.25, 0.5, height], [0.0, 0.0, dir]);
         expect(&surface, Vec3::Z, Vec3::X, [0.25, 0.5]);
@@ -131,7 +133,7 @@ fn a_mirrored_solid_keeps_its_normals_outwards() {
     let scale = DVec3::new(1.0, 1.0, -1.0);
     let shape = Canonical::Cylinder { capped: true };
     let mirrored = Placed::new(shape, scale, DQuat::IDENTITY, DVec3::ZERO);
-    let end = seen(Geometry::Solid(mirrored.solid), [0.0, 0.0, -5.0], [0.0, 0.0, 1.0]);
+    let end = seen(Primitives::Solid(mirrored.solid), [0.0, 0.0, -5.0], [0.0, 0.0, 1.0]);
     expect(&end, Vec3::NEG_Z, Vec3::X, [0.5, 0.5]);
 }
 
@@ -143,7 +145,7 @@ proptest! {
     ) {
         let turn = DQuat::from_axis_angle(axis, angle);
         let placed = Placed::new(shape, DVec3::from_array(stretch), turn, DVec3::ZERO);
-        let geometry = vec![Geometry::Solid(placed.solid)];
+        let geometry = vec![Primitives::Solid(placed.solid)];
         let bvh = Bvh::build(geometry, BuildOptions::default()).expect("one primitive");
         let look = |at: Vec3, dir: Vec3| {
             let ray = Ray::new(at - dir, dir);

@@ -2,8 +2,8 @@
 
 use glam::{DVec3, Vec3};
 use phong_bvh::{
-    BuildOptions, Bvh, Canonical, Geometry, Hit, Hits8, Plane, Ray, Rays8, Solid, Sphere, Surface,
-    Surfaces8, offset_origin,
+    BuildOptions, Bvh, Canonical, Hit, Hits8, Plane, Primitives, Ray, Rays8, Solid, Sphere,
+    Surface, Surfaces8, offset_origin,
 };
 use proptest::prelude::*;
 
@@ -18,7 +18,7 @@ struct Landing {
 }
 
 impl Landing {
-    fn of(geometry: Geometry, ray: Ray) -> Option<Self> {
+    fn of(geometry: Primitives, ray: Ray) -> Option<Self> {
         let bvh = Bvh::build(vec![geometry], BuildOptions::default()).expect("few primitives");
         let hit = bvh.intersect(&ray);
         hit.is_some().then(|| Self { surface: bvh.surface(&ray, &hit), bvh, ray, hit })
@@ -112,7 +112,7 @@ proptest! {
         let positions: Vec<Vec3> = corners.iter().map(|&c| (at + size * c).as_vec3()).collect();
         let [a, b, c] = [positions[0], positions[1], positions[2]].map(Vec3::as_dvec3);
         let target = a + weights[0] * (b - a) + weights[1] * (1.0 - weights[0]) * (c - a);
-        let geometry = Geometry::Triangles { positions, indices: vec![[0, 1, 2]] };
+        let geometry = Primitives::triangles(positions, vec![[0, 1, 2]]);
         if let Some(landing) = Landing::of(geometry, toward(target, from, distance * size)) {
             landing.check(size)?;
             landing.never_meets_itself(dir, &[true, false])?;
@@ -132,7 +132,7 @@ proptest! {
         let at = if at_origin { -0.9999 * size * target } else { at };
         let sphere = Sphere { center: at.as_vec3(), radius: size as f32 };
         let ray = toward(at + 0.999 * size * target, from, distance * size);
-        if let Some(landing) = Landing::of(Geometry::Spheres(vec![sphere]), ray) {
+        if let Some(landing) = Landing::of(Primitives::spheres(vec![sphere]), ray) {
             landing.check(size)?;
             landing.never_meets_itself(dir, &[true])?;
             let Surface { p, p_error, ng, .. } = landing.surface;
@@ -156,7 +156,7 @@ proptest! {
     ) {
         let plane = Plane { point: at, normal };
         let target = at + distance * (aside - aside.dot(normal) * normal);
-        if let Some(landing) = Landing::of(Geometry::Plane(plane), toward(target, from, distance)) {
+        if let Some(landing) = Landing::of(Primitives::Plane(plane), toward(target, from, distance)) {
             landing.check(distance + at.length())?;
             landing.never_meets_itself(dir, &[true, false])?;
             let Surface { p, p_error, .. } = landing.surface;
@@ -172,7 +172,7 @@ proptest! {
     ) {
         let ray = ray_at(&placed, from, to, distance);
         let (_, size) = placed.bounding_sphere();
-        if let Some(landing) = Landing::of(Geometry::Solid(placed.solid), ray) {
+        if let Some(landing) = Landing::of(Primitives::Solid(placed.solid), ray) {
             landing.check(size)?;
             if is_convex(&placed.solid) {
                 landing.never_meets_itself(dir, &[true])?;
@@ -190,7 +190,7 @@ proptest! {
     ) {
         let ray = ray_at(&placed, from, to, distance);
         let (_, size) = placed.bounding_sphere();
-        if let Some(landing) = Landing::of(Geometry::Solid(placed.solid), ray) {
+        if let Some(landing) = Landing::of(Primitives::Solid(placed.solid), ray) {
             let side = |p: Vec3| placed.side(placed.local(p.as_dvec3()));
             let Surface { p, p_error, ng, .. } = landing.surface;
             let error = ng.abs().dot(p_error);
@@ -219,7 +219,7 @@ fn a_ray_into_a_small_sphere_far_from_the_origin_crosses_it() {
     let center = DVec3::new(1_539.699_705_774_728_7, 0.0, 0.0);
     let sphere = Sphere { center: center.as_vec3(), radius: 0.013_880_857 };
     let ray = toward(center + 0.999 * 0.013_880_857 * DVec3::Z, DVec3::NEG_Y, 0.000_138_808_57);
-    let landing = Landing::of(Geometry::Spheres(vec![sphere]), ray).unwrap();
+    let landing = Landing::of(Primitives::spheres(vec![sphere]), ray).unwrap();
     let inwards = landing.leave(DVec3::new(0.958_981_086, 0.0, -0.283_470_064), false);
     let hit = landing.bvh.intersect(&inwards);
     assert!((hit.t - 0.007_87).abs() < 1e-3, "met what it left at {}", hit.t);

@@ -1,13 +1,13 @@
 //! Solids against an oracle that knows them only by a sign.
 
 use glam::{DQuat, DVec3, Vec3};
-use phong_bvh::{BuildOptions, Bvh, Canonical, Geometry, Ray, Solid};
+use phong_bvh::{BuildOptions, Bvh, Canonical, Primitives, Ray, Solid};
 use proptest::prelude::*;
 
 use crate::oracle::{Placed, directions, placed, ray_at};
 
 fn alone(solid: Solid) -> Bvh {
-    Bvh::build(vec![Geometry::Solid(solid)], BuildOptions::default()).expect("one primitive")
+    Bvh::build(vec![Primitives::Solid(solid)], BuildOptions::default()).expect("one primitive")
 }
 
 /// A hit the oracle found nothing of must at least be a point of the surface.

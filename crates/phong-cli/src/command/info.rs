@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::time::Instant;
 
-use phong_bvh::{Geometry, Stats};
+use phong_bvh::{Primitives, Stats};
 use serde_json::json;
 
 use crate::args::QuestionArgs;
@@ -38,9 +38,9 @@ pub(crate) fn run(Args { question: args }: &Args) -> Result<(), Failure> {
     let build_seconds = started.elapsed().as_secs_f64();
     let Stats { primitives, nodes, .. } = scene.bvh().stats();
     let bytes = memory::of_hierarchy(scene.bvh());
-    let count = |of: fn(&Geometry) -> usize| scene.bvh().geometry().iter().map(of).sum::<usize>();
-    let triangles = count(|g| if matches!(g, Geometry::Triangles { .. }) { g.len() } else { 0 });
-    let spheres = count(|g| if matches!(g, Geometry::Spheres(_)) { g.len() } else { 0 });
+    let count = |of: fn(&Primitives) -> usize| scene.bvh().geometry().iter().map(of).sum::<usize>();
+    let triangles = count(|g| if matches!(g, Primitives::Triangles { .. }) { g.len() } else { 0 });
+    let spheres = count(|g| if matches!(g, Primitives::Spheres(_)) { g.len() } else { 0 });
     std::mem::forget(scene);
     if args.json {
         return report::json(&json!({

@@ -1,9 +1,10 @@
 //! Shapes become batches of primitives, and what belongs to them.
 
 use std::mem::size_of;
+use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec2, DVec3, Vec2, Vec3};
-use phong_bvh::{Canonical, Geometry, Hit, Plane, Solid, Sphere};
+use phong_bvh::{Canonical, Hit, Plane, Primitives, Solid, Sphere};
 use phong_scene::{
     Bounds, MaterialId, Mesh, NO_INDEX, Object, Points, Rgb, Scene, Shape, cofactor, even_scale,
 };
@@ -131,7 +132,7 @@ fn at_corners<T: Copy>(
 
 /// A whole scene's batches.
 pub(super) struct Compiled {
-    pub(super) geometry: Vec<Geometry>,
+    pub(super) geometry: Vec<Primitives>,
     pub(super) parts: Vec<Part>,
     pub(super) objects: Vec<ObjectRecord>,
 }
@@ -212,7 +213,7 @@ pub(super) fn compile(
 }
 
 impl Compiled {
-    fn push(&mut self, geometry: Geometry, part: Part) {
+    fn push(&mut self, geometry: Primitives, part: Part) {
         self.geometry.push(geometry);
         self.parts.push(part);
     }
@@ -257,7 +258,7 @@ impl Compiled {
             mesh: Some(Box::new(attributes)),
             colors: Vec::new(),
         };
-        self.push(Geometry::Triangles { positions, indices }, part);
+        self.push(Primitives::triangles(positions, indices), part);
     }
 
     fn points(&mut self, points: Points, to_world: DAffine3, object: u32, material: u32) {
@@ -275,7 +276,7 @@ impl Compiled {
                 let center = DVec3::new(x.into(), y.into(), z.into());
                 let solid = sphere_solid(center, radius.into(), move_by);
                 let colors = colors.get(i).map(|&c| vec![c]).unwrap_or_default();
-                self.push(Geometry::Solid(solid), Part { colors, ..part(object) });
+                self.push(Primitives::Solid(solid), Part { colors, ..part(object) });
             }
             return;
         };
@@ -284,8 +285,8 @@ impl Compiled {
             radius: (f64::from(radius) * scale) as f32,
         };
         // The same size and alignment: the collection happens in place.
-        let spheres = spheres.into_iter().map(place).collect();
-        self.push(Geometry::Spheres(spheres), Part { colors, ..part(object) });
+        let spheres: Vec<_> = spheres.into_iter().map(place).collect();
+        self.push(Primitives::spheres(spheres), Part { colors, ..part(object) });
     }
 
     /// An object that is one primitive, or a box's worth of them.
@@ -312,12 +313,12 @@ impl Compiled {
                     let radius = (radius * scale) as f32;
                     self.sphere(Sphere { center, radius }, object, material);
                 }
-                _ => self.push(Geometry::Solid(sphere_solid(center, radius, to_world)), part),
+                _ => self.push(Primitives::Solid(sphere_solid(center, radius, to_world)), part),
             },
             Shape::Plane { point, normal } => {
                 let point = to_world.transform_point3(point);
                 let normal = (cofactor(to_world.matrix3) * normal).normalize_or(DVec3::Y);
-                self.push(Geometry::Plane(Plane { point, normal }), part);
+                self.push(Primitives::Plane(Plane { point, normal }), part);
             }
             Shape::Triangle { points, normals, uv } => {
                 let to_f32 = |v: DVec3| v.as_vec3();
@@ -335,11 +336,11 @@ impl Compiled {
                 let part = Part { mesh: Some(Box::new(attributes)), ..part };
                 let mirrored = to_world.matrix3.determinant() < 0.0;
                 let indices = vec![if mirrored { [0, 2, 1] } else { [0, 1, 2] }];
-                self.push(Geometry::Triangles { positions, indices }, part);
+                self.push(Primitives::triangles(positions, indices), part);
             }
             ref solid => {
                 if let Some(solid) = canonical(solid, to_world) {
-                    self.push(Geometry::Solid(solid), part);
+                    self.push(Primitives::Solid(solid), part);
                 }
             }
         }
@@ -347,13 +348,13 @@ impl Compiled {
 
     /// Spheres written one after another share a batch.
     fn sphere(&mut self, sphere: Sphere, object: u32, material: u32) {
-        if let (Some(Geometry::Spheres(spheres)), Some(part)) =
+        if let (Some(Primitives::Spheres(spheres)), Some(part)) =
             (self.geometry.last_mut(), self.parts.last_mut())
             && let (Number::From(first), Numbers::Each(materials)) =
                 (&part.object, &mut part.material)
             && first + spheres.len() as u32 == object
         {
-            spheres.push(sphere);
+            Arc::make_mut(spheres).push(sphere);
             materials.push(material);
             return;
         }
@@ -363,7 +364,7 @@ impl Compiled {
             mesh: None,
             colors: Vec::new(),
         };
-        self.push(Geometry::Spheres(vec![sphere]), part);
+        self.push(Primitives::spheres(vec![sphere]), part);
     }
 }
 
