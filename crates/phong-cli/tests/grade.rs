@@ -147,7 +147,7 @@ fn what_cannot_be_graded_is_refused_with_the_way_out() {
 fn the_help_lists_every_cause() {
     let then = given(&[]).done("grade --help");
     let text = String::from_utf8(then.out).unwrap();
-    for mistake in phong::grade::MISTAKES {
+    for mistake in phong_lab::grade::MISTAKES {
         assert!(text.contains(mistake.cause), "{}", mistake.cause);
     }
     assert!(text.contains("phong grade scene.toml mine.png"), "{text}");

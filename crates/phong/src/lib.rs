@@ -2,25 +2,18 @@
 //!
 //! Rooms, lowest storey first; a room imports only rooms below it: `math`; `reflectance`,
 //! `sampling`, `filter`; `material`, `light`, `camera`; `compile`, `interaction`; `integrator`,
-//! `witness`; `film`, `aov`, `render`; `image`, `markup`, `part`, `explain`, `compare`; `figures`,
-//! `eval`, `fit`.
+//! `witness`; `film`, `aov`, `render`; `image`, `part`, `explain`.
 
 pub mod aov;
 pub mod camera;
-pub mod compare;
 pub mod compile;
-pub mod eval;
 pub mod explain;
-pub mod figures;
 pub mod film;
 pub mod filter;
-pub mod fit;
-pub mod grade;
 pub mod image;
 pub mod integrator;
 pub mod interaction;
 pub mod light;
-mod markup;
 pub mod material;
 pub mod math;
 pub mod part;

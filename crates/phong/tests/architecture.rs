@@ -29,15 +29,8 @@ const ROOMS: &[&str] = &[
     "render",
     // 7: what leaves the house
     "image",
-    "markup",
     "part",
-    "eval",
     "explain",
-    "compare",
-    "grade",
-    // 8: uses of all that
-    "figures",
-    "fit",
 ];
 
 /// Lines in a source file, tests included.

@@ -6,11 +6,11 @@ mod text;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use phong::compare::{self, Comparison};
 use phong::film::{Film, LayerKind, Window};
-use phong::fit::{FitError, Target};
 use phong::image::{self, Content, Encoding, Format, Picture};
 use phong::render::RenderOptions;
+use phong_lab::compare::{self, Comparison};
+use phong_lab::fit::{FitError, Target};
 use serde_json::{Value, json};
 
 use super::fit::trouble;

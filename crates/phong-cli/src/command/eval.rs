@@ -5,7 +5,7 @@ mod query;
 
 use std::io::{self, BufRead, BufReader, IsTerminal, Write};
 
-use phong::eval::Value;
+use phong_lab::eval::Value;
 use serde_json::Value as Json;
 
 use crate::failure::Failure;

@@ -4,11 +4,12 @@ use std::io::{self, Cursor};
 use std::path::{Path, PathBuf};
 
 use phong::compile::CompiledScene;
-use phong::explain::html::{MAX_PIXELS, page};
 use phong::explain::{Explanation, explain};
 use phong::film::{LayerKind, Window};
 use phong::image::{self, Content, Encoding, Format};
 use phong::render::{Cancel, RenderOptions, render};
+use phong_lab::tell;
+use phong_lab::tell::html::{MAX_PIXELS, page};
 
 use crate::args::{self, InputArgs, ViewArgs};
 use crate::command::render::ImageArgs;
@@ -103,7 +104,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             ))
         })?;
         if let Some(output) = &mut svg {
-            let drawing = told.svg(chosen(args)).ok_or_else(|| {
+            let drawing = tell::svg(&told, chosen(args)).ok_or_else(|| {
                 Failure::usage("--svg: the ray meets nothing, so there are no vectors to draw")
             })?;
             output.write(|out| io::Write::write_all(out, drawing.as_bytes()))?;
@@ -128,13 +129,13 @@ fn chosen(args: &Args) -> usize {
 
 fn tell(args: &Args, told: &Explanation) -> Result<(), Failure> {
     if args.json {
-        return report::json(&told.json());
+        return report::json(&tell::json(told));
     }
     if args.latex {
-        return report::data(told.latex(chosen(args)).as_bytes());
+        return report::data(tell::latex(told, chosen(args)).as_bytes());
     }
     let all = told.samples.len() <= 2 && args.sample.is_none();
-    let mut text = told.text((!all).then(|| chosen(args)), args.full);
+    let mut text = tell::text(told, (!all).then(|| chosen(args)), args.full);
     if !all && args.sample.is_none() {
         text.push_str(
             "\n(told in full: sample 1; --sample N tells another, --samples 1 the centre)\n",

@@ -5,7 +5,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use clap::builder::PossibleValuesParser;
-use phong::figures::{self, CATALOGUE, Finish};
+use phong_lab::figures::{self, CATALOGUE, Finish};
 
 use crate::failure::Failure;
 use crate::output::Output;

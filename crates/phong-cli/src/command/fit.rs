@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use phong::fit::plot::svg;
-use phong::fit::{Fit, FitError, Lobe, Model, fit, hold};
+use phong_lab::fit::plot::svg;
+use phong_lab::fit::{Fit, FitError, Lobe, Model, fit, hold};
 use phong_scene::closest;
 use serde_json::{Value as Json, json};
 

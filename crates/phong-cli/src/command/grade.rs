@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use phong::grade::{Grade, GradeError, MISTAKES, grade};
+use phong_lab::grade::{Grade, GradeError, MISTAKES, grade};
 use phong_scene::Scene;
 use serde_json::{Value, json};
 

@@ -4,14 +4,7 @@
 //! [`Witness`](crate::witness::Witness), and the samples are summed by the film's own sums. So
 //! the explanation's picture is the film's pixel, bit for bit.
 
-pub mod html;
-mod json;
-mod latex;
-mod numbers;
-mod product;
 mod record;
-mod svg;
-mod text;
 
 use glam::DVec3;
 use phong_scene::{Place, Rgb, srgb_encode};

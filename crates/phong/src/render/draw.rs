@@ -93,17 +93,18 @@ impl Samples {
 }
 
 /// Where a sample was drawn.
-pub(crate) struct Drawn {
-    /// In the picture, pixels.
-    pub(crate) place: DVec2,
-    /// Its weight in the pixel's sum.
-    pub(crate) weight: f32,
-    /// Its ray; none outside the image circle of a fisheye.
-    pub(crate) ray: Option<CameraRay>,
+#[derive(Clone, Copy, Debug)]
+pub struct Drawn {
+    /// In the picture, pixels: x to the right and y down from the upper left corner.
+    pub place: DVec2,
+    /// Its weight in the pixel's sum: +1, or −1 where a filter is negative.
+    pub weight: f32,
+    /// Its ray; `None` outside the image circle of a fisheye.
+    pub ray: Option<CameraRay>,
 }
 
-/// Draws a sample of a pixel.
-pub(crate) fn camera_ray(
+/// The place and the ray of one sample of a pixel, which is within `options.size`.
+pub fn camera_ray(
     integrator: &Integrator<'_>,
     options: &RenderOptions,
     filter: &Filter,

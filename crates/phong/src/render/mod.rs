@@ -4,7 +4,7 @@ mod draw;
 mod sums;
 mod tile;
 
-pub(crate) use draw::camera_ray;
+pub use draw::{Drawn, camera_ray};
 pub(crate) use sums::Sums8;
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};

@@ -1,10 +1,10 @@
 //! Two scenes, or one in two models, drawn alike and held against each other term by term.
 
-use phong::compare::{TermDifference, terms};
 use phong::film::Film;
-use phong::fit::{Remodelled, Target, remodel};
 use phong::image::Picture;
 use phong::render::{Cancel, RenderOptions, render as trace};
+use phong_lab::compare::{TermDifference, terms};
+use phong_lab::fit::{Remodelled, Target, remodel};
 use phong_scene::Scene;
 use serde_json::{Value, json};
 

@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Write};
 
-use phong::compare::{Comparison, Pixel};
+use phong_lab::compare::{Comparison, Pixel};
 
 use super::Args;
 use super::scenes::Scenes;

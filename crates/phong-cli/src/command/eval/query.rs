@@ -1,8 +1,8 @@
 //! A query of `phong eval`, from JSON.
 
-use phong::eval::{Directions, Lobe, Query};
 use phong::math::Dir3;
 use phong::reflectance::{Distribution, Fresnel, Incident, OrenNayarForm, Shadowing, WardForm};
+use phong_lab::eval::{Directions, Lobe, Query};
 use phong_scene::{Rgb, closest};
 use serde_json::{Map, Value as Json};
 

@@ -1,0 +1,186 @@
+//! Small scenes, rendered: a ball under lights, and what can be read off its picture.
+
+use glam::{DAffine3, DVec3, Vec3};
+use phong::aov::Aov;
+use phong::compile::{CompileOptions, CompiledScene};
+use phong::film::{Film, LayerKind};
+use phong::reflectance::Terms;
+use phong::render::{Cancel, RenderOptions, render};
+use phong_scene::{
+    Background, Camera, CameraKind, Image, Light, LightKind, Material, MaterialId, Object, Place,
+    Rgb, Scene, Shape, srgb_encode,
+};
+
+use super::Finish;
+use super::drawing::{Bitmap, Point};
+use super::raster;
+
+/// Edge of the square pictures that numbers are measured on, pixels.
+const MEASURED: u32 = 160;
+/// Height of what a ball's camera sees, in radii: the ball with a little air.
+pub(super) const VIEW: f64 = 2.08;
+
+/// Index of a term among [`Terms::NAMES`].
+pub(super) const AMBIENT: LayerKind = LayerKind::Term(1);
+pub(super) const DIFFUSE: LayerKind = LayerKind::Term(2);
+pub(super) const SPECULAR: LayerKind = LayerKind::Term(3);
+
+/// The blue plastic of the balls.
+pub(super) fn plastic() -> Material {
+    Material {
+        color: Rgb::from_srgb8([0x3d, 0x84, 0xd6]),
+        k_a: 0.2,
+        k_d: 0.8,
+        k_s: 0.6,
+        shininess: 24.0,
+        ..Material::default()
+    }
+}
+
+/// A light so far away that its direction, `to_light`, is the same everywhere.
+pub(super) fn distant(to_light: DVec3, color: f32) -> Light {
+    Light {
+        name: "light".to_owned(),
+        kind: LightKind::Distant { direction: -to_light, angle: 0.0 },
+        color: Rgb::grey(color),
+        specular_color: Rgb::grey(color),
+        shadows: true,
+        place: Place::default(),
+    }
+}
+
+/// The unit ball at the origin, looked at from far away in the direction `eye`.
+pub(super) fn ball(material: Material, lights: Vec<Light>, eye: DVec3) -> Scene {
+    let sphere = Shape::Sphere { center: DVec3::ZERO, radius: 1.0 };
+    Scene {
+        image: Image {
+            size: [MEASURED; 2],
+            samples: 1,
+            background: Background::Transparent,
+            ..Image::default()
+        },
+        camera: Camera {
+            kind: CameraKind::Orthographic { height: VIEW },
+            eye: 10.0 * eye,
+            look_at: DVec3::ZERO,
+            up: DVec3::Y,
+            aperture: 0.0,
+            focus: None,
+        },
+        ambient: Rgb::WHITE,
+        lights,
+        materials: vec![material],
+        objects: vec![object(sphere, 0)],
+        groups: Vec::new(),
+    }
+}
+
+/// A shape where it stands, of material number `material`.
+pub(super) fn object(shape: Shape, material: u32) -> Object {
+    Object {
+        name: "object".to_owned(),
+        shape,
+        material: MaterialId(material),
+        transform: DAffine3::IDENTITY,
+        place: Place::default(),
+    }
+}
+
+/// The scene as the figure shows it, `size` units large.
+pub(super) fn shown(scene: &Scene, size: Point, finish: Finish) -> Film {
+    let (scale, samples) = match finish {
+        Finish::Draft => (1.0, 1),
+        Finish::Slide => (raster::SCALE, 16),
+    };
+    let pixels = (scale * size).to_array().map(|side| side.round() as u32);
+    let image = Image { size: pixels, samples, ..scene.image.clone() };
+    film(Scene { image, ..scene.clone() }, &[])
+}
+
+/// The scene as its numbers are measured: one sample a pixel, at its centre.
+pub(super) fn measured(scene: &Scene) -> Film {
+    film(scene.clone(), &[Aov::Normal, Aov::Position])
+}
+
+fn film(scene: Scene, aovs: &[Aov]) -> Film {
+    let options =
+        RenderOptions { terms: true, aovs: aovs.to_vec(), ..RenderOptions::of(&scene.image) };
+    let scene = CompiledScene::new(scene, CompileOptions::default())
+        .expect("a scene of a few shapes compiles");
+    let nobody_watches = |_: &Film, _| ();
+    let rendered = render(&scene, &options, &nobody_watches, &Cancel::new())
+        .expect("nothing cancels a figure");
+    rendered.film
+}
+
+/// The terms at the point `p` of a scene, seen from the direction `eye`: a picture of one pixel.
+pub(super) fn probe(scene: &Scene, p: DVec3, eye: DVec3) -> Terms {
+    let mut scene = scene.clone();
+    scene.image.size = [1, 1];
+    scene.camera.look_at = p;
+    scene.camera.eye = p + 10.0 * eye;
+    spots(&measured(&scene)).first().map(|spot| spot.terms).unwrap_or_default()
+}
+
+/// Where the camera of a [`ball`] in the direction `eye` sees `p`, on a picture of it at `at`.
+pub(super) fn seen(p: DVec3, eye: DVec3, at: Point, size: f64) -> Point {
+    let right = (-eye).cross(DVec3::Y).normalize_or_zero();
+    let up = right.cross(-eye).normalize_or_zero();
+    at + Point::splat(0.5 * size) + size / VIEW * Point::new(p.dot(right), -p.dot(up))
+}
+
+/// A pixel of a measured ball.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Spot {
+    /// The normal there.
+    pub(super) n: Vec3,
+    /// The point itself.
+    pub(super) p: Vec3,
+    pub(super) terms: Terms,
+    /// The picture.
+    pub(super) sum: Rgb,
+}
+
+/// The pixels of a measured film that show the ball.
+pub(super) fn spots(film: &Film) -> Vec<Spot> {
+    let triple = |kind, x, y| -> [f32; 3] {
+        film.at(kind, x, y).and_then(|values| values.try_into().ok()).unwrap_or_default()
+    };
+    let mut spots = Vec::new();
+    for (y, x) in (0..film.height()).flat_map(|y| (0..film.width()).map(move |x| (y, x))) {
+        let n = Vec3::from_array(triple(LayerKind::Aov(Aov::Normal), x, y));
+        if n == Vec3::ZERO {
+            continue;
+        }
+        spots.push(Spot {
+            n,
+            p: Vec3::from_array(triple(LayerKind::Aov(Aov::Position), x, y)),
+            terms: Terms::from_array(std::array::from_fn(|term| {
+                triple(LayerKind::Term(term), x, y).into()
+            })),
+            sum: triple(LayerKind::Picture, x, y).into(),
+        });
+    }
+    spots
+}
+
+/// The sum of some layers as pixels, background transparent.
+pub(super) fn bitmap(film: &Film, layers: &[LayerKind]) -> Bitmap {
+    let values: Vec<&[f32]> =
+        layers.iter().filter_map(|&kind| Some(&*film.layer(kind)?.values)).collect();
+    let alpha = film.layer(LayerKind::Alpha).map_or(&[][..], |layer| &layer.values);
+    let mut rgba = Vec::with_capacity(4 * alpha.len());
+    for (pixel, &alpha) in alpha.iter().enumerate() {
+        for channel in 0..3 {
+            let sum: f32 = values.iter().map(|layer| layer[3 * pixel + channel]).sum();
+            let straight = if alpha > 0.0 { sum / alpha } else { 0.0 };
+            rgba.push(byte(srgb_encode(f64::from(straight.clamp(0.0, 1.0)))));
+        }
+        rgba.push(byte(f64::from(alpha.clamp(0.0, 1.0))));
+    }
+    Bitmap { width: film.width(), height: film.height(), rgba }
+}
+
+fn byte(share: f64) -> u8 {
+    (share * 255.0 + 0.5) as u8
+}

@@ -1,0 +1,153 @@
+//! What every pixel's centre ray meets: the ingredients that a renderer puts into the equation.
+
+use phong::compile::CompiledScene;
+use phong::filter::Filter;
+use phong::integrator::{Integrator, RayCounts};
+use phong::interaction::SurfaceInteraction;
+use phong::math::Dir3;
+use phong::render::{RenderOptions, camera_ray};
+use phong::sampling::Sampler;
+use phong::witness::{Branch, LightTold, Witness};
+use phong_bvh::Ray;
+use phong_scene::{LightKind, Rgb};
+use rayon::prelude::*;
+
+/// What one pixel is made of.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Point {
+    /// What the ray saw if it met nothing.
+    pub(super) background: Rgb,
+    /// What it met.
+    pub(super) surface: Option<Surface>,
+    /// What mirror and glass rays brought, as it is in the sum.
+    pub(super) reflection: Rgb,
+    pub(super) transmission: Rgb,
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct Surface {
+    pub(super) object: u32,
+    pub(super) material: u32,
+    pub(super) n: Dir3,
+    /// The normal as the surface has it: what a program uses that never turns it to the ray.
+    pub(super) ng: Dir3,
+    pub(super) e: Dir3,
+    pub(super) tangent: Dir3,
+    pub(super) color: Rgb,
+    /// The ambient term as it is in the sum, per-light parts included.
+    pub(super) ambient: Rgb,
+    pub(super) lights: Vec<LightPoint>,
+}
+
+/// One light at one point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LightPoint {
+    pub(super) l: Dir3,
+    pub(super) distance: f32,
+    /// Attenuated.
+    pub(super) color: Rgb,
+    pub(super) specular_color: Rgb,
+    /// Above the horizon.
+    pub(super) above: bool,
+    /// Above, and nothing between.
+    pub(super) visible: bool,
+    /// Above, and nothing in its direction, however far.
+    pub(super) clear: bool,
+}
+
+/// The points of a whole picture, row by row.
+pub(super) fn gather(scene: &CompiledScene, options: &RenderOptions) -> Vec<Point> {
+    let centre = RenderOptions { samples: 1, ..options.clone() };
+    let integrator = Integrator {
+        scene,
+        background: options.background,
+        depth: options.depth,
+        shadows: options.shadows,
+    };
+    let filter = Filter::new(centre.filter);
+    let [width, height] = options.size;
+    let row = |y: u32| {
+        (0..width).map(move |x| (x, y)).map(|(x, y)| {
+            let sampler = Sampler::new([x, y], 0, 1, centre.seed);
+            let drawn = camera_ray(&integrator, &centre, &filter, [x, y], sampler);
+            let mut listener = Listener { scene, weights: Vec::new(), point: Point::default() };
+            if let Some(ray) = drawn.ray {
+                integrator.trace_one(ray, &mut RayCounts::default(), &mut listener);
+            }
+            listener.point
+        })
+    };
+    (0..height).into_par_iter().flat_map_iter(row).collect()
+}
+
+/// Listens to the first hit of one ray.
+struct Listener<'a> {
+    scene: &'a CompiledScene,
+    /// Weights of the rays on their way below the camera's.
+    weights: Vec<Rgb>,
+    point: Point,
+}
+
+impl Witness for Listener<'_> {
+    fn missed(&mut self, _: &Ray, background: Rgb) {
+        if self.weights.is_empty() {
+            self.point.background = background;
+        }
+    }
+
+    fn met(&mut self, ray: &Ray, at: &SurfaceInteraction, ambient: Rgb) {
+        if self.weights.is_empty() {
+            self.point.surface = Some(Surface {
+                object: self.scene.object(at.hit.prim),
+                material: at.material,
+                n: at.n,
+                ng: at.ng,
+                e: at.e,
+                tangent: Dir3::from_unit(self.scene.coordinates(ray, &at.hit).tangent),
+                color: at.color,
+                ambient,
+                lights: Vec::with_capacity(self.scene.lights().len()),
+            });
+        }
+    }
+
+    fn lit(&mut self, told: &LightTold) {
+        let (true, Some(surface), Some(sample)) =
+            (self.weights.is_empty(), &mut self.point.surface, told.sample)
+        else {
+            return;
+        };
+        let material = &self.scene.materials()[surface.material as usize];
+        surface.ambient += material.ambient_of_light(surface.color, self.scene.ambient(), &sample);
+        let endless = told.shadow.map(|ray| Ray { t_max: f32::INFINITY, ..ray });
+        let point_light =
+            !matches!(self.scene.written_lights()[told.light].kind, LightKind::Distant { .. });
+        let clear = told.visible
+            && !(point_light && endless.is_some_and(|ray| self.scene.bvh().occluded(&ray)));
+        surface.lights.push(LightPoint {
+            l: sample.l,
+            distance: sample.distance,
+            color: sample.color,
+            specular_color: sample.specular_color,
+            above: told.above,
+            visible: told.visible,
+            clear,
+        });
+    }
+
+    fn entered(&mut self, _: Branch, weight: Rgb, _: Option<f32>, _: &Ray) {
+        self.weights.push(weight);
+    }
+
+    fn left(&mut self, branch: Branch, light: Rgb) {
+        let Some(weight) = self.weights.pop() else { return };
+        if self.weights.is_empty() {
+            match branch {
+                Branch::Reflection => self.point.reflection = weight * light,
+                Branch::Transmission => self.point.transmission = weight * light,
+            }
+        }
+    }
+
+    fn cut(&mut self, _: Branch, _: Rgb, _: Option<f32>) {}
+}

@@ -1,0 +1,13 @@
+//! What is asked of the renderer: figures, fits, grades, comparisons, formulas evaluated by name,
+//! and explanations of a pixel as text, JSON, LaTeX, SVG and HTML.
+//!
+//! Everything here is made from the public items of [`phong`]. A program that only draws pictures
+//! does not need this crate.
+
+pub mod compare;
+pub mod eval;
+pub mod figures;
+pub mod fit;
+pub mod grade;
+mod markup;
+pub mod tell;

@@ -1,0 +1,260 @@
+//! One offline page: the picture, and behind every pixel its explanation.
+//!
+//! Each row of pixels is a JSON array, deflated and in base 64; the page unpacks the row that is
+//! asked for. What belongs to many pixels (objects, lights, materials) is written once. The page
+//! computes nothing that it states: it only lays out the numbers.
+
+use std::io::Write as _;
+
+use flate2::Compression;
+use flate2::write::ZlibEncoder;
+use phong::compile::CompiledScene;
+use phong::explain::{End, Explanation, Lit, Onward, RayTold, Surface, explain};
+use phong::reflectance::Terms;
+use phong::render::{Cancel, Cancelled, RenderOptions};
+use phong_scene::{AmbientRule, Model, Rgb};
+use rayon::prelude::*;
+use serde_json::{Map, Value, json};
+
+use super::json::{dir, list, number, rgb};
+use super::product::{self, Number, Product};
+use super::text::{NOTICED, described, hidden, named};
+use crate::markup::{base64, data_url, escaped};
+
+const PAGE: &str = include_str!("page.html");
+
+/// The most pixels a page may have: some 20 MB, which a browser still opens at once.
+pub const MAX_PIXELS: u32 = 65_536;
+
+/// Every pixel of a picture of at most [`MAX_PIXELS`] explained in one HTML file. `png` is the
+/// picture rendered with the same options. `watch` is called with the rows done, by any thread.
+///
+/// # Errors
+/// [`Cancelled`].
+///
+/// # Panics
+/// If the picture has more than [`MAX_PIXELS`].
+pub fn page(
+    scene: &CompiledScene,
+    options: &RenderOptions,
+    title: &str,
+    png: &[u8],
+    watch: &(dyn Fn(u32) + Sync),
+    cancel: &Cancel,
+) -> Result<String, Cancelled> {
+    let [width, height] = options.size;
+    assert!(u64::from(width) * u64::from(height) <= u64::from(MAX_PIXELS), "too many pixels");
+    let shared = Shared { scene };
+    let row = |y: u32| {
+        if cancel.is_cancelled() {
+            return Err(Cancelled);
+        }
+        // Within the picture, so there is nothing that can be outside.
+        let pixels = (0..width).filter_map(|x| explain(scene, options, [x, y]).ok());
+        let row: Vec<Value> = pixels.map(|told| shared.pixel(&told)).collect();
+        watch(1);
+        Ok(deflated(&Value::Array(row).to_string()))
+    };
+    let rows = (0..height).into_par_iter().map(row).collect::<Result<Vec<String>, Cancelled>>()?;
+    let samples = options.samples;
+    let note = format!(
+        "{width} × {height}, {samples} {}.",
+        if samples == 1 { "sample a pixel" } else { "samples a pixel" }
+    );
+    let mut out = PAGE.to_owned();
+    for (slot, text) in [
+        ("{{title}}", escaped(title)),
+        ("{{note}}", note),
+        ("{{size}}", json!(options.size).to_string()),
+        ("{{shared}}", in_script(&shared.json().to_string())),
+        ("{{rows}}", json!(rows).to_string()),
+        ("{{picture}}", data_url("image/png", png)),
+    ] {
+        out = out.replace(slot, &text);
+    }
+    Ok(out)
+}
+
+/// What belongs to many pixels.
+struct Shared<'a> {
+    scene: &'a CompiledScene,
+}
+
+impl Shared<'_> {
+    fn json(&self) -> Value {
+        let scene = self.scene;
+        let material = |m: &phong_scene::Material| {
+            let lobe = match m.model {
+                Model::Phong => Some("R·E"),
+                Model::BlinnPhong | Model::BlinnFast => Some("N·H"),
+                _ => None,
+            };
+            json!({
+                "name": m.name,
+                "model": described(m),
+                "k_a": number(m.k_a),
+                "k_d": number(m.k_d),
+                "k_s": number(m.k_s),
+                "shininess": number(m.shininess),
+                "lobe": lobe,
+                "fast": m.model == Model::BlinnFast,
+                "norm": product::normalization(m).map(number),
+                "cosine": m.times_cosine,
+                "per_light": m.ambient_rule == AmbientRule::PerLight,
+            })
+        };
+        // Numbered from 1, so that 0 is nothing.
+        let mut objects = vec![Value::Null];
+        objects.extend(scene.objects().iter().map(|o| json!([o.name, o.place.to_string()])));
+        json!({
+            "terms": Terms::NAMES,
+            "objects": objects,
+            "lights": scene
+                .written_lights()
+                .iter()
+                .map(|l| json!([l.name, l.place.to_string()]))
+                .collect::<Vec<_>>(),
+            "materials": scene.written_materials().iter().map(material).collect::<Vec<_>>(),
+        })
+    }
+
+    fn pixel(&self, told: &Explanation) -> Value {
+        let term = |c: Rgb| if c.is_black() { json!(0) } else { rgb(c) };
+        json!({
+            "samples": told
+                .samples
+                .iter()
+                .map(|s| s.ray.as_ref().map(|ray| self.ray(ray, 1.0)))
+                .collect::<Vec<_>>(),
+            "terms": told.terms.to_array().map(term),
+            "linear": rgb(told.linear),
+            "bytes": told.encoded(0.0).bytes,
+        })
+    }
+
+    /// A ray that weighs `weight` in its sample.
+    fn ray(&self, told: &RayTold, weight: f32) -> Value {
+        match &told.end {
+            End::Background(background) => json!({ "hit": 0, "bg": rgb(*background) }),
+            End::Surface(surface) => self.surface(surface, weight),
+        }
+    }
+
+    fn surface(&self, s: &Surface, weight: f32) -> Value {
+        let mut out = json!({
+            "hit": s.object_number + 1,
+            "m": s.material_number,
+            "t": number(s.t),
+            "out": s.from_outside,
+            "p": list(&s.p.as_vec3().to_array()),
+            "ng": dir(s.ng),
+            "n": dir(s.n),
+            "e": dir(s.e),
+            "ca": rgb(s.c_a),
+            "a": rgb(s.ambient),
+            "lights": s.lights.iter().map(|lit| light(s, lit)).collect::<Vec<_>>(),
+        });
+        if let Some(element) = s.element {
+            out["el"] = json!(element + 1);
+        }
+        for (key, onward) in [("refl", &s.reflection), ("trans", &s.transmission)] {
+            if let Some(onward) = onward {
+                out[key] = self.onward(onward, weight * onward.weight.max_channel());
+            }
+        }
+        out
+    }
+
+    /// What brings less than one sees is only summed up: glass would fill the page with it.
+    fn onward(&self, onward: &Onward, weight: f32) -> Value {
+        let mut out = json!({
+            "w": rgb(onward.weight),
+            "f": onward.fresnel.map(number),
+            "c": rgb(onward.weight * onward.light),
+        });
+        match &onward.ray {
+            Some(_) if weight * onward.light.max_channel() < NOTICED => out["small"] = json!(true),
+            Some(ray) => out["ray"] = self.ray(ray, weight),
+            None => {}
+        }
+        out
+    }
+}
+
+/// A term whose factors the page cannot tell from the rest: letters, numbers, and what it comes to.
+fn written(term: &Product) -> Value {
+    let letters: Vec<&str> = term.factors.iter().map(|factor| &*factor.words).collect();
+    let numbers = term.factors.iter().map(|factor| match factor.number {
+        Number::One(value) => number(value),
+        Number::Color(color) => rgb(color),
+    });
+    json!([letters.join(" "), numbers.collect::<Vec<_>>(), rgb(term.value)])
+}
+
+fn light(s: &Surface, lit: &Lit) -> Value {
+    let mut out = Map::new();
+    let mut put = |key: &str, value| out.insert(key.to_owned(), value);
+    if let Some(why) = hidden(lit) {
+        put("why", json!(why));
+    }
+    if let Some(l) = lit.l {
+        put("l", dir(l));
+        put("nl", number(lit.n_dot_l));
+    }
+    if let Some(r) = lit.r {
+        put("r", dir(r));
+        put("re", number(lit.r_dot_e));
+    }
+    if let Some(h) = lit.h {
+        put("h", dir(h));
+        put("nh", number(lit.n_dot_h));
+    }
+    if let Some(b) = &lit.blocker {
+        put("block", json!([named(&b.object, b.element), b.at.to_string(), number(b.t)]));
+    }
+    if let Some(ambient) = product::ambient_of_light(s, lit) {
+        put("a", written(&ambient));
+    }
+    if lit.visible {
+        put("cd", rgb(lit.c_d));
+        put("cs", rgb(lit.c_s));
+        put("d", rgb(lit.diffuse));
+        put("s", rgb(lit.specular));
+        // Of the models that are π f (N·L), the page knows no more.
+        match s.material.model {
+            Model::OrenNayar { .. } => {
+                put("dp", written(&product::diffuse(s, lit)));
+            }
+            Model::Microfacet { .. } | Model::Ward { .. } => {
+                if let Some(term) = product::specular(s, lit) {
+                    put("sp", written(&term));
+                }
+            }
+            Model::Lambert | Model::Phong | Model::BlinnPhong | Model::BlinnFast => {}
+        }
+    }
+    Value::Object(out)
+}
+
+/// Text, deflated with zlib's frame, in base 64.
+fn deflated(text: &str) -> String {
+    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::best());
+    // Writing to a Vec cannot fail.
+    let bytes = encoder.write_all(text.as_bytes()).and_then(|()| encoder.finish());
+    base64(&bytes.unwrap_or_default())
+}
+
+/// JSON that stands in a script element: nothing in it may end the element.
+fn in_script(json: &str) -> String {
+    json.replace("</", "<\\/").replace("<!--", "<\\!--")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_cannot_end_the_script() {
+        assert_eq!(in_script("{\"n\":\"</script>\"}"), "{\"n\":\"<\\/script>\"}");
+    }
+}

@@ -1,0 +1,162 @@
+//! An explanation for programs.
+
+use phong::explain::{Blocker, End, Explanation, Lit, Onward, RayTold, Sample, Surface};
+use phong::math::Dir3;
+use phong::reflectance::Terms;
+use phong_scene::{Place, Rgb};
+use serde_json::{Map, Value, json};
+
+use super::text::hidden;
+
+/// The explanation as one JSON object. Numbers are f32 with all their digits: read as f64 and
+/// rounded to f32 they are the very bits. What is infinite, or not there, is null.
+pub fn json(told: &Explanation) -> Value {
+    let mut out = json!({
+        "pixel": told.pixel,
+        "size": told.size,
+        "samples": told.samples.iter().map(sample).collect::<Vec<_>>(),
+        "terms": terms(told.terms),
+        "linear": rgb(told.linear),
+        "alpha": number(told.alpha),
+        "srgb8": told.encoded(0.0).bytes,
+    });
+    if let [only] = told.samples.as_slice()
+        && let Some(RayTold { end: End::Surface(surface), .. }) = &only.ray
+    {
+        out["material"] = material(&surface.material);
+    }
+    out
+}
+
+fn sample(sample: &Sample) -> Value {
+    let mut out = Map::new();
+    out.insert("place".to_owned(), list(&sample.place));
+    out.insert("weight".to_owned(), number(sample.weight));
+    match &sample.ray {
+        Some(told) => ray_into(&mut out, told),
+        None => {
+            out.insert("hit".to_owned(), Value::Null);
+        }
+    }
+    out.insert("terms".to_owned(), terms(sample.terms));
+    Value::Object(out)
+}
+
+fn ray(told: &RayTold) -> Value {
+    let mut out = Map::new();
+    ray_into(&mut out, told);
+    out.insert("terms".to_owned(), terms(told.terms()));
+    Value::Object(out)
+}
+
+fn ray_into(out: &mut Map<String, Value>, told: &RayTold) {
+    let mut put = |key: &str, value| out.insert(key.to_owned(), value);
+    put("origin", json!(told.origin.to_array()));
+    put("dir", dir(told.dir));
+    match &told.end {
+        End::Background(background) => {
+            put("hit", Value::Null);
+            put("background", rgb(*background));
+        }
+        End::Surface(s) => {
+            put("hit", hit(s));
+            put("e", dir(s.e));
+            put("ambient", rgb(s.ambient));
+            put("c_a", rgb(s.c_a));
+            put("material", material(&s.material));
+            put("lights", s.lights.iter().map(light).collect());
+            put("reflection", s.reflection.as_ref().map_or(Value::Null, onward));
+            put("transmission", s.transmission.as_ref().map_or(Value::Null, onward));
+        }
+    }
+}
+
+fn hit(s: &Surface) -> Value {
+    json!({
+        "object": s.object,
+        "at": at(&s.at),
+        "element": s.element,
+        "material": s.material.name,
+        "t": number(s.t),
+        "p": s.p.to_array(),
+        "n": dir(s.n),
+        "ng": dir(s.ng),
+        "uv": list(&s.uv),
+        "from_outside": s.from_outside,
+        "color": rgb(s.color),
+    })
+}
+
+fn material(m: &phong_scene::Material) -> Value {
+    json!({
+        "name": m.name,
+        "model": super::text::described(m),
+        "k_a": number(m.k_a),
+        "k_d": number(m.k_d),
+        "k_s": number(m.k_s),
+        "shininess": number(m.shininess),
+        "at": at(&m.place),
+    })
+}
+
+fn light(lit: &Lit) -> Value {
+    json!({
+        "name": lit.name,
+        "at": at(&lit.at),
+        "l": lit.l.map_or(Value::Null, dir),
+        "r": lit.r.map_or(Value::Null, dir),
+        "h": lit.h.map_or(Value::Null, dir),
+        "distance": number(lit.distance),
+        "n_dot_l": number(lit.n_dot_l),
+        "r_dot_e": number(lit.r_dot_e),
+        "n_dot_h": number(lit.n_dot_h),
+        "visible": lit.visible,
+        "why_not": hidden(lit),
+        "blocker": lit.blocker.as_ref().map_or(Value::Null, blocker),
+        "color": rgb(lit.color),
+        "c_d": rgb(lit.c_d),
+        "c_s": rgb(lit.c_s),
+        "ambient": rgb(lit.ambient),
+        "diffuse": rgb(lit.diffuse),
+        "specular": rgb(lit.specular),
+    })
+}
+
+fn blocker(b: &Blocker) -> Value {
+    json!({ "object": b.object, "at": at(&b.at), "element": b.element, "t": number(b.t) })
+}
+
+fn onward(onward: &Onward) -> Value {
+    json!({
+        "weight": rgb(onward.weight),
+        "fresnel": onward.fresnel.map(number),
+        "ray": onward.ray.as_ref().map(ray),
+        "light": rgb(onward.light),
+    })
+}
+
+fn terms(terms: Terms) -> Value {
+    let named = Terms::NAMES.iter().zip(terms.to_array());
+    Value::Object(named.map(|(name, term)| ((*name).to_owned(), rgb(term))).collect())
+}
+
+fn at(place: &Place) -> Value {
+    if place.file.is_empty() { Value::Null } else { json!(place.to_string()) }
+}
+
+pub(super) fn rgb(color: Rgb) -> Value {
+    list(&color.to_array())
+}
+
+pub(super) fn dir(dir: Dir3) -> Value {
+    list(&dir.to_array())
+}
+
+pub(super) fn list(values: &[f32]) -> Value {
+    values.iter().copied().map(number).collect()
+}
+
+/// The shortest decimal that is this f32: as an f64 it would show digits that nobody computed.
+pub(super) fn number(v: f32) -> Value {
+    v.to_string().parse::<f64>().map_or(Value::Null, |v| json!(v))
+}

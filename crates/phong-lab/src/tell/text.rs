@@ -1,0 +1,338 @@
+//! An explanation for a terminal: the equation with the numbers put in.
+
+use std::fmt::{self, Write};
+
+use phong::explain::{Encoded, End, Explanation, Lit, Onward, RayTold, Sample, Surface};
+use phong::reflectance::Terms;
+use phong_scene::{Model, Viewer};
+
+use super::numbers::{Color, Digits, Direction, Position, columns};
+use super::product::{self, Factor, Number, Power, Product};
+
+/// Half a level of 255, where the curve is steepest.
+pub(super) const NOTICED: f32 = 0.5 / 255.0 / 12.92;
+
+/// The explanation in lines of text. Of several samples all are listed and `sample` (from 0)
+/// is told in full; `None`: each is. Mirror and glass rays that bring the sample less than
+/// half a level of 255 are only summed up, unless `full`.
+pub fn text(told: &Explanation, sample: Option<usize>, full: bool) -> String {
+    let mut out = Page { full, weight: 1.0, ..Page::default() };
+    let ([x, y], [width, height]) = (told.pixel, told.size);
+    out.line(format_args!("pixel ({x}, {y}) of {width} × {height}"));
+    if told.samples.len() > 1 {
+        out.blank();
+        for (i, sample) in told.samples.iter().enumerate() {
+            out.line(format_args!("{}", listed(i, sample)));
+        }
+    }
+    for (i, one) in told.samples.iter().enumerate() {
+        if sample.is_none_or(|wanted| wanted == i) {
+            out.blank();
+            out.sample(i, told.samples.len(), one);
+        }
+    }
+    out.blank();
+    out.sum(told);
+    out.text
+}
+
+/// One line about a sample.
+fn listed(i: usize, sample: &Sample) -> String {
+    let [x, y] = sample.place;
+    let met = match sample.ray.as_ref().map(|ray| &ray.end) {
+        None => "outside the image circle".to_owned(),
+        Some(End::Background(_)) => "background".to_owned(),
+        Some(End::Surface(surface)) => named(&surface.object, surface.element),
+    };
+    format!("sample {:<4} at ({x}, {y})  {met}  {}", i + 1, Color(sample.terms.total()))
+}
+
+/// An object's name, with the face or point of it.
+pub(super) fn named(object: &str, element: Option<u32>) -> String {
+    match element {
+        Some(element) => format!("{object}, element {}", element + 1),
+        None => object.to_owned(),
+    }
+}
+
+/// Lines with an indentation.
+#[derive(Default)]
+struct Page {
+    text: String,
+    indent: usize,
+    /// Whether everything is told, however little it brings.
+    full: bool,
+    /// What the ray being told weighs in the sample.
+    weight: f32,
+}
+
+impl Page {
+    fn line(&mut self, line: fmt::Arguments<'_>) {
+        let indent = self.indent;
+        // Writing to a String cannot fail.
+        let _ = writeln!(self.text, "{:indent$}{line}", "");
+    }
+
+    fn blank(&mut self) {
+        self.text.push('\n');
+    }
+
+    fn sample(&mut self, i: usize, of: usize, sample: &Sample) {
+        let [x, y] = sample.place;
+        self.line(format_args!("sample {} of {of} at ({x}, {y}), weight {}", i + 1, sample.weight));
+        self.indent += 2;
+        match &sample.ray {
+            Some(ray) => self.ray(ray),
+            None => self.line(format_args!("outside the image circle: black")),
+        }
+        self.indent -= 2;
+    }
+
+    fn ray(&mut self, ray: &RayTold) {
+        self.line(format_args!(
+            "ray      from {} towards {}",
+            Position(ray.origin),
+            Direction(ray.dir)
+        ));
+        match &ray.end {
+            End::Background(background) => {
+                self.line(format_args!("hit      nothing: background {}", Color(*background)));
+            }
+            End::Surface(surface) => self.surface(surface),
+        }
+    }
+
+    fn surface(&mut self, s: &Surface) {
+        let side = if s.from_outside { "outside" } else { "inside" };
+        self.line(format_args!(
+            "hit      {} ({}), at t = {}, from {side}",
+            named(&s.object, s.element),
+            s.at,
+            s.t
+        ));
+        self.line(format_args!("material {}: {}", s.material.name, described(&s.material)));
+        self.line(format_args!("uv       ({}, {})", s.uv[0], s.uv[1]));
+        self.table(&[
+            ("colour  ", Color(s.color).to_string()),
+            ("p       ", Position(s.p).to_string()),
+            ("n_g     ", Direction(s.ng).to_string()),
+            ("N       ", Direction(s.n).to_string()),
+            ("E       ", Direction(s.e).to_string()),
+        ]);
+        self.blank();
+        match product::ambient(s) {
+            Some(ambient) => self.product("ambient", s, &ambient),
+            None => self.line(format_args!("ambient  is added by each light")),
+        }
+        for light in &s.lights {
+            self.blank();
+            self.light(s, light);
+        }
+        for (name, onward) in [("reflection", &s.reflection), ("transmission", &s.transmission)] {
+            if let Some(onward) = onward {
+                self.blank();
+                self.onward(name, onward);
+            }
+        }
+        self.blank();
+        self.terms(s.terms);
+    }
+
+    fn light(&mut self, s: &Surface, lit: &Lit) {
+        if lit.distance.is_finite() {
+            self.line(format_args!("{} ({}), {} away", lit.name, lit.at, lit.distance));
+        } else {
+            self.line(format_args!("{} ({}), distant", lit.name, lit.at));
+        }
+        self.indent += 2;
+        self.vectors(lit);
+        if let Some(ambient) = product::ambient_of_light(s, lit) {
+            self.product("ambient", s, &ambient);
+        }
+        if let Some(why) = hidden(lit) {
+            self.line(format_args!("{why}: diffuse and specular are 0"));
+        } else {
+            self.product("diffuse", s, &product::diffuse(s, lit));
+            if let Some(specular) = product::specular(s, lit) {
+                self.product("specular", s, &specular);
+            }
+        }
+        self.indent -= 2;
+    }
+
+    fn vectors(&mut self, lit: &Lit) {
+        let Some(l) = lit.l else { return };
+        let mut rows = vec![("L", l, "N·L", lit.n_dot_l)];
+        rows.extend(lit.r.map(|r| ("R", r, "R·E", lit.r_dot_e)));
+        rows.extend(lit.h.map(|h| ("H", h, "N·H", lit.n_dot_h)));
+        let written: Vec<String> = rows.iter().map(|row| Direction(row.1).to_string()).collect();
+        for ((name, _, product, cosine), vector) in rows.iter().zip(columns(&written)) {
+            self.line(format_args!("{name}        = {vector}   {product} = {cosine}"));
+        }
+        match (&lit.blocker, lit.tested) {
+            (Some(b), _) => self.line(format_args!(
+                "shadow   : {} ({}) stands between, {} away",
+                named(&b.object, b.element),
+                b.at,
+                b.t
+            )),
+            (None, true) => self.line(format_args!("shadow   : nothing stands between")),
+            (None, false) if lit.visible => self.line(format_args!("shadow   : not looked for")),
+            (None, false) => {}
+        }
+    }
+
+    fn onward(&mut self, name: &str, onward: &Onward) {
+        let fresnel = onward.fresnel.map(|f| format!(", F = {f}")).unwrap_or_default();
+        self.line(format_args!("{name}, weight {}{fresnel}", Color(onward.weight)));
+        self.indent += 2;
+        let outer = self.weight;
+        self.weight *= onward.weight.max_channel();
+        match &onward.ray {
+            Some(_) if !self.full && self.weight * onward.light.max_channel() < NOTICED => {
+                self.line(format_args!("it brings less than half a level: not told (--full does)"));
+            }
+            Some(ray) => self.ray(ray),
+            None => self.line(format_args!("the depth is used up: black")),
+        }
+        self.weight = outer;
+        self.indent -= 2;
+        self.equation(
+            &format!("{name:<12} = weight × light"),
+            &[
+                format!("{} × {}", Color(onward.weight), Color(onward.light)),
+                Color(onward.weight * onward.light).to_string(),
+            ],
+        );
+    }
+
+    fn product(&mut self, name: &str, s: &Surface, term: &Product) {
+        let (letters, steps) = product(name, &s.material, term);
+        self.equation(&letters, &steps);
+    }
+
+    /// An equation, and under its sign of equality what it comes to.
+    fn equation(&mut self, equation: &str, steps: &[String]) {
+        self.line(format_args!("{equation}"));
+        let before = equation.find('=').unwrap_or(0);
+        for step in steps {
+            self.line(format_args!("{:before$}= {step}", ""));
+        }
+    }
+
+    fn table(&mut self, rows: &[(&str, String)]) {
+        let triples: Vec<String> = rows.iter().map(|row| row.1.clone()).collect();
+        for ((name, _), triple) in rows.iter().zip(columns(&triples)) {
+            self.line(format_args!("{name} = {}", triple.trim_end()));
+        }
+    }
+
+    fn terms(&mut self, terms: Terms) {
+        let shown = Terms::NAMES.into_iter().zip(terms.to_array());
+        let mut rows: Vec<_> = shown.filter(|(_, term)| !term.is_black()).collect();
+        rows.push(("sum", terms.total()));
+        let written: Vec<String> = rows.iter().map(|row| Color(row.1).to_string()).collect();
+        for ((name, _), triple) in rows.iter().zip(columns(&written)) {
+            self.line(format_args!("{name:<12} {}", triple.trim_end()));
+        }
+    }
+
+    fn sum(&mut self, e: &Explanation) {
+        self.line(format_args!(
+            "the pixel: {} in f64, each term rounded to f32",
+            match e.samples.len() {
+                1 => "its sample".to_owned(),
+                n => format!("the weighted mean of {n} samples"),
+            }
+        ));
+        self.indent += 2;
+        self.terms(e.terms);
+        if e.alpha < 1.0 {
+            self.line(format_args!("{:<12} {}", "alpha", e.alpha));
+        }
+        let Encoded { clamped, curve, bytes: [r, g, b] } = e.encoded(0.0);
+        self.line(format_args!("{:<12} {}", "clamped", Color(clamped)));
+        let [x, y, z] = curve;
+        self.line(format_args!("{:<12} ({x:.6}, {y:.6}, {z:.6})", "sRGB"));
+        self.line(format_args!("{:<12} ({r}, {g}, {b})  #{r:02x}{g:02x}{b:02x}", "bytes"));
+        self.indent -= 2;
+    }
+}
+
+/// Why a light adds nothing; `None` if it does.
+pub(super) fn hidden(lit: &Lit) -> Option<&'static str> {
+    if lit.visible {
+        None
+    } else if lit.l.is_none() {
+        Some("the point is where the light is")
+    } else if lit.n_dot_l <= 0.0 {
+        Some("N·L ≤ 0, the light is behind the surface")
+    } else if !lit.above {
+        Some("the light is below the geometric horizon")
+    } else if !lit.tested {
+        Some("no light comes this way")
+    } else {
+        Some("in shadow")
+    }
+}
+
+/// A term in letters, and step by step in numbers.
+fn product(name: &str, m: &phong_scene::Material, product: &Product) -> (String, Vec<String>) {
+    let letters: Vec<&str> = product.factors.iter().map(|factor| &*factor.words).collect();
+    let mut letters = format!("{name:<8} = {}", letters.join(" "));
+    if name == "specular" && m.model == Model::BlinnFast {
+        let _ = write!(letters, ", x = N·H, α = {}", m.shininess);
+    }
+    let number = |factor: &Factor| match factor.number {
+        Number::One(number) => Digits(number).to_string(),
+        Number::Color(color) => Color(color).to_string(),
+    };
+    let raised = |factor: &Factor| match factor.power {
+        None => number(factor),
+        Some(Power { cosine, exponent }) if cosine < 0.0 => format!("max(0, {cosine})^{exponent}"),
+        Some(Power { cosine, exponent }) => format!("{cosine}^{exponent}"),
+    };
+    let line = |of: &dyn Fn(&Factor) -> String| {
+        product.factors.iter().map(of).collect::<Vec<String>>().join(" × ")
+    };
+    let mut steps = vec![line(&raised)];
+    if product.factors.iter().any(|factor| factor.power.is_some()) {
+        steps.push(line(&number));
+    }
+    steps.push(Color(product.value).to_string());
+    (letters, steps)
+}
+
+/// A material's model and numbers in a few words.
+pub(super) fn described(m: &phong_scene::Material) -> String {
+    match m.model {
+        Model::Lambert => format!("Lambert, k_a {}, k_d {}", m.k_a, m.k_d),
+        Model::Phong | Model::BlinnPhong | Model::BlinnFast => {
+            let name = match m.model {
+                Model::Phong => "Phong",
+                Model::BlinnFast => "Blinn, fast",
+                _ => "Blinn–Phong",
+            };
+            let viewer = match m.viewer {
+                Viewer::Local => "",
+                Viewer::Distant => ", seen from far along the camera's axis",
+            };
+            format!(
+                "{name}, k_a {}, k_d {}, k_s {}, α {}{viewer}",
+                m.k_a, m.k_d, m.k_s, m.shininess
+            )
+        }
+        Model::Microfacet { distribution, roughness, shadowing, fresnel } => format!(
+            "microfacets ({distribution:?} {roughness}, {shadowing:?} shadowing, {fresnel:?}), \
+             k_a {}, k_d {}, k_s {}",
+            m.k_a, m.k_d, m.k_s
+        ),
+        Model::OrenNayar { sigma, .. } => {
+            format!("Oren–Nayar, σ {sigma} rad, k_a {}, k_d {}", m.k_a, m.k_d)
+        }
+        Model::Ward { roughness_x, roughness_y, .. } => format!(
+            "Ward, roughness {roughness_x} × {roughness_y}, k_a {}, k_d {}, k_s {}",
+            m.k_a, m.k_d, m.k_s
+        ),
+    }
+}
