@@ -42,6 +42,20 @@ pub struct Camera {
     pub focus: Option<f64>,
 }
 
+impl Default for Camera {
+    /// From (0, 0, 5) towards the origin, Y up, with a pinhole.
+    fn default() -> Self {
+        Self {
+            kind: CameraKind::default(),
+            eye: DVec3::new(0.0, 0.0, 5.0),
+            look_at: DVec3::ZERO,
+            up: DVec3::Y,
+            aperture: 0.0,
+            focus: None,
+        }
+    }
+}
+
 /// How directions become pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CameraKind {
@@ -62,4 +76,11 @@ pub enum CameraKind {
     },
     /// Equirectangular, 360° × 180°, forward in the middle.
     Panorama,
+}
+
+impl Default for CameraKind {
+    /// Perspective, 40° high.
+    fn default() -> Self {
+        Self::Perspective { fov: 40.0 }
+    }
 }

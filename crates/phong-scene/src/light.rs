@@ -57,6 +57,20 @@ pub struct Light {
     pub place: Place,
 }
 
+impl Default for Light {
+    /// A white distant light called `light`, with shadows.
+    fn default() -> Self {
+        Self {
+            name: "light".to_owned(),
+            kind: LightKind::default(),
+            color: Rgb::WHITE,
+            specular_color: Rgb::WHITE,
+            shadows: true,
+            place: Place::default(),
+        }
+    }
+}
+
 /// Where a light's light comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LightKind {
@@ -91,4 +105,11 @@ pub enum LightKind {
         /// As for a point light.
         radius: f64,
     },
+}
+
+impl Default for LightKind {
+    /// Distant, with hard shadows, travelling along (−1, −2, −1): from above, right and behind.
+    fn default() -> Self {
+        Self::Distant { direction: DVec3::new(-1.0, -2.0, -1.0), angle: 0.0 }
+    }
 }

@@ -135,11 +135,12 @@ impl Default for Material {
 }
 
 /// The lobe of a material.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Model {
     /// Diffuse only.
     Lambert,
     /// `(R·E)^α`.
+    #[default]
     Phong,
     /// `(N·H)^α`.
     BlinnPhong,

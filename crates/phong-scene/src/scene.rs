@@ -94,7 +94,21 @@ use crate::light::Light;
 use crate::material::{Material, MaterialId};
 use crate::shape::Shape;
 
-/// A whole scene, resolved and checked: what the renderer takes.
+/// A whole scene, resolved: what the renderer takes.
+///
+/// Readers return checked ones.
+///
+/// ```
+/// use phong_scene::{Light, Mesh, Object, Scene};
+/// # use glam::Vec3;
+/// let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y];
+/// let mesh = Mesh { positions, indices: vec![[0, 1, 2]], ..Mesh::default() };
+/// let scene = Scene {
+///     lights: vec![Light::default()],
+///     objects: vec![Object::from(mesh)],
+///     ..Scene::default()
+/// };
+/// ```
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// The picture's own settings.
@@ -111,6 +125,22 @@ pub struct Scene {
     pub objects: Vec<Object>,
     /// What instances place; a group's objects are not in `objects`.
     pub groups: Vec<Group>,
+}
+
+impl Default for Scene {
+    /// The default camera and picture, white ambient light, no lights and no objects, and one
+    /// material, the default one, which [`MaterialId`] 0 and so every default object is of.
+    fn default() -> Self {
+        Self {
+            image: Image::default(),
+            camera: Camera::default(),
+            ambient: Rgb::WHITE,
+            lights: Vec::new(),
+            materials: vec![Material::default()],
+            objects: Vec::new(),
+            groups: Vec::new(),
+        }
+    }
 }
 
 /// What reading gave: a scene unless there was an error, and everything there is to say.
@@ -146,7 +176,7 @@ impl Default for Image {
         Self {
             size: [960, 540],
             samples: 16,
-            background: Background::Color(Rgb::BLACK),
+            background: Background::default(),
             filter: FilterKind::Box,
             seed: 0,
             depth: 8,
@@ -170,6 +200,13 @@ pub enum Background {
     Transparent,
 }
 
+impl Default for Background {
+    /// Black.
+    fn default() -> Self {
+        Self::Color(Rgb::BLACK)
+    }
+}
+
 /// The pixel filter: how a sample's place in (or around) its pixel is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FilterKind {
@@ -185,7 +222,7 @@ pub enum FilterKind {
 }
 
 /// Shapes to be placed together. A group may hold instances of earlier groups, never of itself.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Group {
     /// The name in the text.
     pub name: String,
@@ -206,4 +243,25 @@ pub struct Object {
     pub transform: DAffine3,
     /// Where it was written.
     pub place: Place,
+}
+
+impl Default for Object {
+    /// The default shape, called `object`, of material 0, where it is.
+    fn default() -> Self {
+        Self {
+            name: "object".to_owned(),
+            shape: Shape::default(),
+            material: MaterialId::default(),
+            transform: DAffine3::IDENTITY,
+            place: Place::default(),
+        }
+    }
+}
+
+impl<S: Into<Shape>> From<S> for Object {
+    /// This shape, called by its kind.
+    fn from(shape: S) -> Self {
+        let shape = shape.into();
+        Self { name: shape.kind().to_owned(), shape, ..Self::default() }
+    }
 }

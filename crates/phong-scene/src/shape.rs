@@ -177,7 +177,7 @@ use glam::{DVec2, DVec3};
 use crate::mesh::{Mesh, Points};
 
 /// Index into [`Scene::groups`](crate::Scene::groups).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct GroupId(pub u32);
 
 /// One shape, in its object's own space. All numbers are finite, radii > 0, directions not zero.
@@ -263,6 +263,25 @@ pub enum Shape {
     Points(Box<Points>),
     /// All objects of a group, placed by the object's transform.
     Instance(GroupId),
+}
+
+impl Default for Shape {
+    /// The sphere of radius 1 about the origin.
+    fn default() -> Self {
+        Self::Sphere { center: DVec3::ZERO, radius: 1.0 }
+    }
+}
+
+impl From<Mesh> for Shape {
+    fn from(mesh: Mesh) -> Self {
+        Self::Mesh(Box::new(mesh))
+    }
+}
+
+impl From<Points> for Shape {
+    fn from(points: Points) -> Self {
+        Self::Points(Box::new(points))
+    }
 }
 
 impl Shape {

@@ -160,24 +160,14 @@ mod tests {
     use glam::DQuat;
 
     use super::*;
-    use crate::diagnostic::Place;
-    use crate::material::{Material, MaterialId};
     use crate::shape::GroupId;
 
     fn object(shape: Shape, transform: DAffine3) -> Object {
-        let (material, place) = (MaterialId(0), Place::default());
-        Object { name: String::new(), shape, material, transform, place }
+        Object { shape, transform, ..Object::default() }
     }
 
     fn scene(objects: Vec<Object>) -> Scene {
-        let mut scene = crate::frame::frame(
-            crate::format::model::Model::default(),
-            &crate::frame::View::default(),
-            &Place::default(),
-        );
-        scene.materials = vec![Material::default()];
-        scene.objects = objects;
-        scene
+        Scene { objects, ..Scene::default() }
     }
 
     fn close(a: Bounds, min: [f64; 3], max: [f64; 3]) {
