@@ -183,8 +183,8 @@ pub(crate) fn look(scene: &mut Scene, bare: bool, args: &ViewArgs) -> Result<(),
             .with_help("a scene's camera of kind \"fisheye\" sees up to 360"));
     }
     if bare {
-        let default = phong_scene::View::default();
-        scene.frame(&phong_scene::View {
+        let default = phong_scene::Framing::default();
+        scene.frame(&phong_scene::Framing {
             side: args.view.map_or(default.side, Side::from),
             up: up.unwrap_or(default.up),
             eye,

@@ -1,15 +1,16 @@
 //! An automatic camera and two lights, so that a bare model looks good without a word.
 
-use glam::{DAffine3, DVec3};
+use std::collections::BTreeMap;
+
+use glam::DVec3;
 
 use crate::bounds::Bounds;
 use crate::camera::{Camera, CameraKind};
 use crate::color::Rgb;
 use crate::diagnostic::Place;
-use crate::format::model::{Model, Part};
+use crate::fragment::Fragment;
 use crate::light::{Light, LightKind};
-use crate::material::{Material, MaterialId};
-use crate::scene::{Background, Image, Object, Scene};
+use crate::scene::{Background, Group, Object, Scene};
 use crate::shape::Shape;
 
 /// Share of the picture that the model's box may fill, along the tighter direction.
@@ -19,12 +20,12 @@ const FILL: f64 = 0.9;
 ///
 /// ```
 /// use glam::DVec3;
-/// use phong_scene::{Side, View};
+/// use phong_scene::{Side, Framing};
 /// // A map, north at the picture's upper edge.
-/// let above = View { side: Side::Top, up: DVec3::Z, ..View::default() };
+/// let above = Framing { side: Side::Top, up: DVec3::Z, ..Framing::default() };
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct View {
+pub struct Framing {
     /// Which side faces the camera. Default: [`Side::Iso`].
     pub side: Side,
     /// The direction of the model that points up, of any length but 0. Default: +Y. For any other
@@ -41,7 +42,7 @@ pub struct View {
     pub color: Option<Rgb>,
 }
 
-impl Default for View {
+impl Default for Framing {
     fn default() -> Self {
         Self {
             side: Side::default(),
@@ -74,73 +75,67 @@ pub enum Side {
     Iso,
 }
 
-/// A scene that shows `model` from `view`: camera, lights and background are automatic.
+/// A scene that shows a fragment by `framing`: background, camera and lights are automatic where
+/// the fragment brings none.
 ///
 /// Material 0 is of what has none; the model's own follow. Meshes without normals are smoothed
 /// where faces meet under 60°.
-pub(crate) fn frame(model: Model, view: &View, place: &Place) -> Scene {
-    // Materials of foreign files often have a white ambient colour; a dim light suits them all.
-    let ambient = Rgb::grey(0.15);
-    let mut materials = vec![Material { k_a: 1.0, place: place.clone(), ..Material::default() }];
-    materials.extend(model.materials);
-    let (mut meshes, mut clouds) = (0, 0);
-    let objects = model
-        .parts
-        .into_iter()
-        .map(|part| {
-            let (name, shape) = match part {
-                Part::Mesh { mut mesh, .. } => {
-                    meshes += 1;
-                    mesh.face_materials.iter_mut().for_each(|m| *m += 1);
-                    if mesh.normals.is_empty() {
-                        mesh.smooth(60.0);
-                    }
-                    (format!("mesh {meshes}"), Shape::Mesh(Box::new(mesh)))
-                }
-                Part::Points { points, .. } => {
-                    clouds += 1;
-                    (format!("points {clouds}"), Shape::Points(Box::new(points)))
-                }
-            };
-            let (material, transform) = (MaterialId(0), DAffine3::IDENTITY);
-            Object { name, shape, material, transform, place: place.clone() }
-        })
-        .collect();
-    let mut scene = Scene {
-        image: Image::default(),
-        camera: Camera {
-            kind: CameraKind::Perspective { fov: 40.0 },
-            eye: DVec3::Z,
-            look_at: DVec3::ZERO,
-            up: DVec3::Y,
-            aperture: 0.0,
-            focus: None,
-        },
-        ambient,
-        lights: Vec::new(),
-        materials,
-        objects,
-        groups: Vec::new(),
+pub(crate) fn frame(fragment: Fragment, framing: &Framing, place: &Place) -> Scene {
+    let mut materials = fragment.materials;
+    if let Some(plain) = materials.first_mut() {
+        plain.k_a = 1.0;
+        plain.place = place.clone();
+    }
+    let mut numbers = BTreeMap::new();
+    let mut named = |mut object: Object| {
+        let kind = object.shape.kind();
+        let number = numbers.entry(kind).or_insert(0);
+        *number += 1;
+        object.name = format!("{kind} {number}");
+        object.place = place.clone();
+        if let Shape::Mesh(mesh) = &mut object.shape
+            && mesh.normals.is_empty()
+        {
+            mesh.smooth(60.0);
+        }
+        object
     };
-    scene.frame(view);
+    let objects = fragment.objects.into_iter().map(&mut named).collect();
+    let groups = fragment.groups.into_iter().map(|group| {
+        let objects = group.objects.into_iter().map(&mut named).collect();
+        Group { objects, ..group }
+    });
+    let mut scene = Scene {
+        // Foreign materials often have a white ambient colour; a dim light suits them all.
+        ambient: Rgb::grey(0.15),
+        materials,
+        groups: groups.collect(),
+        objects,
+        ..Scene::default()
+    };
+    scene.frame(framing);
+    scene.camera = fragment.camera.unwrap_or(scene.camera);
+    if !fragment.lights.is_empty() {
+        scene.lights = fragment.lights;
+    }
     scene
 }
 
 impl Scene {
-    /// Looks at a bare model's scene from `view`: replaces camera, lights, background and the
+    /// Looks at a bare model's scene by `framing`: replaces camera, lights, background and the
     /// colour of material 0. The picture's size counts: everything fits into it with a margin.
     ///
     /// The camera is a perspective one; two distant lights stand behind it, a key light over its
     /// left shoulder and a weaker one low on its right, which throws no shadows.
-    pub fn frame(&mut self, view: &View) {
-        self.camera = self.fit(view);
+    pub fn frame(&mut self, framing: &Framing) {
+        self.camera = self.fit(framing);
         self.lights = lights(&self.camera);
         self.image.background = Background::Gradient {
             top: Rgb::from_srgb8([0xd8, 0xdf, 0xe8]),
             bottom: Rgb::from_srgb8([0x8e, 0x99, 0xa6]),
         };
         if let Some(material) = self.materials.first_mut() {
-            material.color = view.color.unwrap_or(Rgb::from_srgb8([0xd9, 0xcf, 0xc2]));
+            material.color = framing.color.unwrap_or(Rgb::from_srgb8([0xd9, 0xcf, 0xc2]));
         }
     }
 
@@ -150,10 +145,10 @@ impl Scene {
     /// eye lies as far along its normal as the model reaches: two edges left and right give the
     /// eye's place across and a distance, those above and below its height and another distance,
     /// and the larger counts.
-    fn fit(&self, view: &View) -> Camera {
-        let fov = view.fov.unwrap_or(40.0);
+    fn fit(&self, framing: &Framing) -> Camera {
+        let fov = framing.fov.unwrap_or(40.0);
         let [width, height] = self.image.size.map(|side| f64::from(side.max(1)));
-        let (to_eye, up) = directions(view.side, view.up);
+        let (to_eye, up) = directions(framing.side, framing.up);
         let right = up.cross(to_eye).normalize_or(DVec3::X);
         let image_up = to_eye.cross(right);
         let bounds = self.bounds();
@@ -172,7 +167,7 @@ impl Scene {
         let reach = self.reach(edges);
         let [east, west, north, south] =
             std::array::from_fn(|i| (reach[i] - center.dot(edges[i])).max(0.0));
-        let (x, y) = match view.look_at {
+        let (x, y) = match framing.look_at {
             Some(target) => ((target - center).dot(right), (target - center).dot(image_up)),
             None => (0.5 * (east - west), 0.5 * (north - south)),
         };
@@ -182,8 +177,9 @@ impl Scene {
         let scale = center.abs().max_element();
         let least = if bounds.size() == DVec3::ZERO { scale.max(1.0) } else { scale * 1e-9 };
         let middle = center + x * right + y * image_up;
-        let look_at = view.look_at.unwrap_or(if view.eye.is_some() { center } else { middle });
-        let eye = view.eye.unwrap_or(middle + to_eye * distance.max(least));
+        let look_at =
+            framing.look_at.unwrap_or(if framing.eye.is_some() { center } else { middle });
+        let eye = framing.eye.unwrap_or(middle + to_eye * distance.max(least));
         let forward = look_at - eye;
         let along_up = forward.cross(up).length() <= 1e-6 * forward.length() * up.length();
         let up = if along_up { image_up } else { up };
@@ -241,6 +237,7 @@ mod tests {
     use glam::Vec3;
 
     use super::*;
+    use crate::material::Material;
     use crate::mesh::Mesh;
 
     const SIDES: [Side; 7] =
@@ -258,10 +255,8 @@ mod tests {
 
     /// A scene of one box.
     fn boxed(min: DVec3, max: DVec3) -> Scene {
-        let mut scene = frame(Model::default(), &View::default(), &Place::default());
-        let (shape, place) = (Shape::Box { min, max }, Place::default());
-        let (material, transform) = (MaterialId(0), DAffine3::IDENTITY);
-        scene.objects = vec![Object { name: String::new(), shape, material, transform, place }];
+        let mut scene = frame(Fragment::default(), &Framing::default(), &Place::default());
+        scene.objects = vec![Object::from(Shape::Box { min, max })];
         scene
     }
 
@@ -280,7 +275,7 @@ mod tests {
                     for size in [[100, 400], [100, 100], [1600, 900]] {
                         let mut scene = boxed(min, max);
                         scene.image.size = size;
-                        scene.frame(&View { side, up, ..View::default() });
+                        scene.frame(&Framing { side, up, ..Framing::default() });
                         let aspect = f64::from(size[0]) / f64::from(size[1]);
                         let corners = Bounds { min, max }.corners();
                         let seen = corners.map(|c| project(&scene.camera, aspect, c));
@@ -307,7 +302,7 @@ mod tests {
         let mut scene = boxed(DVec3::ZERO, DVec3::ONE);
         scene.objects[0].shape = Shape::Sphere { center: DVec3::ZERO, radius: 1.0 };
         scene.image.size = [1, 1];
-        scene.frame(&View { fov: Some(60.0), ..View::default() });
+        scene.frame(&Framing { fov: Some(60.0), ..Framing::default() });
         // Tangents from the eye leave at the angle whose sine is radius over distance.
         let half = libm::atan(libm::tan(30_f64.to_radians()) * FILL);
         assert!((scene.camera.eye.length() - 1.0 / libm::sin(half)).abs() < 1e-12);
@@ -320,7 +315,7 @@ mod tests {
         let mut nothing = boxed(point, point);
         nothing.objects.clear();
         for mut scene in [nothing, boxed(point, point)] {
-            scene.frame(&View::default());
+            scene.frame(&Framing::default());
             let Camera { eye, look_at, .. } = scene.camera;
             assert!(eye.is_finite() && eye.distance(look_at) > 1e-3, "{eye} {look_at}");
         }
@@ -329,7 +324,7 @@ mod tests {
     #[test]
     fn what_one_chooses_to_look_at_is_in_the_middle_and_everything_still_fits() {
         let mut scene = boxed(DVec3::ZERO, DVec3::ONE);
-        scene.frame(&View { look_at: Some(DVec3::ZERO), ..View::default() });
+        scene.frame(&Framing { look_at: Some(DVec3::ZERO), ..Framing::default() });
         assert_eq!(scene.camera.look_at, DVec3::ZERO);
         for corner in (Bounds { min: DVec3::ZERO, max: DVec3::ONE }).corners() {
             let (x, y) = project(&scene.camera, 16.0 / 9.0, corner);
@@ -348,8 +343,8 @@ mod tests {
 
     #[test]
     fn an_eye_of_ones_own_wins_and_looking_along_up_still_has_an_up() {
-        let view = View { eye: Some(DVec3::new(0.5, 9.0, 0.5)), ..View::default() };
-        let camera = boxed(DVec3::ZERO, DVec3::ONE).fit(&view);
+        let framing = Framing { eye: Some(DVec3::new(0.5, 9.0, 0.5)), ..Framing::default() };
+        let camera = boxed(DVec3::ZERO, DVec3::ONE).fit(&framing);
         assert_eq!(camera.eye.y, 9.0);
         assert!((camera.look_at - camera.eye).cross(camera.up).length() > 0.1);
     }
@@ -359,14 +354,14 @@ mod tests {
         let mesh = Mesh {
             positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
             indices: vec![[0, 1, 2]],
-            face_materials: vec![0],
+            face_materials: vec![1],
             ..Mesh::default()
         };
         let red = Material { name: "red".to_owned(), ..Material::default() };
-        let model =
-            Model { parts: vec![Part::Mesh { name: String::new(), mesh }], materials: vec![red] };
+        let fragment = Fragment::of(mesh, vec![red]);
         let place = Place::default();
-        let scene = frame(model, &View { color: Some(Rgb::BLACK), ..View::default() }, &place);
+        let scene =
+            frame(fragment, &Framing { color: Some(Rgb::BLACK), ..Framing::default() }, &place);
         assert_eq!(
             (scene.materials[0].color, scene.materials[1].name.as_str()),
             (Rgb::BLACK, "red")

@@ -12,6 +12,7 @@ mod diagnostic;
 mod dialect;
 #[expect(dead_code, reason = "`Cursor::since` waits for its first caller")]
 mod format;
+mod fragment;
 mod frame;
 mod keys;
 mod light;
@@ -31,7 +32,8 @@ pub use diagnostic::{Diagnostic, Label, Place, Severity, Span};
 pub use format::export::{Account, Export, ExportOptions, File};
 pub use format::ply::PlyEncoding;
 pub use format::{Format, read};
-pub use frame::{Side, View};
+pub use fragment::Fragment;
+pub use frame::{Framing, Side};
 pub use keys::{reference_markdown, schema_json};
 pub use light::{Light, LightKind};
 pub use limits::Limits;

@@ -1,7 +1,6 @@
 //! The formats scenes and models come in, and the door to all of them: [`read`].
 
 pub(crate) mod export;
-pub(crate) mod model;
 pub(crate) mod mtl;
 pub(crate) mod obj;
 mod origin;
@@ -12,8 +11,8 @@ pub(crate) mod toml;
 use std::fmt;
 
 use crate::diagnostic::{Diagnostic, Place, Span};
-use crate::format::model::Model;
-use crate::frame::View;
+use crate::fragment::Fragment;
+use crate::frame::{Framing, frame};
 use crate::limits::Limits;
 use crate::scene::Reading;
 use crate::source::Source;
@@ -119,7 +118,7 @@ impl fmt::Display for Format {
 /// Reads a scene or a bare model, and everything there is to say about it.
 ///
 /// `format` `None` means what the path's ending says. A bare model is seen from the default
-/// [`View`]; [`Scene::frame`](crate::Scene::frame) looks at it from another.
+/// [`Framing`]; [`Scene::frame`](crate::Scene::frame) looks at it from another.
 ///
 /// ```
 /// use phong_scene::{Limits, Memory, read};
@@ -148,10 +147,14 @@ pub fn read(path: &str, format: Option<Format>, source: &dyn Source, limits: &Li
         return toml::read_toml(path, source, limits);
     }
     let mut diagnostics = Vec::new();
-    let model = read_model(path, format, None, source, limits, &mut diagnostics);
+    let fragment = read_model(path, format, None, source, limits, &mut diagnostics);
     let sound = !diagnostics.iter().any(Diagnostic::is_error);
-    let scene = model.filter(|_| sound).map(|m| crate::frame::frame(m, &View::default(), &place));
-    Reading { scene, bare: true, diagnostics }
+    let Some(fragment) = fragment.filter(|_| sound) else {
+        return Reading { scene: None, bare: true, diagnostics };
+    };
+    let bare = fragment.camera.is_none() && fragment.lights.is_empty();
+    let scene = Some(frame(fragment, &Framing::default(), &place));
+    Reading { scene, bare, diagnostics }
 }
 
 /// Reads a model file; `None` if a diagnostic is an error.
@@ -164,7 +167,7 @@ pub(crate) fn read_model(
     source: &dyn Source,
     limits: &Limits,
     out: &mut Vec<Diagnostic>,
-) -> Option<Model> {
+) -> Option<Fragment> {
     match format {
         Format::Obj => obj::read_obj(path, source, limits, out),
         Format::Ply => ply::read_ply(path, source, limits, default_radius, out),

@@ -7,8 +7,8 @@ use rayon::prelude::*;
 
 use super::block::{BAD_INDEX, Block, Context, Indices, Mark, NO_COLOR};
 use crate::diagnostic::Span;
-use crate::format::model::{Model, Part, flat};
 use crate::format::text::{Cursor, Findings, Piece, TOLD, whole};
+use crate::fragment::{Fragment, flat};
 use crate::limits::Limits;
 use crate::material::Material;
 use crate::mesh::{Mesh, NO_INDEX, cut_polygons};
@@ -125,7 +125,7 @@ impl Assembly {
         blob: &dyn Blob,
         context: &Context,
         known: &BTreeMap<String, Material>,
-    ) -> (Option<Model>, Findings) {
+    ) -> (Option<Fragment>, Findings) {
         if !self.stopped {
             self.check_indices(blob, context);
         }
@@ -190,8 +190,7 @@ impl Assembly {
         if mesh.is_flat() {
             findings.warning("flat models", at_file, || flat(mesh.indices.len()));
         }
-        let model = Model { parts: vec![Part::Mesh { name: String::new(), mesh }], materials };
-        (Some(model), findings)
+        (Some(Fragment::of(mesh, materials)), findings)
     }
 
     /// Finds indices out of range, and forgets what no face uses.
@@ -271,7 +270,8 @@ impl Assembly {
         }
     }
 
-    /// Gives every triangle its material; the materials in the order of their first use.
+    /// Gives every triangle its material: those of the file in the order of their first use, from
+    /// number 1 on; 0 for faces before any `usemtl`.
     fn assign_materials(&mut self, known: &BTreeMap<String, Material>) -> Vec<Material> {
         let count = self.mesh.indices.len();
         let mut runs = std::mem::take(&mut self.runs);
@@ -280,19 +280,16 @@ impl Assembly {
             return Vec::new();
         }
         let mut materials = Vec::new();
-        // The last entry is for faces before any `usemtl`.
-        let mut placed = vec![None; self.names.len() + 1];
-        let nameless = self.names.len() as u32;
+        let mut placed = vec![None; self.names.len()];
         let mut faces = vec![0; count];
         let ends = runs.iter().map(|(start, _)| *start as usize).chain([count]);
-        let starts = [(0, nameless)].into_iter().chain(runs.iter().copied());
-        for ((start, name), end) in starts.zip(ends.collect::<Vec<_>>()) {
+        for ((start, name), end) in runs.iter().copied().zip(ends.skip(1)) {
             if start as usize == end {
                 continue;
             }
             let number = *placed[name as usize].get_or_insert_with(|| {
                 materials.push(self.material(name, known));
-                materials.len() as u32 - 1
+                materials.len() as u32
             });
             faces[start as usize..end].fill(number);
         }

@@ -31,10 +31,10 @@ use glam::DVec3;
 
 use self::assemble::{Assembly, start_of};
 use self::block::{Block, Context};
-use super::model::Model;
 use super::origin::{SAMPLES, origin_of};
 use super::text::{Cursor, Decimal, Lines, Piece, open_text, whole};
 use crate::diagnostic::Diagnostic;
+use crate::fragment::Fragment;
 use crate::limits::Limits;
 use crate::source::{Blob, Source, trouble};
 
@@ -50,7 +50,7 @@ pub(crate) fn read_obj(
     source: &dyn Source,
     limits: &Limits,
     out: &mut Vec<Diagnostic>,
-) -> Option<Model> {
+) -> Option<Fragment> {
     let file: Arc<str> = path.into();
     let read = || -> io::Result<_> {
         let blob = open_text(source, path, limits)?;

@@ -3,8 +3,8 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::format::model::Part;
 use crate::mesh::Mesh;
+use crate::shape::Shape;
 use crate::source::Memory;
 
 fn read(files: &[(&str, &[u8])], limits: &Limits) -> (Option<(Mesh, usize)>, String) {
@@ -12,9 +12,9 @@ fn read(files: &[(&str, &[u8])], limits: &Limits) -> (Option<(Mesh, usize)>, Str
     let mut out = Vec::new();
     let model = read_obj(files[0].0, &source, limits, &mut out);
     let told: Vec<_> = out.iter().map(ToString::to_string).collect();
-    let mesh = model.map(|mut model| match model.parts.remove(0) {
-        Part::Mesh { mesh, .. } => (mesh, model.materials.len()),
-        Part::Points { .. } => panic!("an OBJ file holds no points"),
+    let mesh = model.map(|mut model| match model.objects.remove(0).shape {
+        Shape::Mesh(mesh) => (*mesh, model.materials.len()),
+        other => panic!("an OBJ file holds a mesh: {other:?}"),
     });
     (mesh, told.join("\n"))
 }
@@ -148,10 +148,10 @@ fn what_is_written_reads_back_to_the_bit() {
         |text: &str| Memory::new().with("a.obj", text.as_bytes()).with("a.mtl", library.as_bytes());
     let read = |text: &str| {
         let model = read_obj("a.obj", &files(text), &Limits::default(), &mut Vec::new()).unwrap();
-        (format!("{:?}", model.parts), model)
+        (format!("{:?}", model.objects), model)
     };
     let (first, model) = read(text);
-    let Some(Part::Mesh { mesh, .. }) = model.parts.first() else { panic!("{first}") };
+    let Shape::Mesh(mesh) = &model.objects[0].shape else { panic!("{first}") };
     let mut file = b"mtllib a.mtl\n".to_vec();
     mesh.write_obj(&model.materials, &mut file).unwrap();
     let (second, _) = read(str::from_utf8(&file).unwrap());

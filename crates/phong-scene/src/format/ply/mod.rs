@@ -43,11 +43,12 @@ use std::sync::Arc;
 use self::body::{Body, Contents, face_kind};
 use self::header::{Encoding, Header};
 use self::vertices::{Plan, RADIUS};
-use super::model::{Model, Part, flat};
 use super::text::{Findings, whole};
 use crate::diagnostic::Diagnostic;
+use crate::fragment::{Fragment, flat};
 use crate::limits::Limits;
 use crate::mesh::cut_polygons;
+use crate::shape::Shape;
 use crate::source::{Source, trouble};
 
 /// Reads a PLY file; `None` if a diagnostic is an error. A file without faces is a cloud of
@@ -58,17 +59,14 @@ pub(crate) fn read_ply(
     limits: &Limits,
     default_radius: Option<f32>,
     out: &mut Vec<Diagnostic>,
-) -> Option<Model> {
+) -> Option<Fragment> {
     let file: Arc<str> = path.into();
     let mut findings = Findings::default();
     let part = read(&file, source, limits, default_radius, &mut findings);
     let sound = !findings.any_error();
     findings.tell(&file, out);
     match part {
-        Ok(part) => {
-            let model = part.map(|part| Model { parts: vec![part], materials: Vec::new() });
-            model.filter(|_| sound)
-        }
+        Ok(part) => part.filter(|_| sound).map(|shape| Fragment::of(shape, Vec::new())),
         Err(error) => {
             out.push(Diagnostic::error(
                 format!("cannot be read: {}", trouble(&error)),
@@ -85,7 +83,7 @@ fn read(
     limits: &Limits,
     default_radius: Option<f32>,
     findings: &mut Findings,
-) -> io::Result<Option<Part>> {
+) -> io::Result<Option<Shape>> {
     let blob = source.open(file)?;
     let blob = blob.as_ref();
     let Some(header) = Header::read(blob, file, findings)? else { return Ok(None) };
@@ -137,7 +135,7 @@ impl Body<'_> {
         }
     }
 
-    fn finish(&mut self, contents: Contents) -> Option<Part> {
+    fn finish(&mut self, contents: Contents) -> Option<Shape> {
         let Contents { vertices, faces } = contents;
         if self.plan.spheres {
             let mut points = vertices.into_points(&self.plan);
@@ -154,7 +152,7 @@ impl Body<'_> {
                 let radius = radius::automatic(&points.spheres);
                 points.spheres.iter_mut().for_each(|sphere| sphere[3] = radius);
             }
-            return Some(Part::Points { name: String::new(), points });
+            return Some(points.into());
         }
         let mut mesh = vertices.into_mesh(&self.plan);
         mesh.indices = faces.indices;
@@ -196,6 +194,6 @@ impl Body<'_> {
         if mesh.is_flat() {
             self.warn("flat models", || flat(mesh.indices.len()));
         }
-        Some(Part::Mesh { name: String::new(), mesh })
+        Some(mesh.into())
     }
 }

@@ -8,24 +8,24 @@ use crate::color::Rgb;
 use crate::mesh::{Mesh, Points};
 use crate::source::Memory;
 
-fn model(bytes: &[u8], limits: &Limits, radius: Option<f32>) -> (Option<Part>, String) {
+fn model(bytes: &[u8], limits: &Limits, radius: Option<f32>) -> (Option<Shape>, String) {
     let source = Memory::new().with("a.ply", bytes);
     let mut out = Vec::new();
     let model = read_ply("a.ply", &source, limits, radius, &mut out);
     let told: Vec<_> = out.iter().map(ToString::to_string).collect();
-    (model.map(|mut model| model.parts.remove(0)), told.join("\n"))
+    (model.map(|mut model| model.objects.remove(0).shape), told.join("\n"))
 }
 
 fn mesh(bytes: &[u8]) -> Mesh {
     match model(bytes, &Limits::default(), None) {
-        (Some(Part::Mesh { mesh, .. }), _) => mesh,
+        (Some(Shape::Mesh(mesh)), _) => *mesh,
         other => panic!("{other:?}"),
     }
 }
 
 fn points(bytes: &[u8], radius: Option<f32>) -> Points {
     match model(bytes, &Limits::default(), radius) {
-        (Some(Part::Points { points, .. }), _) => points,
+        (Some(Shape::Points(points)), _) => *points,
         other => panic!("{other:?}"),
     }
 }

@@ -7,7 +7,7 @@ use glam::DAffine3;
 use super::notes::Notes;
 use super::text::Spot;
 use crate::diagnostic::{Diagnostic, Place};
-use crate::mesh::Mesh;
+use crate::material::MaterialId;
 use crate::shape::Shape;
 use crate::wording::quoted;
 
@@ -66,13 +66,29 @@ pub(super) struct Draft {
     pub(super) place: Place,
 }
 
+/// One of the shapes that a table stands for: several where it names a file.
+#[derive(Debug)]
+pub(super) struct Part {
+    /// What the file calls it; empty: nothing.
+    pub(super) name: String,
+    pub(super) shape: DraftShape,
+    /// Where it is in the file.
+    pub(super) transform: DAffine3,
+}
+
+impl From<DraftShape> for Part {
+    fn from(shape: DraftShape) -> Self {
+        Self { name: String::new(), shape, transform: DAffine3::IDENTITY }
+    }
+}
+
 /// A shape, or what names stand for it.
 #[derive(Debug)]
 pub(super) enum DraftShape {
     /// A shape.
     Shape(Shape),
-    /// A mesh whose faces' materials are those of this model file.
-    Model(Box<Mesh>, usize),
+    /// A shape of this fragment, where its materials are numbered.
+    Part(Shape, MaterialId, usize),
     /// An instance of the group of this name.
     Instance(String, Spot),
 }

@@ -2,14 +2,15 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use super::draft::DraftShape;
+use super::draft::{Draft, DraftShape, Part};
 use super::reader::Reader;
 use super::table::Values;
 use super::text::{self, Spot, Text};
-use crate::format::model::Part;
 use crate::format::{Format, models_are_read_from, read_model};
+use crate::fragment::Fragment;
 use crate::mesh::{Mesh, Points};
-use crate::shape::Shape;
+use crate::scene::Object;
+use crate::shape::{GroupId, Shape};
 use crate::source::trouble;
 use crate::wording;
 
@@ -45,6 +46,9 @@ impl Reader<'_> {
         }
         let mut limits = self.limits.clone();
         limits.text_bytes = limits.text_bytes.saturating_sub(self.bytes);
+        if Format::of_path(&inner).is_some_and(|format| format != Format::Toml) {
+            return self.include_model(v, path);
+        }
         match text::load(&inner, self.source, &limits) {
             Ok(text) => {
                 let mut at = self.notes.text(v.spot.file).at.clone();
@@ -58,9 +62,38 @@ impl Reader<'_> {
         }
     }
 
-    /// `[[mesh]]`: the parts of its file, each with the file's name for it.
-    pub(super) fn mesh(&mut self, v: &Values, path: &str) -> Vec<(String, DraftShape)> {
-        let Some((file, parts, model)) = self.model(v, path, None) else { return Vec::new() };
+    /// `[[include]]` of a model: all of it, at this place.
+    fn include_model(&mut self, v: &Values, path: &str) {
+        let Some((file, mut fragment, number)) = self.fragment(v, path, None) else { return };
+        if fragment.camera.is_some() {
+            let message = format!("the camera of {} is not used", wording::path(&file));
+            self.notes.warning(v.spot_of("file"), message);
+        }
+        self.lights.append(&mut fragment.lights);
+        let place = self.notes.place(v.spot);
+        for part in self.parts(fragment, number, v, Some) {
+            let kind = match &part.shape {
+                DraftShape::Shape(shape) | DraftShape::Part(shape, ..) => shape.kind(),
+                DraftShape::Instance(..) => "instance",
+            };
+            let name = self.numbered(kind);
+            let Part { name: own, shape, transform } = part;
+            let name = if own.is_empty() { name } else { own };
+            self.drafts.push(Draft {
+                name,
+                shape,
+                material: None,
+                transform,
+                place: place.clone(),
+            });
+        }
+    }
+
+    /// `[[mesh]]`: the triangles of its file.
+    pub(super) fn mesh(&mut self, v: &Values, path: &str) -> Vec<Part> {
+        let Some((file, fragment, number)) = self.fragment(v, path, None) else {
+            return Vec::new();
+        };
         let smooth = |mesh: &mut Mesh| match (v.flag("smooth"), v.number("smooth")) {
             (Some(false), _) => drop_normals(mesh),
             (_, Some(degrees)) => {
@@ -70,53 +103,100 @@ impl Reader<'_> {
             _ if mesh.normals.is_empty() => mesh.smooth(60.0),
             _ => {}
         };
-        let mut shapes = Vec::with_capacity(parts.len());
-        for part in parts {
-            let Part::Mesh { name, mut mesh } = part else {
-                let help = "write `[[points]]` to draw a sphere at each";
-                let message = format!("{} holds points without faces", wording::path(&file));
-                self.notes.error(v.spot_of("file"), message).help = Some(help.to_owned());
-                return Vec::new();
-            };
-            smooth(&mut mesh);
-            shapes.push(if mesh.face_materials.is_empty() || v.has("material") {
-                mesh.face_materials = Vec::new();
-                (name, DraftShape::Shape(Shape::Mesh(Box::new(mesh))))
-            } else {
-                (name, DraftShape::Model(Box::new(mesh), model))
-            });
+        let mut others = false;
+        let parts = self.parts(fragment, number, v, |mut shape| {
+            match &mut shape {
+                Shape::Mesh(mesh) => smooth(mesh),
+                Shape::Triangle { .. } | Shape::Instance(_) => {}
+                _ => others = true,
+            }
+            (!others).then_some(shape)
+        });
+        if others {
+            let help = "write `[[points]]` to draw a sphere at each";
+            let message = format!("{} holds points without faces", wording::path(&file));
+            self.notes.error(v.spot_of("file"), message).help = Some(help.to_owned());
         }
-        shapes
+        parts
     }
 
     /// `[[points]]`: the points of its file; of a mesh, its vertices.
-    pub(super) fn points(&mut self, v: &Values, path: &str) -> Vec<(String, DraftShape)> {
+    pub(super) fn points(&mut self, v: &Values, path: &str) -> Vec<Part> {
         let radius = v.number("radius").map(|radius| radius as f32);
-        let Some((file, parts, _)) = self.model(v, path, radius) else { return Vec::new() };
-        let mut shapes = Vec::with_capacity(parts.len());
-        for part in parts {
-            let (name, points) = match (part, radius) {
-                (Part::Points { name, points }, _) => (name, points),
-                (Part::Mesh { name, mesh }, Some(radius)) => (name, vertices(mesh, radius)),
-                (Part::Mesh { .. }, None) => {
-                    let message = format!("{} gives its points no radius", wording::path(&file));
-                    let help = "write `radius = ..`, the radius of the spheres";
-                    self.notes.error(v.spot, message).help = Some(help.to_owned());
-                    return Vec::new();
-                }
-            };
-            shapes.push((name, DraftShape::Shape(Shape::Points(Box::new(points)))));
+        let Some((file, fragment, number)) = self.fragment(v, path, radius) else {
+            return Vec::new();
+        };
+        let mut without_radius = false;
+        let parts = self.parts(fragment, number, v, |shape| match (shape, radius) {
+            (Shape::Mesh(mesh), Some(radius)) => Some(vertices(*mesh, radius).into()),
+            (Shape::Mesh(_), None) => {
+                without_radius = true;
+                None
+            }
+            (shape, _) => Some(shape),
+        });
+        if without_radius {
+            let message = format!("{} gives its points no radius", wording::path(&file));
+            let help = "write `radius = ..`, the radius of the spheres";
+            self.notes.error(v.spot, message).help = Some(help.to_owned());
         }
-        shapes
+        parts
     }
 
-    /// The parts of the file that `v` names, and the number of its list of materials.
-    fn model(
+    /// The objects of the fragment of this number, those of its groups as groups of the scene; each
+    /// shape as `make` makes it, or left out.
+    fn parts(
+        &mut self,
+        fragment: Fragment,
+        number: usize,
+        v: &Values,
+        mut make: impl FnMut(Shape) -> Option<Shape>,
+    ) -> Vec<Part> {
+        let place = self.notes.place(v.spot);
+        // Behind the file and its number, so that a file may be named twice.
+        let file = v.text("file").unwrap_or_default();
+        let group_name = |group: usize, name: &str| format!("{file} {number}: {name} {group}");
+        let names: Vec<_> = fragment
+            .groups
+            .iter()
+            .enumerate()
+            .map(|(i, group)| group_name(i, &group.name))
+            .collect();
+        let mut part = |object: Object| -> Option<Part> {
+            let Object { name, shape, material, transform, .. } = object;
+            let shape = match make(shape)? {
+                Shape::Instance(GroupId(group)) => {
+                    let name = names.get(group as usize)?.clone();
+                    DraftShape::Instance(name, v.spot_of("file"))
+                }
+                shape => DraftShape::Part(shape, material, number),
+            };
+            Some(Part { name, shape, transform })
+        };
+        for (group, name) in fragment.groups.into_iter().zip(&names) {
+            let parts = group.objects.into_iter().filter_map(&mut part);
+            let draft = |Part { name, shape, transform }| Draft {
+                name,
+                shape,
+                material: None,
+                transform,
+                place: place.clone(),
+            };
+            let drafts = parts.map(draft).collect();
+            if let Some(group) = self.groups.declare("group", name, v.spot, &mut self.notes) {
+                self.groups.items[group as usize].2 = Some(drafts);
+            }
+        }
+        fragment.objects.into_iter().filter_map(part).collect()
+    }
+
+    /// What the file that `v` names holds, and the number of its list of materials.
+    fn fragment(
         &mut self,
         v: &Values,
         path: &str,
         radius: Option<f32>,
-    ) -> Option<(String, Vec<Part>, usize)> {
+    ) -> Option<(String, Fragment, usize)> {
         let name = v.text("file")?;
         let spot = v.spot_of("file");
         let file = join(path, &name);
@@ -141,7 +221,7 @@ impl Reader<'_> {
             return None;
         }
         let mut said = Vec::new();
-        let model = read_model(&file, format, radius, self.source, self.limits, &mut said);
+        let fragment = read_model(&file, format, radius, self.source, self.limits, &mut said);
         for diagnostic in said {
             let label = self.notes.span(spot);
             let diagnostic = if diagnostic.is_error() {
@@ -151,9 +231,10 @@ impl Reader<'_> {
             };
             self.notes.say(spot, diagnostic);
         }
-        let model = model?;
-        self.models.push(if v.has("material") { Vec::new() } else { model.materials });
-        Some((file, model.parts, self.models.len() - 1))
+        let mut fragment = fragment?;
+        let own = if v.has("material") { Vec::new() } else { fragment.materials.split_off(1) };
+        self.fragments.push(own);
+        Some((file, fragment, self.fragments.len() - 1))
     }
 
     fn say_format(&mut self, spot: Spot, message: &str) {

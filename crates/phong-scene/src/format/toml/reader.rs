@@ -7,7 +7,7 @@ use glam::DAffine3;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::draft::{Draft, DraftShape, Named};
+use super::draft::{Draft, DraftShape, Named, Part};
 use super::notes::Notes;
 use super::table::{Values, say_unknown};
 use super::text::{Spot, Text};
@@ -36,8 +36,8 @@ pub(super) struct Reader<'a> {
     pub(super) materials: Named<Material>,
     /// The materials that shapes name, and where.
     pub(super) material_names: Vec<(String, Spot)>,
-    /// The materials of model files, a list a file.
-    pub(super) models: Vec<Vec<Material>>,
+    /// The materials of fragments but for their number 0, a list a fragment.
+    pub(super) fragments: Vec<Vec<Material>>,
     pub(super) groups: Named<Vec<Draft>>,
     pub(super) drafts: Vec<Draft>,
     /// How many shapes of each kind there were so far.
@@ -71,7 +71,7 @@ impl<'a> Reader<'a> {
             light_count: 0,
             materials: Named::new(),
             material_names: Vec::new(),
-            models: Vec::new(),
+            fragments: Vec::new(),
             groups: Named::new(),
             drafts: Vec::new(),
             counts: BTreeMap::new(),
@@ -257,9 +257,7 @@ impl<'a> Reader<'a> {
         spot: Spot,
         path: &str,
     ) -> Vec<Draft> {
-        let count = self.counts.entry(table.name).or_default();
-        *count += 1;
-        let numbered = format!("{} {count}", table.name);
+        let numbered = self.numbered(table.name);
         let v = Values::read(table, text, spot, &mut self.notes);
         let transform = shape::transform(&v, &mut self.notes);
         let name = v.text("name").unwrap_or(numbered);
@@ -268,33 +266,41 @@ impl<'a> Reader<'a> {
             self.material_names.push((name, v.spot_of("material")));
             self.material_names.len() - 1
         });
-        let shapes = match table.name {
+        let parts: Vec<Part> = match table.name {
             "mesh" => self.mesh(&v, path),
             "points" => self.points(&v, path),
-            "instance" => v
-                .text("group")
-                .map(|group| DraftShape::Instance(group, v.spot_of("group")))
-                .into_iter()
-                .map(|shape| (String::new(), shape))
-                .collect(),
-            kind => shape::shape(kind, &v, &mut self.notes)
-                .map(DraftShape::Shape)
-                .into_iter()
-                .map(|shape| (String::new(), shape))
-                .collect(),
+            "instance" => {
+                let group = v.text("group").into_iter();
+                group.map(|name| DraftShape::Instance(name, v.spot_of("group")).into()).collect()
+            }
+            kind => {
+                let shape = shape::shape(kind, &v, &mut self.notes);
+                shape.map(|shape| DraftShape::Shape(shape).into()).into_iter().collect()
+            }
         };
         // Whatever is wrong has been said: the scene will not be used, its names still are.
         let transform = transform.unwrap_or(DAffine3::IDENTITY);
         let place = self.notes.place(spot);
-        let one = shapes.len() == 1;
-        let draft = |(part, shape): (String, DraftShape)| Draft {
-            name: if one || part.is_empty() { name.clone() } else { format!("{name}: {part}") },
-            shape,
+        let one = parts.len() == 1;
+        let draft = |part: Part| Draft {
+            name: if one || part.name.is_empty() {
+                name.clone()
+            } else {
+                format!("{name}: {}", part.name)
+            },
+            shape: part.shape,
             material,
-            transform,
+            transform: transform * part.transform,
             place: place.clone(),
         };
-        shapes.into_iter().map(draft).collect()
+        parts.into_iter().map(draft).collect()
+    }
+
+    /// The name of the next shape of this kind.
+    pub(super) fn numbered(&mut self, kind: &'static str) -> String {
+        let count = self.counts.entry(kind).or_default();
+        *count += 1;
+        format!("{kind} {count}")
     }
 
     /// A table, where there must be one.

@@ -23,7 +23,7 @@ const MOST_COMPARED: usize = 500;
 impl Reader<'_> {
     /// The scene, unless there was an error, and everything there is to say.
     pub(super) fn resolve(self) -> (Option<Scene>, Vec<Diagnostic>) {
-        let Self { mut notes, materials: named, models, groups: mut texts, drafts, .. } = self;
+        let Self { mut notes, materials: named, fragments, groups: mut texts, drafts, .. } = self;
         let named_by_shapes: Vec<_> = self
             .material_names
             .iter()
@@ -37,11 +37,11 @@ impl Reader<'_> {
 
         let in_groups = texts.items.iter().flat_map(|(.., drafts)| drafts.iter().flatten());
         let default_needed = drafts.iter().chain(in_groups).any(takes_the_default);
-        let (materials, default, first_of_model) = materials(&named, models, default_needed);
+        let (materials, default, first_of_fragment) = materials(&named, fragments, default_needed);
         let mut resolver = Resolver {
             named: named_by_shapes,
             default,
-            first_of_model,
+            first_of_fragment,
             group_used: vec![false; texts.items.len()],
             group_ids,
         };
@@ -87,11 +87,11 @@ impl Reader<'_> {
     }
 }
 
-/// The scene's materials: those of the text, the default one if needed, those of model files.
-/// Also which is the default one, and the first of each model file.
+/// The scene's materials: those of the text, the default one if needed, those of fragments.
+/// Also which is the default one, and the first of each fragment.
 fn materials(
     named: &Named<Material>,
-    models: Vec<Vec<Material>>,
+    fragments: Vec<Vec<Material>>,
     default_needed: bool,
 ) -> (Vec<Material>, MaterialId, Vec<u32>) {
     let mut materials: Vec<_> =
@@ -102,16 +102,25 @@ fn materials(
     if default_needed && own.is_none() {
         materials.push(Material::default());
     }
-    let mut first_of_model = Vec::with_capacity(models.len());
-    for model in models {
-        first_of_model.push(materials.len() as u32);
-        materials.extend(model);
+    let mut first_of_fragment = Vec::with_capacity(fragments.len());
+    for own in fragments {
+        first_of_fragment.push(materials.len() as u32);
+        materials.extend(own);
     }
-    (materials, MaterialId(default), first_of_model)
+    (materials, MaterialId(default), first_of_fragment)
 }
 
 fn takes_the_default(draft: &Draft) -> bool {
-    draft.material.is_none() && matches!(draft.shape, DraftShape::Shape(_))
+    let takes = match &draft.shape {
+        DraftShape::Shape(_) => true,
+        DraftShape::Part(Shape::Mesh(mesh), material, _) if mesh.face_materials.is_empty() => {
+            *material == MaterialId(0)
+        }
+        DraftShape::Part(Shape::Mesh(mesh), ..) => mesh.face_materials.contains(&0),
+        DraftShape::Part(_, material, _) => *material == MaterialId(0),
+        DraftShape::Instance(..) => false,
+    };
+    takes && draft.material.is_none()
 }
 
 /// The number of the material of this name, which is named there; says if there is none.
@@ -146,7 +155,7 @@ struct Resolver {
     /// The materials that shapes name, in the order of [`Reader::material_names`].
     named: Vec<Option<MaterialId>>,
     default: MaterialId,
-    first_of_model: Vec<u32>,
+    first_of_fragment: Vec<u32>,
     /// The scene's number of each group of the text; `None`: something is wrong with the order.
     group_ids: Vec<Option<GroupId>>,
     /// Which of them some instance names.
@@ -161,16 +170,23 @@ impl Resolver {
     /// The object; `None`: something is wrong with a name, which has been said.
     fn object<T>(&mut self, groups: &Named<T>, draft: Draft) -> Option<Object> {
         let Draft { name, shape, material, transform, place } = draft;
-        let material = match material {
-            Some(material) => self.named[material]?,
-            None => self.default,
+        let own = match material {
+            Some(material) => Some(self.named[material]?),
+            None => None,
         };
+        let material = own.unwrap_or(self.default);
         let (shape, material) = match shape {
             DraftShape::Shape(shape) => (shape, material),
-            DraftShape::Model(mut mesh, model) => {
-                let first = self.first_of_model[model];
-                mesh.face_materials.iter_mut().for_each(|material| *material += first);
-                (Shape::Mesh(mesh), MaterialId(first))
+            DraftShape::Part(shape, number, fragment) => {
+                let mut object = Object { shape, material: number, ..Object::default() };
+                match own {
+                    Some(material) => object.make_of(material),
+                    None => {
+                        let first = self.first_of_fragment[fragment];
+                        object.renumber_materials(self.default, first);
+                    }
+                }
+                (object.shape, object.material)
             }
             DraftShape::Instance(group, _) => {
                 let group = groups.find(&group)? as usize;
