@@ -169,12 +169,12 @@ pub(crate) fn aov(text: &str) -> Result<Aov, String> {
 /// A format's ending, with or without its dot. One that is known but not read is the reader's to
 /// refuse.
 pub(crate) fn format(text: &str) -> Result<Format, String> {
-    known_format(text, &Format::READ)
+    known_format(text, &Format::readable())
 }
 
 /// The same, where it is one to write.
 pub(crate) fn written_format(text: &str) -> Result<Format, String> {
-    known_format(text, &Format::WRITTEN)
+    known_format(text, &Format::writable())
 }
 
 fn known_format(text: &str, usual: &[Format]) -> Result<Format, String> {
@@ -185,7 +185,7 @@ fn known_format(text: &str, usual: &[Format]) -> Result<Format, String> {
 
 /// What INPUT may be.
 pub(crate) fn input_help() -> String {
-    let models = Format::READ.iter().filter(|format| format.is_bare());
+    let models = Format::readable().into_iter().filter(|format| format.is_bare());
     let models: Vec<_> = models.map(|format| format!(".{}", format.ending())).collect();
     format!(
         "A .toml scene or a bare model ({}); - reads standard input, with --format",
@@ -195,12 +195,12 @@ pub(crate) fn input_help() -> String {
 
 /// What `--format` may be.
 pub(crate) fn format_help() -> String {
-    format!("What INPUT is, whatever its name says: {}", alternatives(&Format::READ))
+    format!("What INPUT is, whatever its name says: {}", alternatives(&Format::readable()))
 }
 
 /// What `--to` may be.
 pub(crate) fn written_help() -> String {
-    format!("What OUT is, whatever its name says: {}", alternatives(&Format::WRITTEN))
+    format!("What OUT is, whatever its name says: {}", alternatives(&Format::writable()))
 }
 
 /// `toml, obj or ply`.

@@ -140,7 +140,7 @@ fn output_format(args: &Args) -> Result<Format, Failure> {
     let format = args.to.or_else(|| Format::of_path(&args.output.to_string_lossy()));
     let help = "end OUT in .toml, .obj or .ply, or give --to";
     match format {
-        Some(format) if Format::WRITTEN.contains(&format) => Ok(format),
+        Some(format) if Format::writable().contains(&format) => Ok(format),
         Some(other) => {
             Err(Failure::usage(format!("{other} files are not written yet")).with_help(help))
         }

@@ -1,119 +1,24 @@
-//! The formats scenes and models come in, and the door to all of them: [`read`].
+//! The formats scenes and models come in, and the doors to all of them: [`read`] and
+//! [`Scene::export`].
 
 pub(crate) mod export;
+pub(crate) mod input;
 pub(crate) mod mtl;
 pub(crate) mod obj;
 mod origin;
 pub(crate) mod ply;
+pub(crate) mod table;
 mod text;
 pub(crate) mod toml;
 
-use std::fmt;
-
+use self::export::{Account, File, PlyEncoding, Writing};
+use self::input::Input;
+use self::table::{Format, MODELS, Read, endings, models_are_read_from};
 use crate::diagnostic::{Diagnostic, Place, Span};
-use crate::fragment::Fragment;
 use crate::frame::{Framing, frame};
 use crate::limits::Limits;
-use crate::scene::Reading;
+use crate::scene::{Reading, Scene};
 use crate::source::Source;
-
-/// What a file is written in.
-///
-/// ```
-/// use phong_scene::Format;
-/// assert_eq!(Format::of_path("scenes/balls.TOML"), Some(Format::Toml));
-/// assert_eq!(Format::of_path("balls"), None);
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    /// Our own scene text.
-    Toml,
-    /// Wavefront OBJ, with the MTL files it names.
-    Obj,
-    /// Stanford PLY: meshes and clouds of points.
-    Ply,
-    /// Stereolithography. Known, not read yet.
-    Stl,
-    /// glTF 2.0, as text or binary. Known, not read yet.
-    Gltf,
-    /// Protein Data Bank. Known, not read yet.
-    Pdb,
-    /// mmCIF. Known, not read yet.
-    Cif,
-    /// XYZ coordinates. Known, not read yet.
-    Xyz,
-    /// Tachyon scenes. Known, not read yet.
-    Tachyon,
-    /// Neutral File Format. Known, not read yet.
-    Nff,
-}
-
-impl Format {
-    /// Every format with the endings of its files, the usual one first.
-    const ENDINGS: [(Self, &'static [&'static str]); 10] = [
-        (Self::Toml, &["toml"]),
-        (Self::Obj, &["obj"]),
-        (Self::Ply, &["ply"]),
-        (Self::Stl, &["stl"]),
-        (Self::Gltf, &["gltf", "glb"]),
-        (Self::Pdb, &["pdb"]),
-        (Self::Cif, &["cif"]),
-        (Self::Xyz, &["xyz"]),
-        (Self::Tachyon, &["dat"]),
-        (Self::Nff, &["nff"]),
-    ];
-
-    /// The formats that are read; the others are known by name only.
-    pub const READ: [Self; 3] = [Self::Toml, Self::Obj, Self::Ply];
-
-    /// The formats that are written.
-    pub const WRITTEN: [Self; 3] = [Self::Toml, Self::Obj, Self::Ply];
-
-    /// The usual ending of its files, without the dot.
-    #[must_use]
-    pub fn ending(self) -> &'static str {
-        let own = Self::ENDINGS.iter().find(|(format, _)| *format == self);
-        own.map_or("", |(_, endings)| endings[0])
-    }
-
-    /// The format that the ending of a path stands for, in capitals or not.
-    #[must_use]
-    pub fn of_path(path: &str) -> Option<Self> {
-        let (_, ending) = path.rsplit(['/', '\\']).next()?.rsplit_once('.')?;
-        Self::of_ending(ending)
-    }
-
-    /// The format that an ending without its dot stands for, in capitals or not.
-    #[must_use]
-    pub fn of_ending(ending: &str) -> Option<Self> {
-        let ending = ending.to_ascii_lowercase();
-        let known = Self::ENDINGS.iter().find(|(_, endings)| endings.contains(&ending.as_str()));
-        known.map(|&(format, _)| format)
-    }
-
-    /// Whether it holds a model without camera and lights.
-    #[must_use]
-    pub fn is_bare(self) -> bool {
-        !matches!(self, Self::Toml | Self::Tachyon | Self::Nff)
-    }
-}
-
-impl fmt::Display for Format {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Toml => "TOML scene",
-            Self::Obj => "OBJ",
-            Self::Ply => "PLY",
-            Self::Stl => "STL",
-            Self::Gltf => "glTF",
-            Self::Pdb => "PDB",
-            Self::Cif => "mmCIF",
-            Self::Xyz => "XYZ",
-            Self::Tachyon => "Tachyon",
-            Self::Nff => "NFF",
-        })
-    }
-}
 
 /// Reads a scene or a bare model, and everything there is to say about it.
 ///
@@ -137,17 +42,28 @@ impl fmt::Display for Format {
 /// ```
 pub fn read(path: &str, format: Option<Format>, source: &dyn Source, limits: &Limits) -> Reading {
     let place = Place { file: path.into(), ..Place::default() };
-    let Some(format) = format.or_else(|| Format::of_path(path)) else {
-        let span = Span { place, ..Span::default() };
-        let message = "its name does not say what the file is written in";
-        let help = format!("names end in {}; or the format is given", endings(&Format::READ, "or"));
-        return refused(Diagnostic::error(message, span).with_help(help));
+    let refused = |message: String, help: String, bare| {
+        let span = Span { place: place.clone(), ..Span::default() };
+        let diagnostics = vec![Diagnostic::error(message, span).with_help(help)];
+        Reading { scene: None, bare, diagnostics }
     };
-    if format == Format::Toml {
-        return toml::read_toml(path, source, limits);
-    }
+    let Some(format) = format.or_else(|| Format::of_path(path)) else {
+        let message = "its name does not say what the file is written in".to_owned();
+        let help =
+            format!("names end in {}; or the format is given", endings(&Format::readable(), "or"));
+        return refused(message, help, false);
+    };
+    let input = Input::new(path, source, limits);
+    let read = match format.reader() {
+        None => {
+            let message = format!("{format} files are not read yet");
+            return refused(message, models_are_read_from(), true);
+        }
+        Some(Read::Scene(read)) => return read(&input, &MODELS),
+        Some(Read::Model(read)) => read,
+    };
     let mut diagnostics = Vec::new();
-    let fragment = read_model(path, format, None, source, limits, &mut diagnostics);
+    let fragment = read(&input, &mut diagnostics);
     let sound = !diagnostics.iter().any(Diagnostic::is_error);
     let Some(fragment) = fragment.filter(|_| sound) else {
         return Reading { scene: None, bare: true, diagnostics };
@@ -157,67 +73,79 @@ pub fn read(path: &str, format: Option<Format>, source: &dyn Source, limits: &Li
     Reading { scene, bare, diagnostics }
 }
 
-/// Reads a model file; `None` if a diagnostic is an error.
+/// How a scene is to be written.
 ///
-/// `default_radius` is of points for which the file gives none.
-pub(crate) fn read_model(
-    path: &str,
-    format: Format,
-    default_radius: Option<f32>,
-    source: &dyn Source,
-    limits: &Limits,
-    out: &mut Vec<Diagnostic>,
-) -> Option<Fragment> {
-    match format {
-        Format::Obj => obj::read_obj(path, source, limits, out),
-        Format::Ply => ply::read_ply(path, source, limits, default_radius, out),
-        _ => {
-            let place = Place { file: path.into(), ..Place::default() };
-            let message = match format {
-                Format::Toml => "a scene is not a model".to_owned(),
-                _ => format!("{format} files are not read yet"),
-            };
-            let help = models_are_read_from();
-            let span = Span { place, ..Span::default() };
-            out.push(Diagnostic::error(message, span).with_help(help));
-            None
-        }
+/// ```
+/// use phong_scene::{ExportOptions, Format};
+/// let options = ExportOptions { format: Format::Obj, ..ExportOptions::default() };
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct ExportOptions {
+    /// The format. Default: [`Format::Toml`]; OBJ and PLY are written as well.
+    pub format: Format,
+    /// How numbers stand in PLY files.
+    pub ply: PlyEncoding,
+    /// Whether the scene was a bare model: its camera and lights are automatic, so nothing is
+    /// lost where a format has none. Default: no.
+    pub bare: bool,
+    /// Bytes of memory that unfolded instances may take. Default: no limit.
+    pub max_bytes: u64,
+}
+
+impl Default for ExportOptions {
+    fn default() -> Self {
+        Self { format: Format::Toml, ply: PlyEncoding::default(), bare: false, max_bytes: u64::MAX }
     }
 }
 
-/// The formats of bare models that are read.
-const MODELS: [Format; 2] = [Format::Obj, Format::Ply];
-
-/// `.obj and .ply`, as prose.
-fn endings(formats: &[Format], last: &str) -> String {
-    let all: Vec<_> = formats.iter().map(|format| format!(".{}", format.ending())).collect();
-    all.split_last()
-        .map_or_else(String::new, |(end, rest)| format!("{} {last} {end}", rest.join(", ")))
+/// What a scene becomes in a format.
+#[derive(Debug)]
+pub struct Export {
+    /// The file that was asked for, then those that it names.
+    pub files: Vec<File>,
+    /// What became of the scene.
+    pub account: Account,
 }
 
-/// What models are read from, as a way out.
-pub(crate) fn models_are_read_from() -> String {
-    format!("models are read from {} files", endings(&MODELS, "and"))
-}
-
-/// No scene, for this reason alone.
-fn refused(diagnostic: Diagnostic) -> Reading {
-    Reading { scene: None, bare: false, diagnostics: vec![diagnostic] }
+impl Scene {
+    /// Turns the scene into files, the first of them called `name`, the others beside it.
+    ///
+    /// What the scene is drawn from stays: TOML reads back to the same picture, bit for bit,
+    /// apart from the numbers of objects where a mesh of several materials becomes several.
+    ///
+    /// # Errors
+    /// What makes the scene one that the format cannot hold at all.
+    ///
+    /// ```
+    /// use phong_scene::{ExportOptions, Limits, Memory, read};
+    /// let text = "version = 1\n[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\n\
+    ///             [[sphere]]\ncenter = [0, 0, 0]\nradius = 0.5\n";
+    /// let files = Memory::new().with("ball.toml", text.as_bytes());
+    /// let scene = read("ball.toml", None, &files, &Limits::default()).scene.expect("a scene");
+    /// let export = scene.export(&ExportOptions::default(), "copy.toml").expect("files");
+    /// let mut file = Vec::new();
+    /// export.files[0].write(&mut file)?;
+    /// assert!(file.ends_with(b"[[sphere]]\ncenter = [0, 0, 0]\nradius = 0.5\n"));
+    /// # Ok::<(), std::io::Error>(())
+    /// ```
+    pub fn export(self, options: &ExportOptions, name: &str) -> Result<Export, Box<Diagnostic>> {
+        let Some(write) = options.format.writer() else {
+            let message = format!("{} files are not written yet", options.format);
+            let help = format!("write {}", endings(&Format::writable(), "or"));
+            return Err(Box::new(Diagnostic::error(message, None).with_help(help)));
+        };
+        let ExportOptions { format, ply, bare, max_bytes } = *options;
+        let writing = Writing { format: format.name(), ply, bare, max_bytes };
+        let mut account = Account::default();
+        let files = write(self, &writing, name, &mut account)?;
+        Ok(Export { files, account })
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::source::Memory;
-
-    #[test]
-    fn an_ending_names_its_format_in_any_case() {
-        assert_eq!(Format::of_path("a/b.c/d.PLY"), Some(Format::Ply));
-        assert_eq!(Format::of_path("d.glb"), Some(Format::Gltf));
-        assert_eq!(Format::of_path("a.toml/readme"), None);
-        assert_eq!(Format::of_path("C:\\models\\d.obj"), Some(Format::Obj));
-        assert_eq!(Format::of_path("ply"), None);
-    }
 
     #[test]
     fn a_file_of_unknown_ending_is_refused_with_a_way_out() {
@@ -233,17 +161,6 @@ mod tests {
             let reading = read(path, None, &Memory::new().with(path, *b""), &Limits::default());
             let said = reading.diagnostics[0].to_string();
             assert!(reading.scene.is_none() && said.contains("not read yet"), "{said}");
-        }
-    }
-
-    #[test]
-    fn the_formats_that_are_read_are_those_that_do_not_say_not_yet() {
-        for (format, [ending, ..]) in Format::ENDINGS.map(|(f, e)| (f, [e[0], ""])) {
-            assert_eq!(format.ending(), ending);
-            let path = format!("a.{ending}");
-            let reading = read(&path, None, &Memory::new().with(&*path, *b""), &Limits::default());
-            let refused = reading.diagnostics.iter().any(|d| d.message.contains("not read yet"));
-            assert_ne!(refused, Format::READ.contains(&format), "{ending}");
         }
     }
 

@@ -15,23 +15,23 @@ use crate::transform::{cofactor, even_scale};
 
 /// A scene's triangles.
 #[derive(Debug, Default)]
-pub(super) struct Merged {
+pub(crate) struct Merged {
     /// All of them; a material for each, if any has one of its own.
-    pub(super) mesh: Mesh,
+    pub(crate) mesh: Mesh,
     /// What they belong to: the number of the first triangle, and a name.
-    pub(super) objects: Vec<(usize, String)>,
+    pub(crate) objects: Vec<(usize, String)>,
 }
 
 /// How many triangles, bytes and spheres there are with all instances unfolded.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Size {
-    pub(super) triangles: u64,
-    pub(super) vertices: u64,
-    pub(super) spheres: u64,
+pub(crate) struct Size {
+    pub(crate) triangles: u64,
+    pub(crate) vertices: u64,
+    pub(crate) spheres: u64,
 }
 
 impl Size {
-    pub(super) fn of(scene: &Scene) -> Self {
+    pub(crate) fn of(scene: &Scene) -> Self {
         let mut groups: Vec<Self> = Vec::with_capacity(scene.groups.len());
         for group in &scene.groups {
             // A group holds instances of earlier ones only.
@@ -74,7 +74,7 @@ impl Size {
     }
 
     /// Refuses what memory, or the numbers of vertices, cannot hold.
-    pub(super) fn check(self, most: u64) -> Result<(), Box<Diagnostic>> {
+    pub(crate) fn check(self, most: u64) -> Result<(), Box<Diagnostic>> {
         let bytes = self.bytes();
         let numbers = u64::from(u32::MAX) - 1;
         if bytes <= most && self.vertices.max(self.triangles).max(self.spheres) <= numbers {
@@ -115,7 +115,7 @@ fn each_placed<'s>(
 
 /// The scene's triangles as one mesh. If `colors`, vertices without one get that of their
 /// material; if `bare`, material 0 is none that the triangles are said to be of.
-pub(super) fn merge(mut scene: Scene, colors: bool, bare: bool) -> Merged {
+pub(crate) fn merge(mut scene: Scene, colors: bool, bare: bool) -> Merged {
     if let Some((name, mesh)) = take_only(&mut scene, colors, bare) {
         return Merged { mesh, objects: vec![(0, name)] };
     }
@@ -260,7 +260,7 @@ fn single(points: [DVec3; 3], normals: Option<[DVec3; 3]>, uv: Option<[DVec2; 3]
 
 /// The scene's spheres as one cloud; with colours if wanted. How many are none under their
 /// placement, but ellipsoids, is told by name.
-pub(super) fn spheres(scene: &Scene, colors: bool, uneven: &mut BTreeMap<String, usize>) -> Points {
+pub(crate) fn spheres(scene: &Scene, colors: bool, uneven: &mut BTreeMap<String, usize>) -> Points {
     let mut out = Points::default();
     let bounds = scene.bounds();
     if !bounds.is_empty() {

@@ -1,56 +1,44 @@
-//! A scene written in a format: files, and an account of what became of it.
+//! What writing a scene gives: files, and an account of what became of the scene.
 
-mod flat;
-mod merge;
+pub(crate) mod flat;
+pub(crate) mod merge;
 mod split;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
 use std::io::{self, Write};
 
-pub(crate) use flat::free_name;
 pub(crate) use split::split_all;
 
-use super::Format;
-use super::toml::write::write_toml;
 use crate::diagnostic::Diagnostic;
-use crate::format::ply::PlyEncoding;
-use crate::material::Material;
-use crate::mesh::{Mesh, Points};
 use crate::scene::Scene;
 
-/// How a scene is to be written.
-///
-/// ```
-/// use phong_scene::{ExportOptions, Format};
-/// let options = ExportOptions { format: Format::Obj, ..ExportOptions::default() };
-/// ```
+/// How numbers stand in a PLY file that is written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PlyEncoding {
+    /// Bytes, least significant first: small, and fast to read.
+    #[default]
+    Binary,
+    /// Text that reads back to the same bits.
+    Ascii,
+}
+
+/// How a writer is to write.
 #[derive(Clone, Copy, Debug)]
-pub struct ExportOptions {
-    /// The format. Default: [`Format::Toml`]; OBJ and PLY are written as well.
-    pub format: Format,
+pub(crate) struct Writing {
+    /// The name of the format, for what is said.
+    pub(crate) format: &'static str,
     /// How numbers stand in PLY files.
-    pub ply: PlyEncoding,
-    /// Whether the scene was a bare model: its camera and lights are automatic, so nothing is
-    /// lost where a format has none. Default: no.
-    pub bare: bool,
-    /// Bytes of memory that unfolded instances may take. Default: no limit.
-    pub max_bytes: u64,
+    pub(crate) ply: PlyEncoding,
+    /// Whether the scene's camera and lights are automatic: then nothing is lost without them.
+    pub(crate) bare: bool,
+    /// Bytes of memory that unfolded instances may take.
+    pub(crate) max_bytes: u64,
 }
 
-impl Default for ExportOptions {
-    fn default() -> Self {
-        Self { format: Format::Toml, ply: PlyEncoding::default(), bare: false, max_bytes: u64::MAX }
-    }
-}
-
-/// What a scene becomes in a format.
-#[derive(Debug)]
-pub struct Export {
-    /// The file that was asked for, then those that it names.
-    pub files: Vec<File>,
-    /// What became of the scene.
-    pub account: Account,
-}
+/// Writes a scene as a file of this name and those beside it.
+pub(crate) type WriteScene =
+    fn(Scene, &Writing, &str, &mut Account) -> Result<Vec<File>, Box<Diagnostic>>;
 
 /// What was carried over, how, and what the format cannot hold.
 #[derive(Clone, Debug, Default)]
@@ -80,93 +68,50 @@ impl Account {
     }
 }
 
+/// Writes a file's bytes.
+type Content = Box<dyn Fn(&mut dyn Write) -> io::Result<()> + Send + Sync>;
+
 /// A file to be written.
-#[derive(Debug)]
 pub struct File {
     /// Its name: the one that was asked for, or that of one beside it.
     pub name: String,
-    pub(crate) content: Content,
+    content: Content,
 }
 
-/// What a file holds.
-#[derive(Debug)]
-pub(crate) enum Content {
-    Text(String),
-    Ply(Mesh, PlyEncoding),
-    Points(Points, PlyEncoding),
-    Obj {
-        mesh: Mesh,
-        /// What `face_materials` indexes, under their names in the file.
-        materials: Vec<Material>,
-        /// The first triangle and the name of what the triangles belong to.
-        objects: Vec<(usize, String)>,
-        /// The MTL file beside it.
-        library: Option<String>,
-    },
+impl fmt::Debug for File {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("File").field("name", &self.name).finish_non_exhaustive()
+    }
 }
 
 impl File {
+    /// A file that `content` writes.
+    pub(crate) fn new(
+        name: impl Into<String>,
+        content: impl Fn(&mut dyn Write) -> io::Result<()> + Send + Sync + 'static,
+    ) -> Self {
+        Self { name: name.into(), content: Box::new(content) }
+    }
+
+    /// A file of this text.
+    pub(crate) fn text(name: impl Into<String>, text: String) -> Self {
+        Self::new(name, move |to| to.write_all(text.as_bytes()))
+    }
+
     /// Writes all of it.
     ///
     /// # Errors
     /// Whatever `to` says.
     pub fn write(&self, to: &mut dyn Write) -> io::Result<()> {
-        match &self.content {
-            Content::Text(text) => to.write_all(text.as_bytes()),
-            Content::Ply(mesh, encoding) => mesh.write_ply(*encoding, to),
-            Content::Points(points, encoding) => points.write_ply(*encoding, to),
-            Content::Obj { mesh, materials, objects, library } => {
-                if let Some(library) = library {
-                    writeln!(to, "mtllib {library}")?;
-                }
-                mesh.write_obj_objects(materials, objects, to)
-            }
-        }
+        (self.content)(to)
     }
 }
 
-impl Scene {
-    /// Turns the scene into files, the first of them called `name`, the others beside it.
-    ///
-    /// What the scene is drawn from stays: TOML reads back to the same picture, bit for bit,
-    /// apart from the numbers of objects where a mesh of several materials becomes several.
-    ///
-    /// # Errors
-    /// What makes the scene one that the format cannot hold at all.
-    ///
-    /// ```
-    /// use phong_scene::{ExportOptions, Limits, Memory, read};
-    /// let text = "version = 1\n[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\n\
-    ///             [[sphere]]\ncenter = [0, 0, 0]\nradius = 0.5\n";
-    /// let files = Memory::new().with("ball.toml", text.as_bytes());
-    /// let scene = read("ball.toml", None, &files, &Limits::default()).scene.expect("a scene");
-    /// let export = scene.export(&ExportOptions::default(), "copy.toml").expect("files");
-    /// let mut file = Vec::new();
-    /// export.files[0].write(&mut file)?;
-    /// assert!(file.ends_with(b"[[sphere]]\ncenter = [0, 0, 0]\nradius = 0.5\n"));
-    /// # Ok::<(), std::io::Error>(())
-    /// ```
-    pub fn export(self, options: &ExportOptions, name: &str) -> Result<Export, Box<Diagnostic>> {
-        let mut account = Account::default();
-        if options.bare && options.format == Format::Toml {
-            account
-                .map("camera, lights and background are those a bare model is shown with".into());
-            let [width, height] = self.image.size;
-            account.map(format!(
-                "the camera stands where the model fills a picture of {width} × {height}; one of \
-                 narrower shape cuts off its sides"
-            ));
-        }
-        let files = match options.format {
-            Format::Toml => write_toml(self, name, options.ply, &mut account)?,
-            Format::Obj => flat::write_obj(self, options, name, &mut account)?,
-            Format::Ply => flat::write_ply(self, options, name, &mut account)?,
-            other => {
-                let message = format!("{other} files are not written yet");
-                let help = format!("write {}", super::endings(&Format::WRITTEN, "or"));
-                return Err(Box::new(Diagnostic::error(message, None).with_help(help)));
-            }
-        };
-        Ok(Export { files, account })
-    }
+/// The name, or with a number behind it the first that is not taken; it is then.
+pub(crate) fn free_name(name: &str, taken: &mut BTreeSet<String>) -> String {
+    let numbered = (2..).map(|n| format!("{name} {n}"));
+    let free = std::iter::once(name.to_owned()).chain(numbered).find(|n| !taken.contains(n));
+    let free = free.unwrap_or_default();
+    taken.insert(free.clone());
+    free
 }

@@ -21,6 +21,7 @@
 
 mod assemble;
 mod block;
+pub(crate) mod export;
 mod libraries;
 mod write;
 
@@ -31,12 +32,12 @@ use glam::DVec3;
 
 use self::assemble::{Assembly, start_of};
 use self::block::{Block, Context};
+use super::input::Input;
 use super::origin::{SAMPLES, origin_of};
 use super::text::{Cursor, Decimal, Lines, Piece, open_text, whole};
 use crate::diagnostic::Diagnostic;
 use crate::fragment::Fragment;
-use crate::limits::Limits;
-use crate::source::{Blob, Source, trouble};
+use crate::source::{Blob, trouble};
 
 #[cfg(test)]
 mod tests;
@@ -45,12 +46,8 @@ mod tests;
 const SAMPLE: usize = 4 << 10;
 
 /// Reads an OBJ file and the MTL files it names; `None` if a diagnostic is an error.
-pub(crate) fn read_obj(
-    path: &str,
-    source: &dyn Source,
-    limits: &Limits,
-    out: &mut Vec<Diagnostic>,
-) -> Option<Fragment> {
+pub(crate) fn read(input: &Input<'_>, out: &mut Vec<Diagnostic>) -> Option<Fragment> {
+    let Input { path, source, limits, .. } = *input;
     let file: Arc<str> = path.into();
     let read = || -> io::Result<_> {
         let blob = open_text(source, path, limits)?;

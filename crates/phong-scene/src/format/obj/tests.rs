@@ -3,6 +3,7 @@
 use proptest::prelude::*;
 
 use super::*;
+use crate::limits::Limits;
 use crate::mesh::Mesh;
 use crate::shape::Shape;
 use crate::source::Memory;
@@ -10,7 +11,7 @@ use crate::source::Memory;
 fn read(files: &[(&str, &[u8])], limits: &Limits) -> (Option<(Mesh, usize)>, String) {
     let source = files.iter().fold(Memory::new(), |m, (path, bytes)| m.with(*path, *bytes));
     let mut out = Vec::new();
-    let model = read_obj(files[0].0, &source, limits, &mut out);
+    let model = super::read(&Input::new(files[0].0, &source, limits), &mut out);
     let told: Vec<_> = out.iter().map(ToString::to_string).collect();
     let mesh = model.map(|mut model| match model.objects.remove(0).shape {
         Shape::Mesh(mesh) => (*mesh, model.materials.len()),
@@ -100,7 +101,8 @@ fn data_far_from_the_origin_keep_their_detail() {
 #[test]
 fn a_missing_file_says_so() {
     let mut out = Vec::new();
-    assert!(read_obj("b.obj", &Memory::new(), &Limits::default(), &mut out).is_none());
+    let (files, limits) = (Memory::new(), Limits::default());
+    assert!(super::read(&Input::new("b.obj", &files, &limits), &mut out).is_none());
     assert_eq!(out[0].to_string(), "b.obj: error: cannot be read: there is no such file");
 }
 
@@ -147,7 +149,9 @@ fn what_is_written_reads_back_to_the_bit() {
     let files =
         |text: &str| Memory::new().with("a.obj", text.as_bytes()).with("a.mtl", library.as_bytes());
     let read = |text: &str| {
-        let model = read_obj("a.obj", &files(text), &Limits::default(), &mut Vec::new()).unwrap();
+        let (files, limits) = (files(text), Limits::default());
+        let input = Input::new("a.obj", &files, &limits);
+        let model = super::read(&input, &mut Vec::new()).unwrap();
         (format!("{:?}", model.objects), model)
     };
     let (first, model) = read(text);

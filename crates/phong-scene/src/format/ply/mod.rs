@@ -26,13 +26,12 @@
 mod ascii;
 mod binary;
 mod body;
+pub(crate) mod export;
 mod faces;
 mod header;
 mod radius;
 mod vertices;
 mod write;
-
-pub use write::PlyEncoding;
 
 #[cfg(test)]
 mod tests;
@@ -43,26 +42,20 @@ use std::sync::Arc;
 use self::body::{Body, Contents, face_kind};
 use self::header::{Encoding, Header};
 use self::vertices::{Plan, RADIUS};
+use super::input::Input;
 use super::text::{Findings, whole};
 use crate::diagnostic::Diagnostic;
 use crate::fragment::{Fragment, flat};
-use crate::limits::Limits;
 use crate::mesh::cut_polygons;
 use crate::shape::Shape;
-use crate::source::{Source, trouble};
+use crate::source::trouble;
 
 /// Reads a PLY file; `None` if a diagnostic is an error. A file without faces is a cloud of
-/// points, drawn as spheres of `default_radius` where the file gives none.
-pub(crate) fn read_ply(
-    path: &str,
-    source: &dyn Source,
-    limits: &Limits,
-    default_radius: Option<f32>,
-    out: &mut Vec<Diagnostic>,
-) -> Option<Fragment> {
-    let file: Arc<str> = path.into();
+/// points, drawn as spheres.
+pub(crate) fn read(input: &Input<'_>, out: &mut Vec<Diagnostic>) -> Option<Fragment> {
+    let file: Arc<str> = input.path.into();
     let mut findings = Findings::default();
-    let part = read(&file, source, limits, default_radius, &mut findings);
+    let part = shape_of(&file, input, &mut findings);
     let sound = !findings.any_error();
     findings.tell(&file, out);
     match part {
@@ -77,13 +70,13 @@ pub(crate) fn read_ply(
     }
 }
 
-fn read(
+/// The mesh or the points of the file.
+fn shape_of(
     file: &Arc<str>,
-    source: &dyn Source,
-    limits: &Limits,
-    default_radius: Option<f32>,
+    input: &Input<'_>,
     findings: &mut Findings,
 ) -> io::Result<Option<Shape>> {
+    let Input { source, limits, radius, .. } = *input;
     let blob = source.open(file)?;
     let blob = blob.as_ref();
     let Some(header) = Header::read(blob, file, findings)? else { return Ok(None) };
@@ -96,7 +89,7 @@ fn read(
         return Ok(None);
     };
     let spheres = !header.elements.iter().any(|e| face_kind(e).is_some() && e.count > 0);
-    let Some(plan) = Plan::new(vertex, spheres, default_radius, findings) else { return Ok(None) };
+    let Some(plan) = Plan::new(vertex, spheres, radius, findings) else { return Ok(None) };
     let vertex_count = vertex.count;
     let findings_so_far = std::mem::take(findings);
     let mut body =

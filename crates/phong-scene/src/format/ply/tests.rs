@@ -5,13 +5,15 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::color::Rgb;
+use crate::format::export::PlyEncoding;
+use crate::limits::Limits;
 use crate::mesh::{Mesh, Points};
 use crate::source::Memory;
 
 fn model(bytes: &[u8], limits: &Limits, radius: Option<f32>) -> (Option<Shape>, String) {
     let source = Memory::new().with("a.ply", bytes);
     let mut out = Vec::new();
-    let model = read_ply("a.ply", &source, limits, radius, &mut out);
+    let model = read(&Input { radius, ..Input::new("a.ply", &source, limits) }, &mut out);
     let told: Vec<_> = out.iter().map(ToString::to_string).collect();
     (model.map(|mut model| model.objects.remove(0).shape), told.join("\n"))
 }

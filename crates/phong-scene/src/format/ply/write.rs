@@ -6,17 +6,8 @@ use std::io::{self, Write};
 use glam::{DVec3, Vec2, Vec3};
 
 use crate::color::Rgb;
+use crate::format::export::PlyEncoding;
 use crate::mesh::{Mesh, NO_INDEX, Points};
-
-/// How numbers stand in a PLY file that is written.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum PlyEncoding {
-    /// Bytes, least significant first: small, and fast to read.
-    #[default]
-    Binary,
-    /// Text that reads back to the same bits.
-    Ascii,
-}
 
 impl Mesh {
     /// Writes the mesh as PLY: positions (as doubles if it has an origin), normals, texture

@@ -363,11 +363,6 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// The span of what has been read of this line from `start` on.
-    pub(crate) fn since(&self, file: &Arc<str>, start: usize) -> Span {
-        self.span(file, start, self.at)
-    }
-
     fn span(&self, file: &Arc<str>, start: usize, end: usize) -> Span {
         let text = &self.text[self.line_start..];
         let length = text.iter().position(|&b| b == b'\n').unwrap_or(text.len());

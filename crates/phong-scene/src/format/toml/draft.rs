@@ -6,10 +6,16 @@ use glam::DAffine3;
 
 use super::notes::Notes;
 use super::text::Spot;
-use crate::diagnostic::{Diagnostic, Place};
+use crate::diagnostic::{Diagnostic, Place, Severity};
 use crate::material::MaterialId;
 use crate::shape::Shape;
-use crate::wording::quoted;
+use crate::wording::{closest, list, quoted};
+
+/// Most names that a message lists.
+const MOST_LISTED: usize = 12;
+
+/// Most names that a near miss is looked for among: each wrong name is held against all of them.
+const MOST_COMPARED: usize = 500;
 
 /// Things by name, in the order of the text.
 #[derive(Debug)]
@@ -91,4 +97,31 @@ pub(super) enum DraftShape {
     Part(Shape, MaterialId, usize),
     /// An instance of the group of this name.
     Instance(String, Spot),
+}
+
+/// Says that there is nothing of this name, and what may have been meant.
+pub(super) fn say_unknown_name<'n>(
+    notes: &mut Notes,
+    what: &str,
+    name: &str,
+    known: impl Iterator<Item = &'n str>,
+    spot: Spot,
+) {
+    if notes.is_full() {
+        notes.count(Severity::Error);
+        return;
+    }
+    let known: Vec<_> = known.take(MOST_COMPARED + 1).collect();
+    let few = known.len() <= MOST_COMPARED;
+    let near = few.then(|| closest(name, known.iter().copied())).flatten();
+    let help = match near {
+        Some(meant) => format!("did you mean `{meant}`?"),
+        None if known.is_empty() => format!("`[{what}s.NAME]` defines one"),
+        None if known.len() > MOST_LISTED => {
+            format!("there are {}, …", list(known.into_iter().take(MOST_LISTED), ","))
+        }
+        None if known.len() > 1 => format!("there are {}", list(known, "and")),
+        None => format!("there is {}", list(known, "and")),
+    };
+    notes.error(spot, format!("there is no {what} {}", quoted(name))).help = Some(help);
 }

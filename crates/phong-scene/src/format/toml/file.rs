@@ -1,12 +1,11 @@
 //! What a scene names by file: other scene files, and models.
 
-use std::path::{Component, Path, PathBuf};
-
 use super::draft::{Draft, DraftShape, Part};
+use super::path::{join, normal};
 use super::reader::Reader;
 use super::table::Values;
-use super::text::{self, Spot, Text};
-use crate::format::{Format, models_are_read_from, read_model};
+use super::text::{self, Text};
+use crate::format::input::{Input, Named, ReadModel};
 use crate::fragment::Fragment;
 use crate::mesh::{Mesh, Points};
 use crate::scene::Object;
@@ -46,7 +45,7 @@ impl Reader<'_> {
         }
         let mut limits = self.limits.clone();
         limits.text_bytes = limits.text_bytes.saturating_sub(self.bytes);
-        if Format::of_path(&inner).is_some_and(|format| format != Format::Toml) {
+        if matches!((self.models.find)(&inner), Named::Model(_) | Named::NotYet(_)) {
             return self.include_model(v, path);
         }
         match text::load(&inner, self.source, &limits) {
@@ -200,28 +199,35 @@ impl Reader<'_> {
         let name = v.text("file")?;
         let spot = v.spot_of("file");
         let file = join(path, &name);
-        let Some(format) = Format::of_path(&file) else {
-            self.say_format(
-                spot,
-                &format!("the name {} does not say what the file is", wording::path(&name)),
-            );
-            return None;
+        let message = match (self.models.find)(&file) {
+            Named::Model(read) => return self.read_fragment(v, file, read, radius),
+            Named::Scene => "a scene cannot be drawn as a model".to_owned(),
+            Named::NotYet(format) => format!("{format} files are not read yet"),
+            Named::Unknown => {
+                format!("the name {} does not say what the file is", wording::path(&name))
+            }
         };
-        if !matches!(format, Format::Obj | Format::Ply) {
-            let message = match format {
-                Format::Toml => "a scene cannot be drawn as a model".to_owned(),
-                _ => format!("{format} files are not read yet"),
-            };
-            self.say_format(spot, &message);
-            return None;
-        }
+        let help = format!("{}; scenes by `[[include]]`", (self.models.help)());
+        self.notes.error(spot, message).help = Some(help);
+        None
+    }
+
+    fn read_fragment(
+        &mut self,
+        v: &Values,
+        file: String,
+        read: ReadModel,
+        radius: Option<f32>,
+    ) -> Option<(String, Fragment, usize)> {
+        let spot = v.spot_of("file");
         if let Err(e) = self.source.open(&file) {
             let message = format!("{} cannot be read: {}", wording::path(&file), trouble(&e));
             self.notes.error(spot, message);
             return None;
         }
+        let input = Input { radius, ..Input::new(&file, self.source, self.limits) };
         let mut said = Vec::new();
-        let fragment = read_model(&file, format, radius, self.source, self.limits, &mut said);
+        let fragment = read(&input, &mut said);
         for diagnostic in said {
             let label = self.notes.span(spot);
             let diagnostic = if diagnostic.is_error() {
@@ -236,11 +242,6 @@ impl Reader<'_> {
         self.fragments.push(own);
         Some((file, fragment, self.fragments.len() - 1))
     }
-
-    fn say_format(&mut self, spot: Spot, message: &str) {
-        self.notes.error(spot, message).help =
-            Some(format!("{}; scenes by `[[include]]`", models_are_read_from()));
-    }
 }
 
 /// Flat triangles.
@@ -253,46 +254,4 @@ fn drop_normals(mesh: &mut Mesh) {
 fn vertices(mesh: Mesh, radius: f32) -> Points {
     let spheres = mesh.positions.iter().map(|p| [p.x, p.y, p.z, radius]).collect();
     Points { origin: mesh.origin, spheres, colors: mesh.colors }
-}
-
-/// `file` as it is written in the file at `path`: relative to that one's folder.
-fn join(path: &str, file: &str) -> String {
-    let folder = Path::new(path).parent().unwrap_or(Path::new(""));
-    folder.join(file).to_string_lossy().into_owned()
-}
-
-/// A path without `.` and, where that can be told from the path alone, `..`.
-pub(super) fn normal(path: &str) -> String {
-    let mut normal = PathBuf::new();
-    for part in Path::new(path).components() {
-        match part {
-            Component::CurDir => {}
-            Component::ParentDir
-                if matches!(normal.components().next_back(), Some(Component::Normal(_))) =>
-            {
-                normal.pop();
-            }
-            _ => normal.push(part),
-        }
-    }
-    normal.to_string_lossy().into_owned()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_file_is_relative_to_the_one_that_names_it() {
-        assert_eq!(join("scenes/a.toml", "lights/b.toml"), "scenes/lights/b.toml");
-        assert_eq!(join("a.toml", "b.toml"), "b.toml");
-        assert_eq!(join("scenes/a.toml", "/b.toml"), "/b.toml");
-    }
-
-    #[test]
-    fn two_ways_to_the_same_file_have_one_normal_path() {
-        assert_eq!(normal("./a/../b/./c.toml"), "b/c.toml");
-        assert_eq!(normal("../a.toml"), "../a.toml");
-        assert_eq!(normal("../../a/../b.toml"), "../../b.toml");
-    }
 }

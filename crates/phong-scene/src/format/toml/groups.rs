@@ -1,9 +1,7 @@
 //! The order of groups: each after those whose instances it holds.
 
-use super::draft::{Draft, DraftShape, Named};
+use super::draft::{Draft, DraftShape, Named, say_unknown_name};
 use super::notes::Notes;
-
-use super::resolve::say_unknown_name;
 use super::text::Spot;
 use crate::limits::Limits;
 use crate::wording::list;

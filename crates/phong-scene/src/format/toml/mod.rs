@@ -13,6 +13,7 @@ mod groups;
 mod light;
 mod material;
 mod notes;
+mod path;
 mod reader;
 mod resolve;
 mod settings;
@@ -24,15 +25,15 @@ mod value;
 pub(crate) mod write;
 
 use crate::diagnostic::{Diagnostic, Place, Span};
-use crate::limits::Limits;
+use crate::format::input::{Input, Models};
 use crate::scene::Reading;
-use crate::source::Source;
 
 /// Reads a scene and what it includes.
-pub(crate) fn read_toml(path: &str, source: &dyn Source, limits: &Limits) -> Reading {
+pub(crate) fn read(input: &Input<'_>, models: &'static Models) -> Reading {
+    let Input { path, source, limits, .. } = *input;
     match text::load(path, source, limits) {
         Ok(text) => {
-            let (scene, diagnostics) = reader::Reader::new(source, limits).read(path, text);
+            let (scene, diagnostics) = reader::Reader::new(source, limits, models).read(path, text);
             Reading { scene, bare: false, diagnostics }
         }
         Err(message) => {

@@ -9,12 +9,14 @@ use toml::de::{DeTable, DeValue};
 
 use super::draft::{Draft, DraftShape, Named, Part};
 use super::notes::Notes;
+use super::path::normal;
 use super::table::{Values, say_unknown};
 use super::text::{Spot, Text};
-use super::{file, light, material, settings, shape, syntax};
+use super::{light, material, settings, shape, syntax};
 use crate::camera::Camera;
 use crate::color::Rgb;
 use crate::diagnostic::Diagnostic;
+use crate::format::input::Models;
 use crate::keys::{self, Kind, Table};
 use crate::light::Light;
 use crate::limits::Limits;
@@ -27,6 +29,8 @@ use crate::wording::quoted;
 pub(super) struct Reader<'a> {
     pub(super) source: &'a dyn Source,
     pub(super) limits: &'a Limits,
+    /// Where the readers of models are found.
+    pub(super) models: &'static Models,
     pub(super) notes: Notes,
     pub(super) image: Image,
     pub(super) camera: Option<Camera>,
@@ -59,10 +63,11 @@ enum Item<'t> {
 
 impl<'a> Reader<'a> {
     /// Nothing read yet.
-    pub(super) fn new(source: &'a dyn Source, limits: &'a Limits) -> Self {
+    pub(super) fn new(source: &'a dyn Source, limits: &'a Limits, models: &'static Models) -> Self {
         Self {
             source,
             limits,
+            models,
             notes: Notes::default(),
             image: Image::default(),
             camera: None,
@@ -91,7 +96,7 @@ impl<'a> Reader<'a> {
     pub(super) fn file(&mut self, path: &str, text: Text) {
         self.files += 1;
         self.bytes += text.text.len() as u64;
-        self.open.push(file::normal(path));
+        self.open.push(normal(path));
         let text = Arc::new(text);
         let number = self.notes.add(Arc::clone(&text));
         let mended;

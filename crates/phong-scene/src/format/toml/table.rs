@@ -1,13 +1,14 @@
 //! A table of the text, read by its table of keys.
 
-use toml::de::DeTable;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
 
 use super::notes::Notes;
 use super::text::Spot;
 use super::value::{Value, ValueReader};
 use crate::color::Rgb;
 use crate::diagnostic::Severity;
-use crate::keys::{Default, Key, Kind, Table};
+use crate::keys::{BACKGROUND, Default, Key, Kind, Table};
 use crate::scene::Background;
 use crate::wording::{closest, list};
 use glam::{DAffine3, DVec2, DVec3, DVec4};
@@ -21,6 +22,24 @@ pub(super) struct Values {
     /// What the selecting key says; `None`: it says nothing valid.
     word: Option<&'static str>,
     entries: Vec<Entry>,
+}
+
+/// The value of a key, which may be a table of its own.
+fn read_value(
+    key: &'static Key,
+    value: &Spanned<DeValue<'_>>,
+    file: u32,
+    notes: &mut Notes,
+) -> Option<Value> {
+    match (key.kind, value.get_ref()) {
+        (Kind::Background, DeValue::Table(inside)) => {
+            let spot = Spot::new(file, value.span());
+            let ends = Values::read(&BACKGROUND, inside, spot, notes);
+            let (top, bottom) = (ends.color("top")?, ends.color("bottom")?);
+            Some(Value::Background(Background::Gradient { top, bottom }))
+        }
+        _ => ValueReader { notes, file, key }.read(value),
+    }
 }
 
 #[derive(Debug)]
@@ -49,8 +68,7 @@ impl Values {
             let at = Spot::new(spot.file, name.span());
             match table.find(name.get_ref(), values.word) {
                 Some(key) => {
-                    let mut reader = ValueReader { notes, file: spot.file, key };
-                    let read = reader.read(value);
+                    let read = read_value(key, value, spot.file, notes);
                     let spot = Spot::new(spot.file, value.span());
                     values.entries.push(Entry { key, spot, value: read });
                 }
@@ -67,7 +85,7 @@ impl Values {
             return;
         };
         if let Some(value) = text.get(key.name) {
-            let read = ValueReader { notes, file: self.spot.file, key }.read(value);
+            let read = read_value(key, value, self.spot.file, notes);
             if let Some(Value::Word(word)) = read {
                 self.word = Some(word);
             }

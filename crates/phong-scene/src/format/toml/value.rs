@@ -5,10 +5,9 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::notes::Notes;
-use super::table::Values;
 use super::text::Spot;
 use crate::color::Rgb;
-use crate::keys::{self, Key, Kind, Range};
+use crate::keys::{Key, Kind, Range};
 use crate::limits::LARGEST;
 use crate::scene::Background;
 use crate::wording::{closest, quoted};
@@ -228,12 +227,6 @@ impl ValueReader<'_> {
 
     fn background(&mut self, value: &Spanned<DeValue<'_>>) -> Option<Background> {
         match value.get_ref() {
-            DeValue::Table(inside) => {
-                let spot = self.spot(value);
-                let values = Values::read(&keys::BACKGROUND, inside, spot, self.notes);
-                let (top, bottom) = (values.color("top")?, values.color("bottom")?);
-                Some(Background::Gradient { top, bottom })
-            }
             DeValue::String(text) if text == "transparent" => Some(Background::Transparent),
             _ => self.color(value, LARGEST).map(Background::Color),
         }

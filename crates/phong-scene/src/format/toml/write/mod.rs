@@ -15,8 +15,7 @@ use glam::DVec3;
 use super::table::default;
 use super::value::Value;
 use crate::diagnostic::{Diagnostic, Span};
-use crate::format::export::{Account, Content, File, free_name, split_all};
-use crate::format::ply::PlyEncoding;
+use crate::format::export::{Account, File, PlyEncoding, Writing, free_name, split_all};
 use crate::keys::{self, Kind, Table};
 use crate::limits::LARGEST;
 use crate::material::{Material, MaterialId};
@@ -30,10 +29,18 @@ use crate::shape::Shape;
 /// A position or direction that the text has no number for.
 pub(crate) fn write_toml(
     scene: Scene,
+    options: &Writing,
     file: &str,
-    ply: PlyEncoding,
     account: &mut Account,
 ) -> Result<Vec<File>, Box<Diagnostic>> {
+    if options.bare {
+        account.map("camera, lights and background are those a bare model is shown with".into());
+        let [width, height] = scene.image.size;
+        account.map(format!(
+            "the camera stands where the model fills a picture of {width} × {height}; one of \
+             narrower shape cuts off its sides"
+        ));
+    }
     let Scene { image, camera, ambient, lights, materials, objects, groups } = scene;
     let stem = file.strip_suffix(".toml").unwrap_or(file).to_owned();
     let group_names = groups.iter().map(|group| group.name.clone()).collect();
@@ -44,7 +51,7 @@ pub(crate) fn write_toml(
         group_names,
         counts: BTreeMap::new(),
         files: Vec::new(),
-        ply,
+        ply: options.ply,
         account,
         trouble: None,
     };
@@ -83,7 +90,7 @@ pub(crate) fn write_toml(
     }
     out.objects("", objects);
     let Writer { text, mut files, trouble, .. } = out;
-    files.insert(0, File { name: file.to_owned(), content: Content::Text(text) });
+    files.insert(0, File::text(file, text));
     trouble.map_or(Ok(files), |trouble| Err(Box::new(trouble)))
 }
 
@@ -199,7 +206,7 @@ impl Writer<'_> {
             if !is_seen(&object, self.account) {
                 continue;
             }
-            let content = sidecar(&mut object, self.ply);
+            let beside = sidecar(&mut object, &file, self.ply);
             self.counts.insert(kind, number);
             self.account.carry(kind, 1);
             let material = self.materials.name_of(object.material).map(str::to_owned);
@@ -207,7 +214,7 @@ impl Writer<'_> {
                 Shape::Instance(group) => self.group_names.get(group.0 as usize).cloned(),
                 _ => None,
             };
-            let has_file = content.is_some();
+            let has_file = beside.is_some();
             self.table(&format!("[[{prefix}{kind}]]"), table, None, |key| match key {
                 "file" if has_file => Some(Value::Text(file.clone())),
                 "group" => group.clone().map(Value::Text),
@@ -218,7 +225,7 @@ impl Writer<'_> {
                 }
                 _ => concepts::shape(&object.shape, key),
             });
-            self.files.extend(content.map(|content| File { name: file.clone(), content }));
+            self.files.extend(beside);
         }
     }
 }
@@ -242,26 +249,26 @@ fn is_seen(object: &Object, account: &mut Account) -> bool {
 ///
 /// The origin of data far from 0 becomes part of the placement, so that the file holds the very
 /// numbers and not their sums.
-fn sidecar(object: &mut Object, ply: PlyEncoding) -> Option<Content> {
-    let (content, origin) = match &mut object.shape {
+fn sidecar(object: &mut Object, name: &str, ply: PlyEncoding) -> Option<File> {
+    let (file, origin) = match &mut object.shape {
         Shape::Mesh(mesh) => {
             // The text still says whether it has normals.
             let normals = mesh.normals.iter().take(1).copied().collect();
             let mut mesh = std::mem::replace(&mut **mesh, Mesh { normals, ..Mesh::default() });
             let origin = std::mem::take(&mut mesh.origin);
-            (Content::Ply(mesh, ply), origin)
+            (File::new(name, move |to| mesh.write_ply(ply, to)), origin)
         }
         Shape::Points(points) => {
             let mut points = std::mem::take(&mut **points);
             let origin = std::mem::take(&mut points.origin);
-            (Content::Points(points, ply), origin)
+            (File::new(name, move |to| points.write_ply(ply, to)), origin)
         }
         _ => return None,
     };
     if origin != DVec3::ZERO {
         object.transform.translation = object.transform.transform_point3(origin);
     }
-    Some(content)
+    Some(file)
 }
 
 /// The materials and their names in the text.

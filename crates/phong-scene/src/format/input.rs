@@ -1,0 +1,54 @@
+//! What readers are given.
+
+use crate::diagnostic::Diagnostic;
+use crate::fragment::Fragment;
+use crate::limits::Limits;
+use crate::scene::Reading;
+use crate::source::Source;
+
+/// A file to be read.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Input<'a> {
+    /// Its path, as whoever names it wrote it.
+    pub(crate) path: &'a str,
+    /// Where it and the files that it names are opened.
+    pub(crate) source: &'a dyn Source,
+    pub(crate) limits: &'a Limits,
+    /// Radius of the points for which the file gives none; `None`: the reader guesses one.
+    pub(crate) radius: Option<f32>,
+}
+
+impl<'a> Input<'a> {
+    /// The file at a path, where nobody says how large points are.
+    pub(crate) fn new(path: &'a str, source: &'a dyn Source, limits: &'a Limits) -> Self {
+        Self { path, source, limits, radius: None }
+    }
+}
+
+/// Reads a model; `None` if a diagnostic is an error.
+pub(crate) type ReadModel = fn(&Input<'_>, &mut Vec<Diagnostic>) -> Option<Fragment>;
+
+/// Reads a scene with its camera; the models that it names are found among these.
+pub(crate) type ReadScene = fn(&Input<'_>, &'static Models) -> Reading;
+
+/// The table of formats as scenes see it, which stands above all readers.
+#[derive(Debug)]
+pub(crate) struct Models {
+    /// What a path names, by its ending.
+    pub(crate) find: fn(&str) -> Named,
+    /// What models are read from, as a way out.
+    pub(crate) help: fn() -> String,
+}
+
+/// What a file is, by its name.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Named {
+    /// A model that this reads.
+    Model(ReadModel),
+    /// A scene with its own camera.
+    Scene,
+    /// Of a format of this name that is known, but not read yet.
+    NotYet(&'static str),
+    /// The name does not say.
+    Unknown,
+}

@@ -1,0 +1,85 @@
+//! A scene as a PLY file: triangles or else spheres, without materials, lights, camera and shapes.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::diagnostic::Diagnostic;
+use crate::format::export::flat::{
+    each_object, has_colors, is_spheres, is_triangles, leave_out, listed, nothing, say_unfolded,
+    split_scene, warning,
+};
+use crate::format::export::merge::{Size, merge, spheres};
+use crate::format::export::{Account, File, Writing};
+use crate::material::Material;
+use crate::scene::{Object, Scene};
+use crate::shape::Shape;
+
+/// The scene as a PLY file: its triangles, or, if there are none, its spheres.
+pub(crate) fn write_ply(
+    scene: Scene,
+    options: &Writing,
+    name: &str,
+    account: &mut Account,
+) -> Result<Vec<File>, Box<Diagnostic>> {
+    let size = Size::of(&scene);
+    size.check(options.max_bytes)?;
+    let solid = size.triangles > 0;
+    let holds = |shape: &Shape| if solid { is_triangles(shape) } else { is_spheres(shape) };
+    leave_out(&scene, options, "triangles or else spheres", holds, account);
+    if !solid && size.spheres == 0 {
+        return Err(nothing("PLY holds triangles or spheres"));
+    }
+    say_unfolded(&scene, account);
+    let own_color = |m: &u32| {
+        let automatic = options.bare && *m == 0;
+        !automatic && scene.materials.get(*m as usize).is_some_and(|m| !is_default(m))
+    };
+    let held: Vec<_> = each_object(&scene).filter(|object| holds(&object.shape)).collect();
+    let materials: BTreeSet<u32> = held.iter().flat_map(|object| used_by(object)).collect();
+    let own: Vec<_> = materials.iter().filter(|m| own_color(m)).collect();
+    let colors = !own.is_empty() || held.iter().any(|object| has_colors(&object.shape));
+    if !own.is_empty() {
+        let names = own.iter().filter_map(|m| scene.materials.get(**m as usize));
+        let names = listed(names.map(|m| m.name.as_str()), own.len());
+        account.map(format!("vertices get the `color` of their material: {names}"));
+        let place = scene.materials.get(*own[0] as usize).map(|m| m.place.clone());
+        let message = format!("PLY holds no materials, but for their colour: {names}");
+        account.drop(warning(message, &place.unwrap_or_default()));
+    }
+    let encoding = options.ply;
+    let file = if solid {
+        let merged = merge(if colors { split_scene(scene) } else { scene }, colors, true);
+        account.carry("triangle", merged.mesh.indices.len());
+        let mesh = merged.mesh;
+        File::new(name, move |to| mesh.write_ply(encoding, to))
+    } else {
+        let mut uneven = BTreeMap::new();
+        let points = spheres(&scene, colors, &mut uneven);
+        if !uneven.is_empty() {
+            let count: usize = uneven.values().sum();
+            let names = listed(uneven.keys().map(String::as_str), uneven.len());
+            let message = format!("PLY holds no ellipsoids; {count} are left out: {names}");
+            account.drop(Diagnostic::warning(message, None));
+        }
+        if points.spheres.is_empty() {
+            return Err(nothing("PLY holds triangles or spheres"));
+        }
+        account.carry("sphere", points.spheres.len());
+        File::new(name, move |to| points.write_ply(encoding, to))
+    };
+    Ok(vec![file])
+}
+
+/// The materials of an object.
+fn used_by(object: &Object) -> BTreeSet<u32> {
+    match &object.shape {
+        Shape::Mesh(mesh) if !mesh.face_materials.is_empty() => {
+            mesh.face_materials.iter().copied().collect()
+        }
+        _ => BTreeSet::from([object.material.0]),
+    }
+}
+
+/// Whether a material is the one that the reader makes for shapes that name none.
+fn is_default(material: &Material) -> bool {
+    *material == Material { place: material.place.clone(), ..Material::default() }
+}

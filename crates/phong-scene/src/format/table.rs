@@ -1,0 +1,267 @@
+//! The one list of formats: names, endings, readers, writers.
+//!
+//! A new reader is a folder beside this file and an entry in [`TABLE`].
+
+use std::fmt;
+
+use super::export::WriteScene;
+use super::input::{Models, Named, ReadModel, ReadScene};
+use super::{obj, ply, toml};
+
+/// What a file is written in.
+///
+/// ```
+/// use phong_scene::Format;
+/// assert_eq!(Format::of_path("scenes/balls.TOML"), Some(Format::Toml));
+/// assert_eq!(Format::of_path("balls"), None);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Our own scene text.
+    Toml,
+    /// Wavefront OBJ, with the MTL files it names.
+    Obj,
+    /// Stanford PLY: meshes and clouds of points.
+    Ply,
+    /// Stereolithography. Known, not read yet.
+    Stl,
+    /// glTF 2.0, as text or binary. Known, not read yet.
+    Gltf,
+    /// Protein Data Bank. Known, not read yet.
+    Pdb,
+    /// mmCIF. Known, not read yet.
+    Cif,
+    /// XYZ coordinates. Known, not read yet.
+    Xyz,
+    /// Tachyon scenes. Known, not read yet.
+    Tachyon,
+    /// Neutral File Format. Known, not read yet.
+    Nff,
+}
+
+/// All that is known of a format.
+struct Entry {
+    format: Format,
+    /// What it is called in a sentence.
+    name: &'static str,
+    /// The endings of its files, without the dot; the usual one first.
+    endings: &'static [&'static str],
+    /// Whether it holds a model without camera and lights.
+    bare: bool,
+    /// `None`: known, but not read yet.
+    read: Option<Read>,
+    /// `None`: not written yet.
+    write: Option<WriteScene>,
+}
+
+/// How a format is read.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Read {
+    /// As a scene with its own camera.
+    Scene(ReadScene),
+    /// As a piece of a scene.
+    Model(ReadModel),
+}
+
+/// Every format.
+static TABLE: [Entry; 10] = [
+    Entry {
+        format: Format::Toml,
+        name: "TOML scene",
+        endings: &["toml"],
+        bare: false,
+        read: Some(Read::Scene(toml::read)),
+        write: Some(toml::write::write_toml),
+    },
+    Entry {
+        format: Format::Obj,
+        name: "OBJ",
+        endings: &["obj"],
+        bare: true,
+        read: Some(Read::Model(obj::read)),
+        write: Some(obj::export::write_obj),
+    },
+    Entry {
+        format: Format::Ply,
+        name: "PLY",
+        endings: &["ply"],
+        bare: true,
+        read: Some(Read::Model(ply::read)),
+        write: Some(ply::export::write_ply),
+    },
+    Entry {
+        format: Format::Stl,
+        name: "STL",
+        endings: &["stl"],
+        bare: true,
+        read: None,
+        write: None,
+    },
+    Entry {
+        format: Format::Gltf,
+        name: "glTF",
+        endings: &["gltf", "glb"],
+        bare: true,
+        read: None,
+        write: None,
+    },
+    Entry {
+        format: Format::Pdb,
+        name: "PDB",
+        endings: &["pdb"],
+        bare: true,
+        read: None,
+        write: None,
+    },
+    Entry {
+        format: Format::Cif,
+        name: "mmCIF",
+        endings: &["cif"],
+        bare: true,
+        read: None,
+        write: None,
+    },
+    Entry {
+        format: Format::Xyz,
+        name: "XYZ",
+        endings: &["xyz"],
+        bare: true,
+        read: None,
+        write: None,
+    },
+    Entry {
+        format: Format::Tachyon,
+        name: "Tachyon",
+        endings: &["dat"],
+        bare: false,
+        read: None,
+        write: None,
+    },
+    Entry {
+        format: Format::Nff,
+        name: "NFF",
+        endings: &["nff"],
+        bare: false,
+        read: None,
+        write: None,
+    },
+];
+
+/// The table as scenes see it.
+pub(crate) static MODELS: Models = Models { find, help: models_are_read_from };
+
+impl Format {
+    /// The formats that are read; the others are known by name only.
+    #[must_use]
+    pub fn readable() -> Vec<Self> {
+        Self::those(|entry| entry.read.is_some())
+    }
+
+    /// The formats that are written.
+    #[must_use]
+    pub fn writable() -> Vec<Self> {
+        Self::those(|entry| entry.write.is_some())
+    }
+
+    fn those(which: fn(&Entry) -> bool) -> Vec<Self> {
+        TABLE.iter().filter(|entry| which(entry)).map(|entry| entry.format).collect()
+    }
+
+    fn entry(self) -> &'static Entry {
+        TABLE.iter().find(|entry| entry.format == self).expect("every format has an entry")
+    }
+
+    /// The usual ending of its files, without the dot.
+    #[must_use]
+    pub fn ending(self) -> &'static str {
+        self.entry().endings[0]
+    }
+
+    /// The format that the ending of a path stands for, in capitals or not.
+    #[must_use]
+    pub fn of_path(path: &str) -> Option<Self> {
+        let (_, ending) = path.rsplit(['/', '\\']).next()?.rsplit_once('.')?;
+        Self::of_ending(ending)
+    }
+
+    /// The format that an ending without its dot stands for, in capitals or not.
+    #[must_use]
+    pub fn of_ending(ending: &str) -> Option<Self> {
+        let ending = ending.to_ascii_lowercase();
+        let known = TABLE.iter().find(|entry| entry.endings.contains(&ending.as_str()));
+        known.map(|entry| entry.format)
+    }
+
+    /// Whether it holds a model without camera and lights.
+    #[must_use]
+    pub fn is_bare(self) -> bool {
+        self.entry().bare
+    }
+
+    /// How it is read; `None`: not yet.
+    pub(crate) fn reader(self) -> Option<Read> {
+        self.entry().read
+    }
+
+    /// How it is written; `None`: not yet.
+    pub(crate) fn writer(self) -> Option<WriteScene> {
+        self.entry().write
+    }
+
+    /// What it is called in a sentence.
+    pub(crate) fn name(self) -> &'static str {
+        self.entry().name
+    }
+}
+
+impl fmt::Display for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+fn find(path: &str) -> Named {
+    match Format::of_path(path).map(Format::entry) {
+        None => Named::Unknown,
+        Some(Entry { read: Some(Read::Model(read)), .. }) => Named::Model(*read),
+        Some(Entry { read: Some(Read::Scene(_)), .. }) => Named::Scene,
+        Some(Entry { name, .. }) => Named::NotYet(name),
+    }
+}
+
+/// `.obj and .ply`, as prose.
+pub(crate) fn endings(formats: &[Format], last: &str) -> String {
+    let all: Vec<_> = formats.iter().map(|format| format!(".{}", format.ending())).collect();
+    all.split_last()
+        .map_or_else(String::new, |(end, rest)| format!("{} {last} {end}", rest.join(", ")))
+}
+
+/// What models are read from, as a way out.
+pub(crate) fn models_are_read_from() -> String {
+    let models = Format::those(|entry| matches!(entry.read, Some(Read::Model(_))));
+    format!("models are read from {} files", endings(&models, "and"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_format_has_one_entry_and_every_ending_one_format() {
+        for entry in &TABLE {
+            assert_eq!(entry.format.entry().name, entry.name);
+            for ending in entry.endings {
+                assert_eq!(Format::of_ending(ending), Some(entry.format), "{ending}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_ending_names_its_format_in_any_case() {
+        assert_eq!(Format::of_path("a/b.c/d.PLY"), Some(Format::Ply));
+        assert_eq!(Format::of_path("d.glb"), Some(Format::Gltf));
+        assert_eq!(Format::of_path("a.toml/readme"), None);
+        assert_eq!(Format::of_path("C:\\models\\d.obj"), Some(Format::Obj));
+        assert_eq!(Format::of_path("ply"), None);
+    }
+}
