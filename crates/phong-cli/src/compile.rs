@@ -1,18 +1,18 @@
 //! A scene made ready for rays, within the memory there is.
 
-use phong::compile::{CompileError, CompileOptions, CompiledScene};
+use std::sync::Arc;
+
+use phong::geometry::{Geometry, GeometryError, GeometryOptions};
+use phong::look::Look;
+use phong::view::{View, ViewError};
 use phong_scene::{Diagnostic, Place, Scene, Span};
 
 use crate::args::InputArgs;
 use crate::failure::Failure;
 use crate::memory::{self, readable};
 
-/// Compiles a scene of which `beside` bytes of memory are needed for something else.
-pub(crate) fn compile(
-    scene: Scene,
-    args: &InputArgs,
-    beside: u64,
-) -> Result<CompiledScene, Failure> {
+/// Makes a scene ready of which `beside` bytes of memory are needed for something else.
+pub(crate) fn compile(scene: Scene, args: &InputArgs, beside: u64) -> Result<View, Failure> {
     let limit = args.max_memory.or_else(memory::total);
     let over = |needed: u64, limit: u64| {
         let (needed, limit) = (readable(needed), readable(limit));
@@ -27,9 +27,14 @@ pub(crate) fn compile(
         return Err(over(beside, limit));
     }
     let max_bytes = limit.map(|limit| limit - beside);
-    let options = CompileOptions { max_bytes, ..CompileOptions::default() };
-    CompiledScene::new(scene, options).map_err(|error| match error {
-        CompileError::Memory { needed, limit } => over(needed + beside, limit + beside),
+    let options = GeometryOptions { max_bytes, ..GeometryOptions::of(&scene) };
+    let geometry = Geometry::new(&scene, options).map_err(ViewError::from);
+    let view = geometry.and_then(|geometry| View::new(Arc::new(geometry), Look::new(&scene)));
+    drop(scene);
+    view.map_err(|error| match error {
+        ViewError::Geometry(GeometryError::Memory { needed, limit }) => {
+            over(needed + beside, limit + beside)
+        }
         error => {
             let place = Place { file: args.input.as_str().into(), ..Place::default() };
             let span = Span { place, ..Span::default() };

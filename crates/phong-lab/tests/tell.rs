@@ -3,18 +3,18 @@
 
 use std::path::Path;
 
-use phong::compile::{CompileOptions, CompiledScene};
 use phong::explain::explain;
 use phong::render::RenderOptions;
+use phong::view::View;
 use phong_lab::tell;
 use phong_scene::{AmbientRule, Folder, Limits, Material};
 
-fn compiled(file: &str) -> (CompiledScene, RenderOptions) {
+fn compiled(file: &str) -> (View, RenderOptions) {
     changed(file, |_| {})
 }
 
 /// The scene with every material changed.
-fn changed(file: &str, change: fn(&mut Material)) -> (CompiledScene, RenderOptions) {
+fn changed(file: &str, change: fn(&mut Material)) -> (View, RenderOptions) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(file);
     let reading = phong_scene::read(path.to_str().unwrap(), None, &Folder, &Limits::default());
     let mut scene = reading.scene.unwrap_or_else(|| panic!("{file}: {:?}", reading.diagnostics));
@@ -24,7 +24,7 @@ fn changed(file: &str, change: fn(&mut Material)) -> (CompiledScene, RenderOptio
     options.window = phong::film::Window::full(options.size);
     options.samples = 3;
     options.terms = true;
-    (CompiledScene::new(scene, CompileOptions::default()).unwrap(), options)
+    (View::of(&scene).unwrap(), options)
 }
 
 #[test]

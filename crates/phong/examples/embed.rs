@@ -3,10 +3,10 @@
 
 use std::error::Error;
 
-use phong::compile::{CompileOptions, CompiledScene};
 use phong::explain::explain;
 use phong::film::LayerKind;
 use phong::render::{Cancel, RenderOptions, render};
+use phong::view::View;
 use phong_scene::{Limits, Memory};
 
 const SCENE: &str = r#"
@@ -28,7 +28,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     // Compiling: what rays meet. Rendering: on rayon's threads, the same bits on any number.
     let options = RenderOptions { terms: true, ..RenderOptions::of(&scene.image) };
-    let compiled = CompiledScene::new(scene, CompileOptions::default())?;
+    let compiled = View::of(&scene)?;
     let film = render(&compiled, &options, &|_, _| {}, &Cancel::new())?.film;
 
     // A pixel of the film is the sum of its terms; so is its explanation.

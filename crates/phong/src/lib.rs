@@ -1,23 +1,25 @@
 //! The renderer: from a [`phong_scene::Scene`] to light, and from light to pixels.
 //!
 //! Rooms, lowest storey first; a room imports only rooms below it: `math`; `reflectance`,
-//! `sampling`, `filter`; `material`, `light`, `camera`; `compile`, `interaction`; `integrator`,
+//! `sampling`, `filter`; `material`, `light`, `camera`; `interaction`, `geometry`, `look`, `view`; `integrator`,
 //! `witness`; `film`, `aov`, `render`; `image`, `part`, `explain`.
 
 pub mod aov;
 pub mod camera;
-pub mod compile;
 pub mod explain;
 pub mod film;
 pub mod filter;
+pub mod geometry;
 pub mod image;
 pub mod integrator;
 pub mod interaction;
 pub mod light;
+pub mod look;
 pub mod material;
 pub mod math;
 pub mod part;
 pub mod reflectance;
 pub mod render;
 pub mod sampling;
+pub mod view;
 pub mod witness;

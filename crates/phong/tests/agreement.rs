@@ -1,14 +1,16 @@
 //! The same bits, whatever the number of threads, the size of a tile, the cut of the picture and the SIMD level.
 
 use std::fmt::Write;
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock};
 
 use phong::aov::Aov;
-use phong::compile::{CompileOptions, CompiledScene};
 use phong::explain::explain;
 use phong::film::{Film, LayerKind, Window};
+use phong::geometry::{Geometry, GeometryOptions};
+use phong::look::Look;
 use phong::reflectance::Terms;
 use phong::render::{Cancel, RenderOptions, render};
+use phong::view::View;
 use phong_bvh::{BuildOptions, Level, Preset};
 use phong_scene::{Background, CameraKind, FilterKind, Limits, Memory, Reading, Rgb, Scene};
 
@@ -16,7 +18,7 @@ use phong_scene::{Background, CameraKind, FilterKind, Limits, Memory, Reading, R
 struct Case {
     name: &'static str,
     written: Scene,
-    scene: CompiledScene,
+    scene: View,
     options: RenderOptions,
     film: Film,
 }
@@ -40,7 +42,7 @@ static CASES: LazyLock<Vec<Case>> = LazyLock::new(|| {
                 ..RenderOptions::of(&scene.image)
             };
             let written = scene.clone();
-            let scene = CompiledScene::new(scene, CompileOptions::default()).expect("compiles");
+            let scene = View::of(&scene).expect("compiles");
             let film = drawn(&scene, &options, 1);
             Case { name, written, scene, options, film }
         })
@@ -98,7 +100,7 @@ fn cloud(n: u32) -> String {
     ply
 }
 
-fn drawn(scene: &CompiledScene, options: &RenderOptions, threads: usize) -> Film {
+fn drawn(scene: &View, options: &RenderOptions, threads: usize) -> Film {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
     pool.install(|| render(scene, options, &|_, _| {}, &Cancel::new())).expect("not cancelled").film
 }
@@ -204,8 +206,9 @@ fn the_simd_level_and_the_preset_of_the_build_change_no_bit() {
     for case in CASES.iter() {
         let held = |level, preset| {
             let build = Some(BuildOptions { level, preset });
-            let options = CompileOptions { build, ..CompileOptions::default() };
-            let scene = CompiledScene::new(case.written.clone(), options).expect("compiles");
+            let options = GeometryOptions { build, ..GeometryOptions::default() };
+            let geometry = Geometry::new(&case.written, options).expect("trees are built");
+            let scene = View::new(Arc::new(geometry), Look::new(&case.written)).expect("fits");
             let film = drawn(&scene, &case.options, 2);
             assert_same(&format!("{} at {level:?}, {preset:?}", case.name), &film, &case.film);
         };
@@ -234,14 +237,14 @@ fn what_is_explained_is_what_is_drawn() {
 }
 
 /// A few spheres and a floor, of which every ray is one of eight.
-fn few(kind: CameraKind, aperture: f64) -> CompiledScene {
+fn few(kind: CameraKind, aperture: f64) -> View {
     let source = Memory::new().with("scene.toml", include_bytes!("agreement/few.toml").to_vec());
     let Reading { scene, diagnostics, .. } =
         phong_scene::read("scene.toml", None, &source, &Limits::default());
     assert!(diagnostics.is_empty(), "{diagnostics:#?}");
     let mut scene = scene.expect("a scene, for there is no error");
     (scene.camera.kind, scene.camera.aperture) = (kind, aperture);
-    CompiledScene::new(scene, CompileOptions::default()).expect("compiles")
+    View::of(&scene).expect("compiles")
 }
 
 #[test]

@@ -19,7 +19,9 @@ const ROOMS: &[&str] = &[
     "material",
     // 4: a scene made ready, and a point on a surface
     "interaction",
-    "compile",
+    "geometry",
+    "look",
+    "view",
     // 5: the road of one ray, and who listens
     "witness",
     "integrator",

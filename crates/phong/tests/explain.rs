@@ -3,14 +3,14 @@
 
 use std::path::Path;
 
-use phong::compile::{CompileOptions, CompiledScene};
 use phong::explain::{End, Explanation, explain};
 use phong::film::LayerKind;
 use phong::reflectance::Terms;
 use phong::render::{Cancel, RenderOptions, render};
+use phong::view::View;
 use phong_scene::{FilterKind, Folder, Limits};
 
-fn compiled(file: &str) -> (CompiledScene, RenderOptions) {
+fn compiled(file: &str) -> (View, RenderOptions) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(file);
     let reading = phong_scene::read(path.to_str().unwrap(), None, &Folder, &Limits::default());
     let scene = reading.scene.unwrap_or_else(|| panic!("{file}: {:?}", reading.diagnostics));
@@ -19,7 +19,7 @@ fn compiled(file: &str) -> (CompiledScene, RenderOptions) {
     options.window = phong::film::Window::full(options.size);
     options.samples = 3;
     options.terms = true;
-    (CompiledScene::new(scene, CompileOptions::default()).unwrap(), options)
+    (View::of(&scene).unwrap(), options)
 }
 
 /// Every gallery scene.

@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::Path;
 
-use phong::compile::{CompileOptions, CompiledScene};
 use phong::film::{LayerKind, Window};
 use phong::render::{Cancel, RenderOptions, render};
+use phong::view::View;
 use phong_scene::{Folder, Limits, srgb_encode};
 
 /// What a small picture is like, as the eye has it: sRGB values.
@@ -27,7 +27,7 @@ fn look(path: &Path) -> Look {
         samples: 1,
         ..RenderOptions::of(&scene.image)
     };
-    let compiled = CompiledScene::new(scene, CompileOptions::default()).expect("compiles");
+    let compiled = View::of(&scene).expect("compiles");
     let rendered = render(&compiled, &options, &|_, _| {}, &Cancel::new()).expect("not cancelled");
     let picture = &rendered.film.layer(LayerKind::Picture).expect("a picture").values;
     let n = picture.len() as f64;

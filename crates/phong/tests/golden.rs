@@ -6,10 +6,10 @@ use std::fs;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
-use phong::compile::{CompileOptions, CompiledScene};
 use phong::film::{Film, LayerKind, Window};
 use phong::image::{self, Bits, Content, Encoding, Format, Picture};
 use phong::render::{Cancel, RenderOptions, render};
+use phong::view::View;
 use phong_scene::{Folder, Limits};
 
 /// One test for each scene, named `group::name` as its file is.
@@ -71,7 +71,7 @@ fn drawn(path: &Path) -> Vec<u8> {
     // Warnings are welcome: a lamp within a ball is what one of the scenes is about.
     let scene = reading.scene.unwrap_or_else(|| panic!("{:#?}", reading.diagnostics));
     let options = RenderOptions::of(&scene.image);
-    let compiled = CompiledScene::new(scene, CompileOptions::default()).expect("compiles");
+    let compiled = View::of(&scene).expect("compiles");
     let rendered = render(&compiled, &options, &|_, _| {}, &Cancel::new()).expect("not cancelled");
     encoded(&rendered.film, false)
 }

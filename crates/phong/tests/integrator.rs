@@ -3,10 +3,11 @@
 
 use glam::{DAffine3, DVec3, Vec3};
 use phong::aov::Aov;
-use phong::compile::{CompileError, CompileOptions, CompiledScene};
 use phong::film::{Film, LayerKind};
+use phong::geometry::{Geometry, GeometryError, GeometryOptions};
 use phong::reflectance::{Terms, fresnel};
 use phong::render::{Cancel, Cancelled, RenderOptions, Rendered, render};
+use phong::view::{View, ViewError};
 use phong_bvh::Ray;
 use phong_scene::{
     AmbientRule, Background, Camera, CameraKind, FilterKind, Group, GroupId, Image, Light,
@@ -68,7 +69,7 @@ fn plane(point: [f64; 3], normal: [f64; 3]) -> Object {
 fn film_with(scene: Scene, change: impl FnOnce(&mut RenderOptions)) -> Film {
     let mut options = RenderOptions { terms: true, ..RenderOptions::of(&scene.image) };
     change(&mut options);
-    let compiled = CompiledScene::new(scene, CompileOptions::default()).unwrap();
+    let compiled = View::of(&scene).unwrap();
     let Rendered { film, .. } = render(&compiled, &options, &|_, _| {}, &Cancel::new()).unwrap();
     film
 }
@@ -360,7 +361,7 @@ fn the_grain_of_a_brushed_sphere_turns_with_it() {
             ball.transform = DAffine3::from_rotation_y(std::f64::consts::FRAC_PI_2);
         }
         scene.objects.push(ball);
-        let scene = CompiledScene::new(scene, CompileOptions::default()).unwrap();
+        let scene = View::of(&scene).unwrap();
         let ray = Ray::new(Vec3::new(0.0, 0.6, 5.0), Vec3::NEG_Z);
         let hit = scene.bvh().intersect(&ray);
         scene.coordinates(&ray, &hit).tangent
@@ -423,7 +424,7 @@ fn a_background_runs_from_top_to_bottom_of_the_picture() {
 fn a_cancelled_rendering_gives_no_film() {
     let scene = scene();
     let options = RenderOptions::of(&scene.image);
-    let compiled = CompiledScene::new(scene, CompileOptions::default()).unwrap();
+    let compiled = View::of(&scene).unwrap();
     let cancel = Cancel::new();
     cancel.cancel();
     assert_eq!(render(&compiled, &options, &|_, _| {}, &cancel).err(), Some(Cancelled));
@@ -434,15 +435,15 @@ fn a_scene_over_the_memory_limit_is_refused_before_it_is_built() {
     let mut scene = scene();
     let spheres = vec![[0.0, 0.0, 0.0, 1.0]; 1000];
     scene.objects.push(object(Shape::Points(Box::new(Points { spheres, ..Points::default() }))));
-    let options = CompileOptions { max_bytes: Some(10_000), ..CompileOptions::default() };
-    let error = CompiledScene::new(scene, options).unwrap_err();
-    assert!(matches!(error, CompileError::Memory { needed: 16_000.., limit: 10_000 }));
+    let options = GeometryOptions { max_bytes: Some(10_000), ..GeometryOptions::default() };
+    let error = Geometry::new(&scene, options).unwrap_err();
+    assert!(matches!(error, GeometryError::Memory { needed: 16_000.., limit: 10_000 }));
 }
 
 #[test]
 fn a_scene_too_large_for_its_numbers_is_refused() {
     let mut scene = scene();
     scene.objects.push(sphere([1e300, 0.0, 0.0], 1e299));
-    let error = CompiledScene::new(scene, CompileOptions::default()).unwrap_err();
-    assert!(matches!(error, CompileError::TooLarge(_)));
+    let error = View::of(&scene).unwrap_err();
+    assert!(matches!(error, ViewError::Geometry(GeometryError::TooLarge(_))));
 }

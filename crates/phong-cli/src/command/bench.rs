@@ -5,9 +5,9 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use glam::DVec2;
-use phong::compile::CompiledScene;
 use phong::film::{Film, Window};
 use phong::render::RenderOptions;
+use phong::view::View;
 use phong_bvh::{Hits8, Ray, Rays8, lanes};
 use rayon::prelude::*;
 use serde_json::{Map, Value as Json, json};
@@ -91,7 +91,7 @@ struct Bundles {
 }
 
 impl Bundles {
-    fn of(scene: &CompiledScene, size: [u32; 2]) -> Self {
+    fn of(scene: &View, size: [u32; 2]) -> Self {
         let film = Film::new(size, Window::full(size), RenderOptions::TILE, &[]);
         let mut bundles = Self::default();
         for tile in 0..film.tiles() {
@@ -150,13 +150,13 @@ fn best(bundles: &[Vec<Rays8>], trace: impl Fn(&[Rays8]) + Sync) -> Measured {
     Measured { rays, seconds }
 }
 
-fn closest(scene: &CompiledScene, rays: &[Rays8]) {
+fn closest(scene: &View, rays: &[Rays8]) {
     let mut hits = vec![Hits8::NONE; rays.len()];
     scene.bvh().intersect_eights(rays, &mut hits);
     black_box(hits);
 }
 
-fn any(scene: &CompiledScene, rays: &[Rays8]) {
+fn any(scene: &View, rays: &[Rays8]) {
     let mut blocked = vec![0; rays.len()];
     scene.bvh().occluded_eights(rays, &mut blocked);
     black_box(blocked);

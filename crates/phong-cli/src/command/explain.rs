@@ -3,11 +3,11 @@
 use std::io::{self, Cursor};
 use std::path::{Path, PathBuf};
 
-use phong::compile::CompiledScene;
 use phong::explain::{Explanation, explain};
 use phong::film::{LayerKind, Window};
 use phong::image::{self, Content, Encoding, Format};
 use phong::render::{Cancel, RenderOptions, render};
+use phong::view::View;
 use phong_lab::tell;
 use phong_lab::tell::html::{MAX_PIXELS, page};
 
@@ -146,7 +146,7 @@ fn tell(args: &Args, told: &Explanation) -> Result<(), Failure> {
 
 fn write_page(
     args: &Args,
-    scene: &CompiledScene,
+    scene: &View,
     options: &mut RenderOptions,
     output: &mut Output,
     path: &Path,

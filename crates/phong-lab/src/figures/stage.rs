@@ -2,10 +2,10 @@
 
 use glam::{DAffine3, DVec3, Vec3};
 use phong::aov::Aov;
-use phong::compile::{CompileOptions, CompiledScene};
 use phong::film::{Film, LayerKind};
 use phong::reflectance::Terms;
 use phong::render::{Cancel, RenderOptions, render};
+use phong::view::View;
 use phong_scene::{
     Background, Camera, CameraKind, Image, Light, LightKind, Material, MaterialId, Object, Place,
     Rgb, Scene, Shape, srgb_encode,
@@ -105,8 +105,7 @@ pub(super) fn measured(scene: &Scene) -> Film {
 fn film(scene: Scene, aovs: &[Aov]) -> Film {
     let options =
         RenderOptions { terms: true, aovs: aovs.to_vec(), ..RenderOptions::of(&scene.image) };
-    let scene = CompiledScene::new(scene, CompileOptions::default())
-        .expect("a scene of a few shapes compiles");
+    let scene = View::of(&scene).expect("a scene of a few shapes compiles");
     let nobody_watches = |_: &Film, _| ();
     let rendered = render(&scene, &options, &nobody_watches, &Cancel::new())
         .expect("nothing cancels a figure");

@@ -4,10 +4,10 @@ use std::fmt::Write;
 use std::io::Cursor;
 
 use glam::{DAffine3, DVec3};
-use phong::compile::{CompileOptions, CompiledScene};
 use phong::film::{Film, LayerKind};
 use phong::image::{Content, Encoding, Format, write};
 use phong::render::{Cancel, RenderOptions, render};
+use phong::view::View;
 use phong_scene::{
     Camera, CameraKind, Image, Light, LightKind, Material, MaterialId, Object, Place, Rgb, Scene,
     Shape,
@@ -148,7 +148,7 @@ fn plot(
 fn picture(lobe: Lobe) -> Option<String> {
     let scene = ball_on_floor(lobe);
     let options = RenderOptions { samples: 4, ..RenderOptions::of(&scene.image) };
-    let compiled = CompiledScene::new(scene, CompileOptions::default()).ok()?;
+    let compiled = View::of(&scene).ok()?;
     let film = render(&compiled, &options, &|_, _| {}, &Cancel::new()).ok()?.film;
     png(&film)
 }

@@ -17,9 +17,9 @@ use thiserror::Error;
 
 use mistakes::{Curve, Kind, Layout};
 pub use mistakes::{MISTAKES, Mistake};
-use phong::compile::{CompileError, CompileOptions, CompiledScene};
 use phong::image::Picture;
 use phong::render::RenderOptions;
+use phong::view::{View, ViewError};
 pub use picture::Residual;
 use picture::{NotNumbers, Theirs, encode};
 use points::{Point, gather};
@@ -83,9 +83,9 @@ pub enum GradeError {
     /// It has no colour channels.
     #[error("the picture has no colour channels")]
     NoColor,
-    /// The scene cannot be compiled.
+    /// The scene cannot be made ready for rays.
     #[error(transparent)]
-    Compile(#[from] CompileError),
+    View(#[from] ViewError),
 }
 
 /// Grades a picture of a scene, drawn by another program with a sample or more a pixel.
@@ -130,7 +130,7 @@ pub fn grade(scene: &Scene, picture: &Picture) -> Result<Grade, GradeError> {
 
 /// A scene, and what its pixels are made of.
 struct Prepared {
-    scene: CompiledScene,
+    scene: View,
     size: [u32; 2],
     points: Vec<Point>,
     /// Pixels to compare: not at an edge.
@@ -279,7 +279,7 @@ fn pairs(right: &Prepared, theirs: &Theirs, singles: &[Tried]) -> Vec<Tried> {
 impl Prepared {
     fn new(scene: Scene) -> Result<Self, GradeError> {
         let options = RenderOptions::of(&scene.image);
-        let scene = CompiledScene::new(scene, CompileOptions::default())?;
+        let scene = View::of(&scene)?;
         let points = gather(&scene, &options);
         let inner = picture::inner(&points, options.size);
         Ok(Self { scene, size: options.size, points, inner })

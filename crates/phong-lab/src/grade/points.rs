@@ -1,12 +1,12 @@
 //! What every pixel's centre ray meets: the ingredients that a renderer puts into the equation.
 
-use phong::compile::CompiledScene;
 use phong::filter::Filter;
 use phong::integrator::{Integrator, RayCounts};
 use phong::interaction::SurfaceInteraction;
 use phong::math::Dir3;
 use phong::render::{RenderOptions, camera_ray};
 use phong::sampling::Sampler;
+use phong::view::View;
 use phong::witness::{Branch, LightTold, Witness};
 use phong_bvh::Ray;
 use phong_scene::{LightKind, Rgb};
@@ -56,7 +56,7 @@ pub(super) struct LightPoint {
 }
 
 /// The points of a whole picture, row by row.
-pub(super) fn gather(scene: &CompiledScene, options: &RenderOptions) -> Vec<Point> {
+pub(super) fn gather(scene: &View, options: &RenderOptions) -> Vec<Point> {
     let centre = RenderOptions { samples: 1, ..options.clone() };
     let integrator = Integrator {
         scene,
@@ -82,7 +82,7 @@ pub(super) fn gather(scene: &CompiledScene, options: &RenderOptions) -> Vec<Poin
 
 /// Listens to the first hit of one ray.
 struct Listener<'a> {
-    scene: &'a CompiledScene,
+    scene: &'a View,
     /// Weights of the rays on their way below the camera's.
     weights: Vec<Rgb>,
     point: Point,

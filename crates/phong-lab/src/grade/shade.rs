@@ -2,10 +2,10 @@
 //!
 //! With [`Wrong::default`] nothing is wrong, and the sum is the integrator's, which a test holds.
 
-use phong::compile::CompiledScene;
 use phong::light::LightSample;
 use phong::math::{Dir3, lobe, pow};
 use phong::reflectance::{blinn_phong, phong as phong_model};
+use phong::view::View;
 use phong_scene::{Model, Rgb};
 
 use super::points::{LightPoint, Point, Surface};
@@ -122,7 +122,7 @@ impl Sum {
 }
 
 /// The sum at a point, computed with a mistake.
-pub(super) fn shade(scene: &CompiledScene, point: &Point, wrong: &Wrong) -> Sum {
+pub(super) fn shade(scene: &View, point: &Point, wrong: &Wrong) -> Sum {
     let Some(surface) = &point.surface else {
         return Sum { background: point.background, ..Sum::default() };
     };
@@ -165,12 +165,7 @@ fn ambient(surface: &Surface, wrong: &Wrong) -> Rgb {
 }
 
 /// Diffuse and specular of one light.
-fn one_light(
-    scene: &CompiledScene,
-    surface: &Surface,
-    light: &LightPoint,
-    wrong: &Wrong,
-) -> (Rgb, Rgb) {
+fn one_light(scene: &View, surface: &Surface, light: &LightPoint, wrong: &Wrong) -> (Rgb, Rgb) {
     let seen = match wrong.shadows {
         Shadows::Right => light.visible,
         Shadows::Missing => light.above,

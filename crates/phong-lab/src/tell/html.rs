@@ -8,10 +8,10 @@ use std::io::Write as _;
 
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
-use phong::compile::CompiledScene;
 use phong::explain::{End, Explanation, Lit, Onward, RayTold, Surface, explain};
 use phong::reflectance::Terms;
 use phong::render::{Cancel, Cancelled, RenderOptions};
+use phong::view::View;
 use phong_scene::{AmbientRule, Model, Rgb};
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
@@ -35,7 +35,7 @@ pub const MAX_PIXELS: u32 = 65_536;
 /// # Panics
 /// If the picture has more than [`MAX_PIXELS`].
 pub fn page(
-    scene: &CompiledScene,
+    scene: &View,
     options: &RenderOptions,
     title: &str,
     png: &[u8],
@@ -77,7 +77,7 @@ pub fn page(
 
 /// What belongs to many pixels.
 struct Shared<'a> {
-    scene: &'a CompiledScene,
+    scene: &'a View,
 }
 
 impl Shared<'_> {

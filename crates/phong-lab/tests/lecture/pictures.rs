@@ -2,12 +2,12 @@
 
 use glam::{DAffine3, DVec3, Vec3};
 use phong::aov::Aov;
-use phong::compile::{CompileOptions, CompiledScene};
 use phong::explain::{End, Lit, Surface, explain};
 use phong::film::{Film, LayerKind};
 use phong::math::Dir3;
 use phong::reflectance::Terms;
 use phong::render::{Cancel, RenderOptions, render};
+use phong::view::View;
 use phong_scene::{
     Camera, CameraKind, Image, Light, LightKind, Material, MaterialId, Model, Object, Place, Rgb,
     Scene, Shape,
@@ -74,10 +74,10 @@ fn lamp(position: DVec3) -> Light {
     light(LightKind::Point { position, attenuation: [1.0, 0.0, 0.0], radius: 0.0 })
 }
 
-fn compiled(scene: Scene) -> (CompiledScene, RenderOptions) {
+fn compiled(scene: Scene) -> (View, RenderOptions) {
     let aovs = vec![Aov::Normal, Aov::Position];
     let options = RenderOptions { terms: true, aovs, ..RenderOptions::of(&scene.image) };
-    (CompiledScene::new(scene, CompileOptions::default()).unwrap(), options)
+    (View::of(&scene).unwrap(), options)
 }
 
 fn film(scene: Scene) -> Film {

@@ -10,13 +10,13 @@ use glam::DVec3;
 use phong_scene::{Place, Rgb, srgb_encode};
 use thiserror::Error;
 
-use crate::compile::CompiledScene;
 use crate::filter::Filter;
 use crate::integrator::{Integrator, Radiance8, RayCounts};
 use crate::math::{Dir3, wide};
 use crate::reflectance::Terms;
 use crate::render::{RenderOptions, Sums8, camera_ray};
 use crate::sampling::Sampler;
+use crate::view::View;
 use record::Recorder;
 
 /// A pixel, explained.
@@ -214,7 +214,7 @@ pub struct Outside {
 /// # Errors
 /// [`Outside`].
 pub fn explain(
-    scene: &CompiledScene,
+    scene: &View,
     options: &RenderOptions,
     pixel: [u32; 2],
 ) -> Result<Explanation, Outside> {

@@ -4,15 +4,15 @@ use phong_bvh::Ray;
 use phong_scene::Rgb;
 
 use super::{Blocker, End, Lit, Onward, RayTold, Surface};
-use crate::compile::CompiledScene;
 use crate::interaction::SurfaceInteraction;
 use crate::math::Dir3;
 use crate::reflectance::{Incident, Terms};
+use crate::view::View;
 use crate::witness::{Branch, LightTold, Witness};
 
 /// Listens to one ray and all that follow from it.
 pub(super) struct Recorder<'a> {
-    scene: &'a CompiledScene,
+    scene: &'a View,
     /// Rays on their way, the first from the camera, each with what sent it.
     open: Vec<Open>,
 }
@@ -24,7 +24,7 @@ struct Open {
 }
 
 impl<'a> Recorder<'a> {
-    pub(super) fn new(scene: &'a CompiledScene) -> Self {
+    pub(super) fn new(scene: &'a View) -> Self {
         Self { scene, open: vec![Open { told: None, at: None, sent: None }] }
     }
 

@@ -7,10 +7,10 @@ use phong_scene::{Background, Rgb};
 
 use super::Integrator;
 use super::bundle::Radiance8;
-use crate::compile::{CompiledScene, Dressed8};
 use crate::interaction::SurfaceInteraction;
 use crate::math::lanes::{direction, dot, get, load3, select3, set, splat3, store3};
 use crate::reflectance::Terms8;
+use crate::view::{Shading8, View};
 
 /// The surfaces that the rays of a bundle met; eight for eight rays. Where a ray met nothing, the
 /// numbers are of no account.
@@ -18,7 +18,7 @@ use crate::reflectance::Terms8;
 pub(super) struct Met {
     pub(super) hits: Vec<Hits8>,
     pub(super) surfaces: Vec<Surfaces8>,
-    pub(super) dressed: Vec<Dressed8>,
+    pub(super) dressed: Vec<Shading8>,
 }
 
 impl Met {
@@ -34,7 +34,7 @@ impl Met {
         let (scene, background) = (integrator.scene, integrator.background);
         self.hits.resize(rays.len(), Hits8::NONE);
         self.surfaces.resize(rays.len(), Surfaces8::default());
-        self.dressed.resize(rays.len(), Dressed8::NONE);
+        self.dressed.resize(rays.len(), Shading8::NONE);
         out.resize(rays.len(), Radiance8::NONE);
         scene.bvh().intersect_eights(rays, &mut self.hits);
         scene.bvh().surface_eights(rays, &self.hits, &mut self.surfaces);
@@ -74,7 +74,7 @@ pub(super) fn same_material<S: Simd>(simd: S, material: &[u32; 8], left: u32) ->
 }
 
 struct Begin<'a> {
-    scene: &'a CompiledScene,
+    scene: &'a View,
     background: Background,
     height: &'a dyn Fn(usize, usize) -> f32,
     rays: &'a [Rays8],
@@ -117,7 +117,7 @@ impl Kernel for Begin<'_> {
                 continue;
             }
             let (ng, e) = (load3(simd, &surface.ng), to_eye(simd, rays));
-            scene.dress(simd, hits, ng, e, &mut index, dressed);
+            scene.shading8(simd, hits, ng, e, &mut index, dressed);
             let ambient = &mut out.terms.0[Terms8::AMBIENT];
             let mut left = met;
             while left != 0 {
@@ -192,7 +192,7 @@ mod tests {
             |i: usize, k: usize| Dir3::new(Vec3::new(x(i, k), x(i, k + 1), x(i, k + 2))).unwrap();
         let mut above = 0;
         for round in 0..40 {
-            let (mut surface, mut dressed) = (Surfaces8::default(), Dressed8::NONE);
+            let (mut surface, mut dressed) = (Surfaces8::default(), Shading8::NONE);
             let (mut rays, mut l) = (Rays8::NONE, [[0.0; 8]; 3]);
             for lane in 0..8 {
                 let i = 8 * round + lane;

@@ -18,12 +18,12 @@ pub use bundle::{CameraRay, Radiance8, RayCounts};
 use phong_bvh::{Ray, Rays8, lanes};
 use phong_scene::{Background, Rgb};
 
-use crate::compile::CompiledScene;
 use crate::interaction::SurfaceInteraction;
 use crate::material::Material;
 use crate::math::lanes::set;
 use crate::reflectance::{Terms, Terms8};
 use crate::sampling::{Sampler, Samplers8};
+use crate::view::View;
 use crate::witness::{Branch, Witness};
 use bundle::count;
 use lights::Light8s;
@@ -34,7 +34,7 @@ use optics::{Part, Parting8};
 #[derive(Clone, Copy, Debug)]
 pub struct Integrator<'a> {
     /// What rays meet.
-    pub scene: &'a CompiledScene,
+    pub scene: &'a View,
     /// What rays see that meet nothing.
     pub background: Background,
     /// Mirror and glass bounces; beyond it a ray brings black.

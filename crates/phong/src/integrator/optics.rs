@@ -5,10 +5,10 @@ use phong_bvh::{Kernel, Ray, Rays8};
 use phong_scene::Rgb;
 
 use super::met::{Met, origins, same_material, to_eye};
-use crate::compile::CompiledScene;
 use crate::material::Material;
 use crate::math::lanes::{Lanes3, Real, dot, get, load3, mirror, select3, splat3, store3, times};
 use crate::reflectance::fresnel;
+use crate::view::View;
 use crate::witness::Branch;
 
 /// What goes on from eight surfaces.
@@ -47,7 +47,7 @@ impl Parting8 {
 
 /// Sends the mirror rays, or the refracted ones, on from all surfaces met.
 pub(super) struct Part<'a> {
-    pub(super) scene: &'a CompiledScene,
+    pub(super) scene: &'a View,
     pub(super) branch: Branch,
     pub(super) rays: &'a [Rays8],
     pub(super) met: &'a Met,

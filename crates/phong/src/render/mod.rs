@@ -15,10 +15,10 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use crate::aov::Aov;
-use crate::compile::CompiledScene;
 use crate::film::{Film, LayerKind, Window};
 use crate::integrator::{Integrator, RayCounts};
 use crate::reflectance::Terms;
+use crate::view::View;
 
 /// What to render.
 #[derive(Clone, Debug, PartialEq)]
@@ -141,7 +141,7 @@ pub struct Cancelled;
 /// # Panics
 /// If the options are not what their documentation asks for.
 pub fn render(
-    scene: &CompiledScene,
+    scene: &View,
     options: &RenderOptions,
     watch: &(dyn Fn(&Film, Progress) + Sync),
     cancel: &Cancel,
@@ -158,7 +158,7 @@ pub fn render(
 /// # Panics
 /// If the options are not what their documentation asks for, or the film is of other ones.
 pub fn resume(
-    scene: &CompiledScene,
+    scene: &View,
     options: &RenderOptions,
     film: Film,
     watch: &(dyn Fn(&Film, Progress) + Sync),

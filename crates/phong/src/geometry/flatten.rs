@@ -4,7 +4,7 @@ use glam::DAffine3;
 use phong_scene::{Group, Object, Shape};
 
 /// Every object that is not an instance, in the order of the text, instances at their place.
-pub(super) fn flatten(objects: Vec<Object>, groups: &[Group]) -> Vec<Object> {
+pub(super) fn flatten(objects: &[Object], groups: &[Group]) -> Vec<Object> {
     let mut leaves = Vec::with_capacity(objects.len());
     for object in objects {
         match object.shape {
@@ -17,7 +17,7 @@ pub(super) fn flatten(objects: Vec<Object>, groups: &[Group]) -> Vec<Object> {
                     &mut leaves,
                 );
             }
-            _ => leaves.push(object),
+            _ => leaves.push(object.clone()),
         }
     }
     leaves

@@ -1,0 +1,154 @@
+//! What belongs to the primitives of a tree's batch besides their shape.
+
+use glam::{DMat3, Vec2, Vec3};
+use phong_bvh::Hit;
+use phong_scene::{NO_INDEX, Rgb};
+
+use crate::math::Dir3;
+
+/// What belongs to the primitives of one batch.
+#[derive(Debug)]
+pub(crate) struct Batch {
+    pub(super) objects: Objects,
+    pub(super) materials: MaterialNumbers,
+    pub(super) mesh: Option<Box<MeshAttributes>>,
+    /// A colour a sphere; empty: the material's.
+    pub(super) colors: Vec<Rgb>,
+    /// The spheres that are turned, in order of their number, and the rotation of each.
+    pub(super) rotations: Vec<(u32, DMat3)>,
+}
+
+/// The objects that a batch's primitives belong to.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Objects {
+    /// All to one: a mesh, a cloud of points.
+    One(u32),
+    /// The first primitive to this one, and each further one to the next.
+    OneEach(u32),
+}
+
+/// The materials of a batch's primitives.
+#[derive(Debug)]
+pub(super) enum MaterialNumbers {
+    One(u32),
+    OneEach(Vec<u32>),
+}
+
+/// What a mesh has besides its triangles.
+#[derive(Debug, Default)]
+pub(super) struct MeshAttributes {
+    pub(super) normals: Vec<Vec3>,
+    pub(super) normal_indices: Vec<[u32; 3]>,
+    pub(super) uvs: Vec<Vec2>,
+    pub(super) uv_indices: Vec<[u32; 3]>,
+    pub(super) colors: Vec<Rgb>,
+}
+
+impl Batch {
+    /// A batch of one material, with no colours or mesh attributes of its own.
+    pub(super) fn new(objects: Objects, material: u32) -> Self {
+        Self {
+            objects,
+            materials: MaterialNumbers::One(material),
+            mesh: None,
+            colors: Vec::new(),
+            rotations: Vec::new(),
+        }
+    }
+
+    /// The number of the object that a primitive belongs to.
+    #[inline]
+    pub(super) fn object(&self, local: u32) -> u32 {
+        match self.objects {
+            Objects::One(object) => object,
+            Objects::OneEach(first) => first + local,
+        }
+    }
+
+    /// Whether its primitives are one object together.
+    pub(super) fn is_bulk(&self) -> bool {
+        matches!(self.objects, Objects::One(_))
+    }
+
+    /// The highest number of a material; `None` if it has no primitives.
+    pub(super) fn highest_material(&self) -> Option<u32> {
+        match &self.materials {
+            MaterialNumbers::One(material) => Some(*material),
+            MaterialNumbers::OneEach(materials) => materials.iter().copied().max(),
+        }
+    }
+
+    /// How a sphere is turned; `None`: it is not, or it is no sphere.
+    pub(super) fn rotation(&self, local: u32) -> Option<DMat3> {
+        let place = self.rotations.binary_search_by_key(&local, |(number, _)| *number).ok()?;
+        Some(self.rotations[place].1)
+    }
+
+    /// The number of a primitive's material.
+    #[inline]
+    pub(crate) fn material(&self, local: u32) -> u32 {
+        match &self.materials {
+            MaterialNumbers::One(material) => *material,
+            MaterialNumbers::OneEach(materials) => materials[local as usize],
+        }
+    }
+
+    /// The material, where all primitives have the same.
+    #[inline]
+    pub(crate) fn only_material(&self) -> Option<u32> {
+        match self.materials {
+            MaterialNumbers::One(material) => Some(material),
+            MaterialNumbers::OneEach(_) => None,
+        }
+    }
+
+    /// Whether its surfaces have only what the shape and the material give them.
+    #[inline]
+    pub(crate) fn is_plain(&self) -> bool {
+        let bare = |mesh: &MeshAttributes| mesh.normals.is_empty() && mesh.colors.is_empty();
+        self.colors.is_empty() && self.mesh.as_ref().is_none_or(|mesh| bare(mesh))
+    }
+
+    /// The interpolated shading normal; `None` where the mesh has none.
+    #[inline]
+    pub(crate) fn normal(&self, local: u32, corners: [u32; 3], hit: &Hit) -> Option<Dir3> {
+        let mesh = self.mesh.as_ref()?;
+        let [a, b, c] = at_corners(&mesh.normals, &mesh.normal_indices, local, corners)?;
+        Dir3::new((1.0 - hit.u - hit.v) * a + hit.u * b + hit.v * c)
+    }
+
+    /// The interpolated texture coordinates; `None` where the mesh has none.
+    pub(crate) fn uv(&self, local: u32, corners: [u32; 3], hit: &Hit) -> Option<Vec2> {
+        let mesh = self.mesh.as_ref()?;
+        let [a, b, c] = at_corners(&mesh.uvs, &mesh.uv_indices, local, corners)?;
+        Some((1.0 - hit.u - hit.v) * a + hit.u * b + hit.v * c)
+    }
+
+    /// The geometry's own colour; `None` where it is the material's.
+    #[inline]
+    pub(crate) fn color(&self, local: u32, corners: Option<[u32; 3]>, hit: &Hit) -> Option<Rgb> {
+        if let (Some(mesh), Some(corners)) = (&self.mesh, corners) {
+            let [a, b, c] = at_corners(&mesh.colors, &[], local, corners)?;
+            return Some((1.0 - hit.u - hit.v) * a + hit.u * b + hit.v * c);
+        }
+        self.colors.get(local as usize).copied()
+    }
+}
+
+/// The values at a triangle's corners; `None` where there are none.
+#[inline]
+fn at_corners<T: Copy>(
+    values: &[T],
+    indices: &[[u32; 3]],
+    local: u32,
+    corners: [u32; 3],
+) -> Option<[T; 3]> {
+    if values.is_empty() {
+        return None;
+    }
+    let corners = indices.get(local as usize).copied().unwrap_or(corners);
+    if corners.contains(&NO_INDEX) {
+        return None;
+    }
+    Some(corners.map(|i| values[i as usize]))
+}

@@ -1,0 +1,221 @@
+//! What rays meet: the trees, and what belongs to their primitives. Nothing of the look is here.
+//!
+//! Instances are unfolded, transforms are applied in f64, and the whole scene is moved so that its
+//! middle is near the origin: far-away data keep their detail in f32.
+
+mod batch;
+mod build;
+mod estimate;
+mod flatten;
+mod solid;
+
+use glam::{DVec3, Vec3};
+use phong_bvh::{BuildError, BuildOptions, Bvh, Coordinates, Hit, Preset, Primitives, Ray};
+use phong_scene::{Place, Scene, Shape};
+use thiserror::Error;
+
+pub(crate) use batch::Batch;
+
+/// What rays meet: immutable, and shared freely between threads and pictures.
+///
+/// ```
+/// use std::sync::Arc;
+///
+/// use phong::geometry::{Geometry, GeometryOptions};
+/// use phong::look::Look;
+/// use phong::view::View;
+/// use phong_scene::{Limits, Memory, Rgb, read};
+///
+/// let text = "version = 1\n[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\n\
+///             [[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n";
+/// let files = Memory::new().with("ball.toml", text.as_bytes());
+/// let scene = read("ball.toml", None, &files, &Limits::default()).scene.ok_or("broken")?;
+/// let geometry = Arc::new(Geometry::new(&scene, GeometryOptions::default())?);
+/// let by_day = View::new(Arc::clone(&geometry), Look::new(&scene))?;
+/// let by_night = View::new(geometry, Look { ambient: Rgb::BLACK, ..Look::new(&scene) })?;
+/// assert_eq!(by_day.objects(), by_night.objects());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Geometry {
+    center: DVec3,
+    bvh: Bvh,
+    /// What belongs to the primitives of each of the hierarchy's geometries.
+    batches: Vec<Batch>,
+    objects: Vec<ObjectRecord>,
+    /// One more than the highest number of a material; 0: nothing has a material.
+    materials: u32,
+}
+
+/// An object as rays meet it: for telling, not for shading.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ObjectRecord {
+    /// Its name; within an instance `instance 1 / sphere 2`.
+    pub name: String,
+    /// Where it was written.
+    pub place: Place,
+}
+
+/// How to build.
+#[derive(Clone, Copy, Debug)]
+pub struct GeometryOptions {
+    /// How to build the trees; `None`: so that building and tracing `rays` takes the least time.
+    pub build: Option<BuildOptions>,
+    /// About how many rays will be traced, of every kind and in all pictures together. It changes
+    /// no bit of a picture. Default: as many as there can be.
+    pub rays: u64,
+    /// The most bytes that the geometry may take, estimated before anything is built; `None`: no
+    /// limit.
+    pub max_bytes: Option<u64>,
+}
+
+impl Default for GeometryOptions {
+    fn default() -> Self {
+        Self { build: None, rays: u64::MAX, max_bytes: None }
+    }
+}
+
+impl GeometryOptions {
+    /// For the one picture that a scene describes.
+    pub fn of(scene: &Scene) -> Self {
+        let phong_scene::Image { size: [width, height], samples, .. } = scene.image;
+        let paths = u64::from(width) * u64::from(height) * u64::from(samples);
+        let rays = paths.saturating_mul(1 + scene.lights.len() as u64);
+        Self { rays, ..Self::default() }
+    }
+}
+
+/// Why a geometry could not be built.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum GeometryError {
+    /// The estimate is over the limit: the caller's to raise, or the scene's to shrink.
+    #[error("the scene needs about {needed} bytes, over the limit of {limit}")]
+    Memory {
+        /// Estimated bytes, building included.
+        needed: u64,
+        /// The limit.
+        limit: u64,
+    },
+    /// The trees cannot be built.
+    #[error(transparent)]
+    Build(#[from] BuildError),
+    /// The scene is so large that distances in it overflow f32: the input's fault.
+    #[error("the scene is {0:e} units across, more than the 1e18 that numbers can hold")]
+    TooLarge(f64),
+}
+
+/// The preset that takes the least time in all for so many rays.
+fn soonest(scene: &Scene, rays: u64) -> BuildOptions {
+    let primitives = |object: &phong_scene::Object| match &object.shape {
+        Shape::Mesh(mesh) => mesh.indices.len() as u64,
+        Shape::Points(points) => points.spheres.len() as u64,
+        _ => 1,
+    };
+    let primitives = scene.objects.iter().map(primitives).sum();
+    BuildOptions { preset: Preset::for_rays(primitives, rays), ..BuildOptions::default() }
+}
+
+impl Geometry {
+    /// Builds the trees of a scene's objects, in the current rayon pool.
+    ///
+    /// # Errors
+    /// [`GeometryError`].
+    pub fn new(scene: &Scene, options: GeometryOptions) -> Result<Self, GeometryError> {
+        if let Some(limit) = options.max_bytes {
+            let needed = estimate::estimate(scene);
+            if needed > limit {
+                return Err(GeometryError::Memory { needed, limit });
+            }
+        }
+        let bounds = scene.bounds();
+        let extent = bounds.size().max_element();
+        if extent.is_nan() || extent > 1e18 {
+            return Err(GeometryError::TooLarge(extent));
+        }
+        let center = build::center(bounds);
+        let options = options.build.unwrap_or_else(|| soonest(scene, options.rays));
+        let leaves = flatten::flatten(&scene.objects, &scene.groups);
+        let build::Built { primitives, batches, objects } = build::build(leaves, center);
+        let materials = batches.iter().filter_map(Batch::highest_material).max();
+        let materials = materials.map_or(0, |highest| highest.saturating_add(1));
+        Ok(Self { center, bvh: Bvh::build(primitives, options)?, batches, objects, materials })
+    }
+
+    /// What was taken off every coordinate: world = geometry + this.
+    pub fn center(&self) -> DVec3 {
+        self.center
+    }
+
+    /// A point of the geometry's space, in the world.
+    pub fn to_world(&self, p: Vec3) -> DVec3 {
+        p.as_dvec3() + self.center
+    }
+
+    /// The objects, numbered from 0, instances unfolded.
+    pub fn objects(&self) -> &[ObjectRecord] {
+        &self.objects
+    }
+
+    /// The hierarchy.
+    #[inline]
+    pub fn bvh(&self) -> &Bvh {
+        &self.bvh
+    }
+
+    /// How many materials a look must have at least: one more than the highest number of one.
+    pub fn materials(&self) -> u32 {
+        self.materials
+    }
+
+    /// The number of a primitive within its object, from 0: a mesh's face, a point of a cloud.
+    /// `None` for objects that are one primitive.
+    pub fn element(&self, prim: u32) -> Option<u32> {
+        let (batch, local) = self.bvh.locate(prim);
+        self.batches[batch].is_bulk().then_some(local)
+    }
+
+    /// The number of the object that a primitive belongs to, from 0.
+    pub fn object(&self, prim: u32) -> u32 {
+        let (batch, local) = self.bvh.locate(prim);
+        self.batches[batch].object(local)
+    }
+
+    /// Where on its surface a hit of `ray` is: a mesh's own texture coordinates, if it has some.
+    ///
+    /// # Panics
+    /// If `hit` is none.
+    pub fn coordinates(&self, ray: &Ray, hit: &Hit) -> Coordinates {
+        let (index, local) = self.bvh.locate(hit.prim);
+        let batch = &self.batches[index];
+        if let (Some(rotation), Primitives::Spheres(spheres)) =
+            (batch.rotation(local), &self.bvh.geometry()[index])
+        {
+            // The tree holds the sphere unturned, so it is the ray that is turned back about it.
+            let center = spheres[local as usize].center.as_dvec3();
+            let back = rotation.transpose();
+            let origin = center + back * (ray.origin.as_dvec3() - center);
+            let dir = back * ray.dir.as_dvec3();
+            let ray = Ray { origin: origin.as_vec3(), dir: dir.as_vec3(), ..*ray };
+            let Coordinates { uv, tangent } = self.bvh.coordinates(&ray, hit);
+            return Coordinates { uv, tangent: (rotation * tangent.as_dvec3()).as_vec3() };
+        }
+        let here = self.bvh.coordinates(ray, hit);
+        let own = self.corners(index, local).and_then(|corners| batch.uv(local, corners, hit));
+        Coordinates { uv: own.unwrap_or(here.uv), ..here }
+    }
+
+    /// What belongs to the primitives of one of the hierarchy's geometries.
+    #[inline]
+    pub(crate) fn batch(&self, index: usize) -> &Batch {
+        &self.batches[index]
+    }
+
+    /// The corners of a triangle; `None` for other primitives.
+    #[inline]
+    pub(crate) fn corners(&self, index: usize, local: u32) -> Option<[u32; 3]> {
+        match &self.bvh.geometry()[index] {
+            Primitives::Triangles { indices, .. } => Some(indices[local as usize]),
+            _ => None,
+        }
+    }
+}

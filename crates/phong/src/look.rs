@@ -1,0 +1,35 @@
+//! What a geometry looks like: camera, lights, materials, background and ambient light.
+//!
+//! All of it is cheap to make and to change, and nothing of it is needed to build trees.
+
+use phong_scene::{Background, Camera, Light, Material, Rgb, Scene};
+
+/// What a geometry looks like, as it was written. Each part can be replaced.
+///
+/// A [`View`](crate::view::View) makes it ready for rays.
+#[derive(Clone, Debug)]
+pub struct Look {
+    /// Where the picture is taken from.
+    pub camera: Camera,
+    /// The lights, in the order of their numbers.
+    pub lights: Vec<Light>,
+    /// The materials; a surface names its own by its place here.
+    pub materials: Vec<Material>,
+    /// The ambient light; `C_a` is this times the material's ambient colour. Linear.
+    pub ambient: Rgb,
+    /// What rays see that hit nothing.
+    pub background: Background,
+}
+
+impl Look {
+    /// That of a scene.
+    pub fn new(scene: &Scene) -> Self {
+        Self {
+            camera: scene.camera.clone(),
+            lights: scene.lights.clone(),
+            materials: scene.materials.clone(),
+            ambient: scene.ambient,
+            background: scene.image.background,
+        }
+    }
+}

@@ -1,0 +1,205 @@
+//! A geometry and its look together: all that a picture needs.
+
+mod shading;
+
+use std::sync::Arc;
+
+use glam::{DVec3, Vec3};
+use phong_bvh::{Bvh, Coordinates, Hit, Ray, Surface};
+use phong_scene::{Background, Rgb, Scene};
+use thiserror::Error;
+
+use crate::camera::Camera;
+use crate::geometry::{Geometry, GeometryError, GeometryOptions, ObjectRecord};
+use crate::interaction::SurfaceInteraction;
+use crate::light::Light;
+use crate::look::Look;
+use crate::material::Material;
+use crate::math::Dir3;
+use shading::Shading;
+pub(crate) use shading::Shading8;
+
+/// A geometry and its look together. Made in no time, immutable, and shared freely between threads.
+#[derive(Clone, Debug)]
+pub struct View {
+    geometry: Arc<Geometry>,
+    look: Look,
+    camera: Camera,
+    lights: Vec<Light>,
+    materials: Vec<Material>,
+    /// Whether rays go on from any material.
+    has_bounces: bool,
+    /// Whether any light has an extent.
+    has_soft_lights: bool,
+    /// Whether any material takes ambient light from each light.
+    has_ambient_per_light: bool,
+}
+
+/// Why there is no view.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum ViewError {
+    /// The geometry cannot be built.
+    #[error(transparent)]
+    Geometry(#[from] GeometryError),
+    /// A surface names a material that the look does not have: the caller's fault.
+    #[error("a surface is of material {number}, and the look has {count} materials")]
+    NoMaterial {
+        /// The material's number, from 0.
+        number: u32,
+        /// How many materials the look has.
+        count: usize,
+    },
+}
+
+impl View {
+    /// What a scene's own picture shows: its geometry is built in the current rayon pool.
+    ///
+    /// # Errors
+    /// [`ViewError`].
+    pub fn of(scene: &Scene) -> Result<Self, ViewError> {
+        let geometry = Geometry::new(scene, GeometryOptions::of(scene))?;
+        Self::new(Arc::new(geometry), Look::new(scene))
+    }
+
+    /// A geometry with a look: nothing is built.
+    ///
+    /// # Errors
+    /// [`ViewError::NoMaterial`].
+    pub fn new(geometry: Arc<Geometry>, look: Look) -> Result<Self, ViewError> {
+        let count = look.materials.len();
+        if geometry.materials() as usize > count {
+            return Err(ViewError::NoMaterial { number: geometry.materials() - 1, count });
+        }
+        let center = geometry.center();
+        let camera = Camera::new(&look.camera, center);
+        let viewer = camera.backward();
+        let lights: Vec<_> = look.lights.iter().map(|light| Light::new(light, center)).collect();
+        let materials: Vec<_> = look.materials.iter().map(|m| Material::new(m, viewer)).collect();
+        Ok(Self {
+            has_bounces: materials.iter().any(Material::bounces),
+            has_soft_lights: lights.iter().any(|light| light.soft),
+            has_ambient_per_light: materials.iter().any(Material::takes_ambient_per_light),
+            geometry,
+            look,
+            camera,
+            lights,
+            materials,
+        })
+    }
+
+    /// What rays meet.
+    pub fn geometry(&self) -> &Arc<Geometry> {
+        &self.geometry
+    }
+
+    /// What it looks like, as it was written.
+    pub fn look(&self) -> &Look {
+        &self.look
+    }
+
+    /// The camera.
+    #[inline]
+    pub fn camera(&self) -> &Camera {
+        &self.camera
+    }
+
+    /// What was taken off every coordinate: world = view + this.
+    pub fn center(&self) -> DVec3 {
+        self.geometry.center()
+    }
+
+    /// A point of the view's space, in the world.
+    pub fn to_world(&self, p: Vec3) -> DVec3 {
+        self.geometry.to_world(p)
+    }
+
+    /// The ambient light.
+    #[inline]
+    pub fn ambient(&self) -> Rgb {
+        self.look.ambient
+    }
+
+    /// What rays see that hit nothing.
+    #[inline]
+    pub fn background(&self) -> Background {
+        self.look.background
+    }
+
+    /// The lights, in the order of the text.
+    #[inline]
+    pub fn lights(&self) -> &[Light] {
+        &self.lights
+    }
+
+    /// The lights as they were written, in the same order.
+    pub fn written_lights(&self) -> &[phong_scene::Light] {
+        &self.look.lights
+    }
+
+    /// The materials, in the scene's order.
+    #[inline]
+    pub fn materials(&self) -> &[Material] {
+        &self.materials
+    }
+
+    /// Whether mirror or glass rays go on from any of the materials.
+    pub fn has_bounces(&self) -> bool {
+        self.has_bounces
+    }
+
+    /// Whether any light has an extent: whether samples differ but by their rays.
+    pub fn has_soft_lights(&self) -> bool {
+        self.has_soft_lights
+    }
+
+    /// Whether any of the materials takes ambient light from each light.
+    pub fn has_ambient_per_light(&self) -> bool {
+        self.has_ambient_per_light
+    }
+
+    /// The materials as they were written, in the same order.
+    pub fn written_materials(&self) -> &[phong_scene::Material] {
+        &self.look.materials
+    }
+
+    /// The objects, numbered from 0, instances unfolded.
+    pub fn objects(&self) -> &[ObjectRecord] {
+        self.geometry.objects()
+    }
+
+    /// The hierarchy.
+    #[inline]
+    pub fn bvh(&self) -> &Bvh {
+        self.geometry.bvh()
+    }
+
+    /// The number of a primitive within its object, from 0: a mesh's face, a point of a cloud.
+    /// `None` for objects that are one primitive.
+    pub fn element(&self, prim: u32) -> Option<u32> {
+        self.geometry.element(prim)
+    }
+
+    /// The number of the object that a primitive belongs to, from 0.
+    pub fn object(&self, prim: u32) -> u32 {
+        self.geometry.object(prim)
+    }
+
+    /// Where on its surface a hit of `ray` is: a mesh's own texture coordinates, if it has some.
+    ///
+    /// # Panics
+    /// If `hit` is none.
+    pub fn coordinates(&self, ray: &Ray, hit: &Hit) -> Coordinates {
+        self.geometry.coordinates(ray, hit)
+    }
+
+    /// Where `ray` met a surface.
+    ///
+    /// # Panics
+    /// If `hit` is none.
+    pub fn interaction(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
+        let Surface { p, p_error, ng } = self.bvh().surface(ray, hit);
+        let (ng, e) = (Dir3::from_unit(ng), -Dir3::from_unit(ray.dir));
+        let Shading { n, material, color } = self.shading(hit, ng, e);
+        SurfaceInteraction { hit: *hit, material, p, p_error, ng, n, e, color }
+    }
+}

@@ -1,0 +1,92 @@
+//! One geometry with several looks.
+
+use std::sync::Arc;
+
+use phong::film::{Film, LayerKind};
+use phong::geometry::{Geometry, GeometryOptions};
+use phong::look::Look;
+use phong::render::{Cancel, RenderOptions, render};
+use phong::view::{View, ViewError};
+use phong_scene::{Limits, Memory, Rgb, Scene, read};
+
+const SCENE: &str = r##"version = 1
+[image]
+size = [24, 18]
+samples = 2
+[camera]
+eye = [1, 2, 7]
+look_at = [0, 0.5, 0]
+[[light]]
+kind = "point"
+position = [3, 4, 5]
+[materials.red]
+color = "#d04030"
+reflection = 0.2
+[materials.wood]
+color = "#a08050"
+viewer = "distant"
+[[plane]]
+point = [0, -0.5, 0]
+normal = [0, 1, 0]
+material = "wood"
+[[sphere]]
+center = [0, 0.5, 0]
+radius = 1
+material = "red"
+"##;
+
+fn scene() -> Scene {
+    let files = Memory::new().with("scene.toml", SCENE.as_bytes());
+    let reading = read("scene.toml", None, &files, &Limits::default());
+    reading.scene.unwrap_or_else(|| panic!("{:?}", reading.diagnostics))
+}
+
+fn film(view: &View, scene: &Scene) -> Film {
+    let options = RenderOptions { terms: true, ..RenderOptions::of(&scene.image) };
+    render(view, &options, &|_, _| {}, &Cancel::new()).expect("nobody cancels").film
+}
+
+fn bits(film: &Film) -> Vec<Vec<u32>> {
+    film.layers.iter().map(|layer| layer.values.iter().map(|v| v.to_bits()).collect()).collect()
+}
+
+#[test]
+fn a_changed_look_has_the_bits_of_a_scene_written_so() {
+    let scene = scene();
+    let geometry = Arc::new(Geometry::new(&scene, GeometryOptions::default()).unwrap());
+    let changes: [fn(&mut Scene); 4] = [
+        |scene| scene.camera.eye.x = -3.0,
+        |scene| scene.lights.push(scene.lights[0].clone()),
+        |scene| scene.materials[0].color = Rgb::new(0.1, 0.7, 0.2),
+        |scene| scene.ambient = Rgb::grey(0.25),
+    ];
+    let mut films = vec![bits(&film(&View::of(&scene).unwrap(), &scene))];
+    for change in changes {
+        let mut changed = scene.clone();
+        change(&mut changed);
+        let built_anew = bits(&film(&View::of(&changed).unwrap(), &changed));
+        let view = View::new(Arc::clone(&geometry), Look::new(&changed)).unwrap();
+        assert!(bits(&film(&view, &changed)) == built_anew, "other bits");
+        assert!(!films.contains(&built_anew), "the change shows");
+        films.push(built_anew);
+    }
+}
+
+#[test]
+fn a_look_that_lacks_a_material_is_refused() {
+    let scene = scene();
+    let geometry = Geometry::new(&scene, GeometryOptions::default()).unwrap();
+    assert_eq!(geometry.materials(), 2);
+    let look = Look { materials: scene.materials[..1].to_vec(), ..Look::new(&scene) };
+    let error = View::new(Arc::new(geometry), look).unwrap_err();
+    assert_eq!(error, ViewError::NoMaterial { number: 1, count: 1 });
+}
+
+#[test]
+fn a_scene_of_nothing_needs_no_material() {
+    let mut scene = scene();
+    scene.objects.clear();
+    scene.materials.clear();
+    let view = View::of(&scene).unwrap();
+    assert!(film(&view, &scene).layer(LayerKind::Alpha).unwrap().values.iter().all(|v| *v == 1.0));
+}
