@@ -4,7 +4,8 @@ use glam::DVec3;
 use phong::film::LayerKind;
 use phong_scene::{Light, Scene};
 
-use super::drawing::{Drawing, Point};
+use super::drawing::Drawing;
+use super::mark::Point;
 use super::plot::fixed;
 use super::stage::{self, AMBIENT, DIFFUSE, SPECULAR, ball, distant, plastic};
 use super::{Finish, Number, Plate, style};

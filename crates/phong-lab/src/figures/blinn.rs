@@ -7,7 +7,8 @@ use phong::math::{Dir3, wide};
 use phong::reflectance::{BlinnPhong, Incident, Phong, Reflectance, Switches};
 use phong_scene::{Material, Model, Rgb, Scene};
 
-use super::drawing::{Anchor, Drawing, Ink, Point, Stroke};
+use super::drawing::Drawing;
+use super::mark::{Anchor, Ink, Point, Stroke};
 use super::plot::{Plot, fixed, ticks};
 use super::shininess::half_width;
 use super::stage::{self, ball, distant, plastic};

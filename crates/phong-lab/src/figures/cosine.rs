@@ -2,7 +2,8 @@
 
 use phong::math::Dir3;
 
-use super::drawing::{Anchor, Drawing, Path, Point, Stroke, heading};
+use super::drawing::Drawing;
+use super::mark::{Anchor, Path, Point, Stroke, heading};
 use super::plot::{Plot, fixed, ticks};
 use super::symbols::{GLOW, unit};
 use super::{Finish, Number, Plate, style};

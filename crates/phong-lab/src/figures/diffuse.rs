@@ -4,7 +4,8 @@ use glam::DVec3;
 use phong::math::wide;
 use phong_scene::{Material, Scene};
 
-use super::drawing::{Anchor, Drawing, Point, Stroke};
+use super::drawing::Drawing;
+use super::mark::{Anchor, Point, Stroke};
 use super::plot::{Plot, fixed, ticks};
 use super::stage::{self, DIFFUSE, Spot, ball, distant, plastic};
 use super::symbols::{EYES, marked, to_light};

@@ -7,7 +7,8 @@ use phong_scene::{
     Background, Camera, CameraKind, Image, Light, LightKind, Material, Object, Rgb, Scene, Shape,
 };
 
-use super::drawing::{Drawing, Point};
+use super::drawing::Drawing;
+use super::mark::Point;
 use super::stage::{self, distant, object};
 use super::{Finish, Number, Plate};
 

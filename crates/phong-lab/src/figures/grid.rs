@@ -4,7 +4,8 @@ use glam::DVec3;
 use phong::film::{Film, LayerKind};
 use phong_scene::{Material, Scene};
 
-use super::drawing::{Anchor, Bitmap, Drawing, Point, Stroke};
+use super::drawing::Drawing;
+use super::mark::{Anchor, Bitmap, Point, Stroke};
 use super::plot::fixed;
 use super::stage::{self, Spot, ball, distant, plastic};
 use super::{Finish, Number, Plate, style};

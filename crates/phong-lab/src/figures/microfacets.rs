@@ -4,7 +4,8 @@ mod experiment;
 
 use phong::math::{Dir3, wide};
 
-use super::drawing::{Anchor, Drawing, Ink, Path, Point, Stroke, heading};
+use super::drawing::Drawing;
+use super::mark::{Anchor, Ink, Path, Point, Stroke, heading};
 use super::plot::{Plot, fixed, ticks};
 use super::symbols::{drawn, surface, unit};
 use super::{Finish, Number, Plate, style};

@@ -21,6 +21,7 @@ mod examples;
 mod grid;
 mod halfway;
 mod index;
+mod mark;
 mod microfacets;
 mod normal;
 mod plot;
@@ -196,7 +197,7 @@ impl Figure {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use drawing::Mark;
+    use mark::Mark;
 
     #[test]
     fn every_figure_is_found_by_a_name_of_its_own() {

@@ -5,7 +5,8 @@ use phong::film::LayerKind;
 use phong::math::wide;
 use phong_scene::{Material, Rgb, Scene};
 
-use super::drawing::{Anchor, Drawing, Path, Point, Stroke, heading};
+use super::drawing::Drawing;
+use super::mark::{Anchor, Path, Point, Stroke, heading};
 use super::stage::{self, Spot, ball, distant, plastic};
 use super::{Finish, Number, Plate, style};
 

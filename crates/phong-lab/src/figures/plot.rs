@@ -1,6 +1,7 @@
 //! Axes, ticks and curves.
 
-use super::drawing::{Anchor, Drawing, Ink, Path, Point, Stroke, Text};
+use super::drawing::Drawing;
+use super::mark::{Anchor, Ink, Path, Point, Stroke, Text};
 use super::{style, text};
 
 /// A pair of axes on a drawing: the rectangle they span, and the numbers at its edges.

@@ -5,7 +5,8 @@ use tiny_skia::{
     StrokeDash, Transform,
 };
 
-use super::drawing::{Bitmap, Drawing, Ink, Mark, Path, Point, Step, Stroke, Text};
+use super::drawing::Drawing;
+use super::mark::{Bitmap, Ink, Mark, Path, Point, Step, Stroke, Text};
 use super::style;
 use super::text::Faces;
 

@@ -2,7 +2,8 @@
 
 use phong::math::{Dir3, reflect, wide};
 
-use super::drawing::{Anchor, Drawing, Ink, Point, Stroke};
+use super::drawing::Drawing;
+use super::mark::{Anchor, Ink, Point, Stroke};
 use super::plot::fixed;
 use super::symbols::{drawn, surface, unit};
 use super::{Finish, Number, Plate, style};

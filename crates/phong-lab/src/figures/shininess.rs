@@ -2,7 +2,8 @@
 
 use phong::math::{lobe, wide};
 
-use super::drawing::{Anchor, Drawing, Path, Point, Stroke};
+use super::drawing::Drawing;
+use super::mark::{Anchor, Path, Point, Stroke};
 use super::plot::{Plot, fixed, ticks};
 use super::{Finish, Number, Plate, style};
 

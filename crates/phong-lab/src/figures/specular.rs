@@ -5,7 +5,8 @@ use phong::film::LayerKind;
 use phong::math::{Dir3, lobe, wide};
 use phong_scene::{Material, Scene};
 
-use super::drawing::{Anchor, Drawing, Path, Point, Stroke, heading};
+use super::drawing::Drawing;
+use super::mark::{Anchor, Path, Point, Stroke, heading};
 use super::plot::fixed;
 use super::stage::{self, SPECULAR, Spot, ball, distant, plastic};
 use super::symbols::{EYES, drawn, marked, surface, to_light, unit};

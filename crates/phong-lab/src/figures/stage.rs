@@ -12,7 +12,7 @@ use phong_scene::{
 };
 
 use super::Finish;
-use super::drawing::{Bitmap, Point};
+use super::mark::{Bitmap, Point};
 use super::raster;
 
 /// Edge of the square pictures that numbers are measured on, pixels.

@@ -3,7 +3,7 @@
 //! A vector keeps its colour in every figure, and the colours are those of Okabe and Ito, which
 //! stay apart for colour-blind eyes; each is darkened until it reads on white.
 
-use super::drawing::Ink;
+use super::mark::Ink;
 
 /// The canvas, in units: 16 to 9, like a slide.
 pub(super) const WIDTH: f64 = 960.0;

@@ -5,10 +5,12 @@
 
 use std::fmt::Write;
 
-use super::drawing::{Anchor, Bitmap, Drawing, Ink, Mark, Path, Point, Step, Stroke, Text};
+use super::drawing::Drawing;
+use super::mark::Script;
+use super::mark::{Anchor, Bitmap, Ink, Mark, Path, Point, Step, Stroke, Text};
 use super::raster;
 use super::style;
-use super::text::{self, Script};
+use super::text;
 use crate::markup::{data_url, escaped};
 
 /// Names of the faces, with common ones behind them.

@@ -3,7 +3,8 @@
 use glam::{DVec3, Vec3};
 use phong::math::Dir3;
 
-use super::drawing::{Drawing, Ink, Path, Point, Stroke, heading};
+use super::drawing::Drawing;
+use super::mark::{Ink, Path, Point, Stroke, heading};
 use super::style;
 
 /// The unit vector at `degrees` anticlockwise from x, in the plane of the drawing.

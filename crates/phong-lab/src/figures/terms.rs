@@ -4,7 +4,8 @@ use glam::DVec3;
 use phong::film::LayerKind;
 use phong_scene::{Light, Rgb};
 
-use super::drawing::{Bitmap, Drawing, Point};
+use super::drawing::Drawing;
+use super::mark::{Bitmap, Point};
 use super::stage::{self, AMBIENT, DIFFUSE, SPECULAR, Spot, ball, distant, plastic};
 use super::{Finish, Number, Plate, style};
 

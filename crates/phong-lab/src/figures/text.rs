@@ -4,40 +4,8 @@
 
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
-use super::drawing::{Anchor, Path, Point, Text};
+use super::mark::{Anchor, Path, Point, Run, Script, Text};
 use crate::markup::escaped;
-
-/// A stretch of text in one face and at one height.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Run {
-    pub(super) words: String,
-    pub(super) italic: bool,
-    pub(super) script: Script,
-}
-
-/// Where a run stands against the line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Script {
-    Line,
-    Below,
-    Above,
-}
-
-impl Script {
-    /// Size relative to the line's.
-    pub(super) fn scale(self) -> f64 {
-        if self == Self::Line { 1.0 } else { 0.7 }
-    }
-
-    /// How far the baseline sinks, in ems of the line.
-    pub(super) fn drop(self) -> f64 {
-        match self {
-            Self::Line => 0.0,
-            Self::Below => 0.18,
-            Self::Above => -0.38,
-        }
-    }
-}
 
 /// Splits markup into runs: `*…*` is italic; `_` and `^` lower and raise the next letter or group in
 /// braces. An italic letter in a script needs braces: `^{*α*}`.

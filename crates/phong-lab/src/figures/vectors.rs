@@ -5,7 +5,8 @@ use phong::light::Light;
 use phong::math::{Dir3, wide};
 use phong_scene::{Light as Written, LightKind};
 
-use super::drawing::{Drawing, Ink, Point, Stroke};
+use super::drawing::Drawing;
+use super::mark::{Ink, Point, Stroke};
 use super::plot::fixed;
 use super::stage::distant;
 use super::symbols::{drawn, eye, lamp, unit};
