@@ -24,6 +24,22 @@ use crate::film::{Film, LayerKind};
 
 pub use picture::{Picture, Plane, ReadError, Transfer};
 
+impl Picture {
+    /// Reads a PNG, PFM or EXR file, known by how it begins. 16-bit PNGs keep all their bits.
+    ///
+    /// # Errors
+    /// [`ReadError`], for anything but a whole picture of at most 2³⁰ values.
+    pub fn read(bytes: &[u8]) -> Result<Self, ReadError> {
+        match bytes {
+            [0x89, b'P', b'N', b'G', ..] => png::read(bytes),
+            [b'P', b'F' | b'f', ..] => pfm::read(bytes),
+            #[cfg(feature = "exr")]
+            [0x76, 0x2f, 0x31, 0x01, ..] => exr::read(bytes),
+            _ => Err(ReadError::Unknown),
+        }
+    }
+}
+
 /// A file format for pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {

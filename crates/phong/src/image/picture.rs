@@ -2,7 +2,6 @@
 
 use thiserror::Error;
 
-use super::pfm;
 use crate::film::{Film, LayerKind};
 
 /// Values (pixels × channels) of the largest picture that is read: 4 GiB as floats.
@@ -69,20 +68,6 @@ pub(super) fn count(width: u32, height: u32, channels: u64) -> Result<u64, ReadE
 }
 
 impl Picture {
-    /// Reads a PNG, PFM or EXR file, known by how it begins. 16-bit PNGs keep all their bits.
-    ///
-    /// # Errors
-    /// [`ReadError`], for anything but a whole picture of at most 2³⁰ values.
-    pub fn read(bytes: &[u8]) -> Result<Self, ReadError> {
-        match bytes {
-            [0x89, b'P', b'N', b'G', ..] => super::png::read(bytes),
-            [b'P', b'F' | b'f', ..] => pfm::read(bytes),
-            #[cfg(feature = "exr")]
-            [0x76, 0x2f, 0x31, 0x01, ..] => super::exr::read(bytes),
-            _ => Err(ReadError::Unknown),
-        }
-    }
-
     /// The picture that a film holds, in linear values: `R G B`, and `A` where any pixel is
     /// not wholly covered.
     pub fn of_film(film: &Film) -> Self {
