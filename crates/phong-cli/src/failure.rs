@@ -5,8 +5,6 @@ use std::path::Path;
 
 use phong_scene::{Diagnostic, trouble};
 
-use crate::{interrupt, report};
-
 /// Why a command did not do what was asked.
 #[derive(Debug)]
 pub(crate) enum Failure {
@@ -86,28 +84,14 @@ impl Failure {
         }
     }
 
-    /// Says what there is to say; the exit code.
-    pub(crate) fn tell(self) -> u8 {
+    /// The exit code that says so.
+    pub(crate) fn code(&self) -> u8 {
         match self {
-            Self::No => 1,
-            Self::Usage { message, help } => {
-                report::error(&message, help.as_deref());
-                2
-            }
-            Self::Input(diagnostics) => {
-                report::diagnostics(&diagnostics);
-                2
-            }
-            Self::Told => 2,
-            Self::System(message) => {
-                report::error(&message, None);
-                3
-            }
-            Self::Interrupted => {
-                interrupt::say();
-                interrupt::CODE
-            }
             Self::ReaderGone => 0,
+            Self::No => 1,
+            Self::Usage { .. } | Self::Input(_) | Self::Told => 2,
+            Self::System(_) => 3,
+            Self::Interrupted => 130,
         }
     }
 }

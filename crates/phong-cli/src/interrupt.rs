@@ -8,6 +8,7 @@ use std::time::Duration;
 
 use phong::render::Cancel;
 
+use crate::failure::Failure;
 use crate::{output, report};
 
 /// Asked to stop by an interrupt.
@@ -19,9 +20,6 @@ static HEEDED: AtomicBool = AtomicBool::new(false);
 /// How long a tile may take to notice.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// The exit code of a program that was interrupted.
-pub(crate) const CODE: u8 = 130;
-
 /// Whatever happens from now on, an interrupt ends the program with 130 and without a trace.
 pub(crate) fn expect() {
     // Without a handler an interrupt still ends the program, only less tidily.
@@ -32,8 +30,8 @@ pub(crate) fn expect() {
             sleep(PATIENCE);
         }
         output::remove_temporaries();
-        say();
-        exit(CODE.into());
+        report::failure(&Failure::Interrupted);
+        exit(Failure::Interrupted.code().into());
     });
 }
 
@@ -43,11 +41,4 @@ pub(crate) fn heeding<T>(work: impl FnOnce(&Cancel) -> T) -> T {
     let done = work(&CANCEL);
     HEEDED.store(false, Ordering::Release);
     done
-}
-
-/// Says so to whoever watches.
-pub(crate) fn say() {
-    if report::is_watched() {
-        report::say("\ninterrupted");
-    }
 }

@@ -21,10 +21,13 @@ use std::process::ExitCode;
 use clap::Parser;
 
 fn main() -> ExitCode {
-    let cli = args::Cli::parse();
+    let cli = command::Cli::parse();
     interrupt::expect();
     match command::run(cli.command) {
         Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => ExitCode::from(failure.tell()),
+        Err(failure) => {
+            report::failure(&failure);
+            ExitCode::from(failure.code())
+        }
     }
 }

@@ -9,8 +9,7 @@ use phong::part::{self, Settings};
 use phong::render::RenderOptions;
 use phong_scene::Scene;
 
-use crate::args::{self, EncodingArgs, OutputFormat, ViewArgs};
-use crate::command::render::{Args, ImageArgs};
+use crate::args::{self, EncodingArgs, ImageArgs, OutputFormat, RenderArgs, ViewArgs};
 use crate::failure::Failure;
 use crate::input::{self, Input};
 use crate::output::Output;
@@ -114,7 +113,7 @@ pub(crate) struct Plan {
 
 impl Plan {
     /// What the command line alone decides, or what is wrong with it.
-    pub(crate) fn new(args: &Args) -> Result<Self, Failure> {
+    pub(crate) fn new(args: &RenderArgs) -> Result<Self, Failure> {
         let share = args.work.tile.map(|share| (share.index, share.count));
         let stem = input::stem(&args.input.input);
         let output = args.output.clone().unwrap_or_else(|| {
@@ -140,7 +139,7 @@ impl Plan {
     }
 
     /// Makes ready what will be written.
-    pub(crate) fn outputs(&self, args: &Args) -> Result<Outputs, Failure> {
+    pub(crate) fn outputs(&self, args: &RenderArgs) -> Result<Outputs, Failure> {
         if self.share.is_some() {
             return Output::create(&self.output).map(Outputs::Part);
         }
@@ -150,7 +149,11 @@ impl Plan {
     }
 
     /// Lays the command line's values over the scene's; the rendering that follows.
-    pub(crate) fn settle(&self, args: &Args, input: &mut Input) -> Result<RenderOptions, Failure> {
+    pub(crate) fn settle(
+        &self,
+        args: &RenderArgs,
+        input: &mut Input,
+    ) -> Result<RenderOptions, Failure> {
         let mut options = settle(&args.image, &args.view, input)?;
         options.share = self.share;
         options.terms = self.terms;

@@ -36,6 +36,17 @@ pub(crate) fn error(message: &str, help: Option<&str>) {
     }
 }
 
+/// What there is to say about a failure.
+pub(crate) fn failure(failure: &Failure) {
+    match failure {
+        Failure::Usage { message, help } => error(message, help.as_deref()),
+        Failure::Input(all) => diagnostics(all),
+        Failure::System(message) => error(message, None),
+        Failure::Interrupted if is_watched() => say("\ninterrupted"),
+        Failure::No | Failure::Told | Failure::Interrupted | Failure::ReaderGone => {}
+    }
+}
+
 /// A line of talk.
 pub(crate) fn say(line: &str) {
     write_stderr(&format!("{line}\n"));

@@ -1,69 +1,18 @@
 //! The command line as typed: nothing here is resolved or opened.
 //!
-//! What belongs to one command only stands in that command's file.
+//! Here stand the options that several rooms look at; what belongs to one command only stands in that
+//! command's file.
 
+mod picture;
 mod values;
 
-use clap::builder::Styles;
-use clap::builder::styling::AnsiColor;
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, ValueEnum};
 
+pub(crate) use picture::{ImageArgs, RenderArgs};
 pub(crate) use values::{
-    Crop, PictureSize, ShareOf, Vec3Arg, aov, background, bytes, crop, input_help, share, size,
-    vector, whole, written_format, written_help,
+    Crop, PictureSize, Vec3Arg, bytes, input_help, size, vector, whole, written_format,
+    written_help,
 };
-
-use crate::command;
-
-const STYLES: Styles = Styles::styled()
-    .header(AnsiColor::Green.on_default().bold())
-    .usage(AnsiColor::Green.on_default().bold())
-    .literal(AnsiColor::Cyan.on_default().bold())
-    .placeholder(AnsiColor::Cyan.on_default());
-
-const EXAMPLES: &str = "\
-Examples:
-  phong render scene.toml                    a picture of a scene, scene.png
-  phong render dragon.ply --view iso         of a bare model, with camera and lights of its own
-  phong check scene.toml                     every problem, with file, line and column
-  phong COMMAND --help                       all about one command
-
-Exit codes: 0 done, 1 the answer is \"no\", 2 the input or the command line is at fault,
-3 something else went wrong, 130 interrupted.";
-
-/// A ray tracer for the Phong reflection model that can explain every pixel.
-#[derive(Debug, Parser)]
-#[command(name = "phong", version, styles = STYLES, after_help = EXAMPLES, max_term_width = 100)]
-#[command(
-    subcommand_required = true,
-    arg_required_else_help = true,
-    disable_help_subcommand = true
-)]
-pub(crate) struct Cli {
-    #[command(subcommand)]
-    pub(crate) command: Command,
-}
-
-/// Every command; its file in `command/` holds its arguments and what it does.
-#[derive(Debug, Subcommand)]
-pub(crate) enum Command {
-    Render(Box<command::render::Args>),
-    Explain(Box<command::explain::Args>),
-    Figure(command::figure::Args),
-    Eval(command::eval::Args),
-    Fit(command::fit::Args),
-    Compare(command::compare::Args),
-    Grade(command::grade::Args),
-    Check(command::check::Args),
-    Info(command::info::Args),
-    Convert(command::convert::Args),
-    Bench(command::bench::Args),
-    Merge(command::merge::Args),
-    Studio(command::studio::Args),
-    Keys(command::keys::Args),
-    Completions(command::completions::Args),
-    Man(command::man::Args),
-}
 
 /// What to read, and how.
 #[derive(Args, Clone, Debug)]

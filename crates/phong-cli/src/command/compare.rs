@@ -14,7 +14,7 @@ use phong_lab::fit::{FitError, Target};
 use serde_json::{Value, json};
 
 use super::fit::trouble;
-use super::render::ImageArgs;
+use crate::args::ImageArgs;
 use crate::failure::Failure;
 use crate::input::unreadable;
 use crate::output::Output;

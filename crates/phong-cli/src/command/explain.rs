@@ -11,8 +11,7 @@ use phong::view::View;
 use phong_lab::tell;
 use phong_lab::tell::html::{MAX_PIXELS, page};
 
-use crate::args::{self, InputArgs, ViewArgs};
-use crate::command::render::ImageArgs;
+use crate::args::{self, ImageArgs, InputArgs, ViewArgs};
 use crate::compile::compile;
 use crate::failure::Failure;
 use crate::memory::readable;

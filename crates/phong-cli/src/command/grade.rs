@@ -58,7 +58,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             Err(failure) => {
                 all_graded = false;
                 let error = failure.summary();
-                failure.tell();
+                report::failure(&failure);
                 answers.push(json!({ "image": path.to_string_lossy(), "error": error }));
                 continue;
             }

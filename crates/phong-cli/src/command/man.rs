@@ -4,7 +4,7 @@ use clap::CommandFactory;
 use clap_mangen::Man;
 use phong_scene::{closest, trouble};
 
-use crate::args::Cli;
+use super::Cli;
 use crate::failure::Failure;
 use crate::report;
 

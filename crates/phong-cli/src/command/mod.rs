@@ -19,8 +19,62 @@ pub(crate) mod merge;
 pub(crate) mod render;
 pub(crate) mod studio;
 
-use crate::args::Command;
+use clap::builder::Styles;
+use clap::builder::styling::AnsiColor;
+use clap::{Parser, Subcommand};
+
+use crate::args::RenderArgs;
 use crate::failure::Failure;
+
+const STYLES: Styles = Styles::styled()
+    .header(AnsiColor::Green.on_default().bold())
+    .usage(AnsiColor::Green.on_default().bold())
+    .literal(AnsiColor::Cyan.on_default().bold())
+    .placeholder(AnsiColor::Cyan.on_default());
+
+const EXAMPLES: &str = "\
+Examples:
+  phong render scene.toml                    a picture of a scene, scene.png
+  phong render dragon.ply --view iso         of a bare model, with camera and lights of its own
+  phong check scene.toml                     every problem, with file, line and column
+  phong COMMAND --help                       all about one command
+
+Exit codes: 0 done, 1 the answer is \"no\", 2 the input or the command line is at fault,
+3 something else went wrong, 130 interrupted.";
+
+/// A ray tracer for the Phong reflection model that can explain every pixel.
+#[derive(Debug, Parser)]
+#[command(name = "phong", version, styles = STYLES, after_help = EXAMPLES, max_term_width = 100)]
+#[command(
+    subcommand_required = true,
+    arg_required_else_help = true,
+    disable_help_subcommand = true
+)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+/// Every command; its file in `command/` holds its arguments and what it does.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    Render(Box<RenderArgs>),
+    Explain(Box<explain::Args>),
+    Figure(figure::Args),
+    Eval(eval::Args),
+    Fit(fit::Args),
+    Compare(compare::Args),
+    Grade(grade::Args),
+    Check(check::Args),
+    Info(info::Args),
+    Convert(convert::Args),
+    Bench(bench::Args),
+    Merge(merge::Args),
+    Studio(studio::Args),
+    Keys(keys::Args),
+    Completions(completions::Args),
+    Man(man::Args),
+}
 
 /// Does what was asked.
 pub(crate) fn run(command: Command) -> Result<(), Failure> {

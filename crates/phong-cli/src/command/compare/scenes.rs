@@ -9,8 +9,7 @@ use phong_scene::Scene;
 use serde_json::{Value, json};
 
 use super::Args;
-use crate::args::{InputArgs, ViewArgs};
-use crate::command::render::ImageArgs;
+use crate::args::{ImageArgs, InputArgs, ViewArgs};
 use crate::compile::compile;
 use crate::failure::Failure;
 use crate::input::{self, Input};
