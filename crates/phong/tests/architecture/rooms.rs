@@ -9,7 +9,8 @@ use crate::tree::{self, File};
 pub(crate) const MOVING: &[&str] = &["phong-bvh"];
 
 /// Rooms that are in a table and not built yet, or built and not in a table.
-const UNDER_WAY: &[(&str, &str)] = &[("phong", "finish"), ("phong", "terms"), ("phong", "texture")];
+const UNDER_WAY: &[(&str, &str)] =
+    &[("phong", "finish"), ("phong", "terms"), ("phong", "texture"), ("phong-scene", "texture")];
 
 /// The table of one crate.
 pub(crate) struct Table {
