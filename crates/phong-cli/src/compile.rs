@@ -5,11 +5,12 @@ use std::sync::Arc;
 use phong::geometry::{Geometry, GeometryError, GeometryOptions};
 use phong::look::Look;
 use phong::view::{View, ViewError};
+use phong_lab::measure::memory;
 use phong_scene::{Diagnostic, Place, Scene, Span};
 
 use crate::args::InputArgs;
 use crate::failure::Failure;
-use crate::memory::{self, readable};
+use crate::report::readable;
 
 /// Makes a scene ready of which `beside` bytes of memory are needed for something else.
 pub(crate) fn compile(scene: Scene, args: &InputArgs, beside: u64) -> Result<View, Failure> {

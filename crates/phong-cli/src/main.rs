@@ -10,7 +10,6 @@ mod compile;
 mod failure;
 mod input;
 mod interrupt;
-mod memory;
 mod output;
 mod plan;
 mod progress;

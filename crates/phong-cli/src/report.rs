@@ -75,6 +75,18 @@ pub(crate) fn shortest(number: f64) -> f64 {
     number + 0.0
 }
 
+/// A number of bytes for people.
+pub(crate) fn readable(bytes: u64) -> String {
+    let units = ["bytes", "KiB", "MiB", "GiB", "TiB"];
+    let mut value = bytes as f64;
+    let mut unit = 0;
+    while value >= 1024.0 && unit + 1 < units.len() {
+        value /= 1024.0;
+        unit += 1;
+    }
+    if unit == 0 { format!("{bytes} bytes") } else { format!("{value:.1} {}", units[unit]) }
+}
+
 /// Whether somebody is watching standard error.
 pub(crate) fn is_watched() -> bool {
     io::stderr().is_terminal()
@@ -149,5 +161,12 @@ mod tests {
         assert_eq!(shortest(-0.0).to_string(), "0");
         assert_eq!(shortest(f64::INFINITY), f64::INFINITY);
         assert!(shortest(f64::NAN).is_nan());
+    }
+
+    #[test]
+    fn bytes_read_well() {
+        assert_eq!(readable(17), "17 bytes");
+        assert_eq!(readable(1536), "1.5 KiB");
+        assert_eq!(readable(3 << 40), "3.0 TiB");
     }
 }

@@ -1,5 +1,5 @@
 //! What is asked of the renderer: figures, fits, grades, comparisons, formulas evaluated by name,
-//! and explanations of a pixel as text, JSON, LaTeX, SVG and HTML.
+//! measured memory and speed, and explanations of a pixel as text, JSON, LaTeX, SVG and HTML.
 //!
 //! Everything here is made from the public items of [`phong`]. A program that only draws pictures
 //! does not need this crate.
@@ -10,4 +10,5 @@ pub mod figures;
 pub mod fit;
 pub mod grade;
 mod markup;
+pub mod measure;
 pub mod tell;

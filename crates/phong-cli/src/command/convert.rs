@@ -4,6 +4,7 @@ use std::ffi::OsStr;
 use std::io::{BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
+use phong_lab::measure::memory;
 use phong_scene::{
     Account, Diagnostic, Export, ExportOptions, File, Format, PlyEncoding, Severity,
 };
@@ -14,7 +15,7 @@ use crate::args::{InputArgs, PictureSize, ViewArgs, size, written_format, writte
 use crate::failure::Failure;
 use crate::output::{Output, keep_inputs_safe};
 use crate::progress::Meter;
-use crate::{input, memory, report};
+use crate::{input, report};
 
 const EXAMPLES: &str = "\
 Examples:

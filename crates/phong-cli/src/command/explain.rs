@@ -14,7 +14,6 @@ use phong_lab::tell::html::{MAX_PIXELS, page};
 use crate::args::{self, ImageArgs, InputArgs, ViewArgs};
 use crate::compile::compile;
 use crate::failure::Failure;
-use crate::memory::readable;
 use crate::output::{Output, keep_inputs_safe};
 use crate::{input, plan, report};
 
@@ -178,7 +177,7 @@ fn write_page(
     report::say(&format!(
         "{}: {width} × {height} pixels explained in {}",
         path.display(),
-        readable(html.len() as u64)
+        report::readable(html.len() as u64)
     ));
     Ok(())
 }

@@ -3,13 +3,12 @@
 use std::fmt::Write as _;
 use std::time::Instant;
 
-use phong_bvh::{Primitives, Stats};
+use phong_lab::measure::{Holdings, memory};
 use serde_json::json;
 
 use crate::args::QuestionArgs;
 use crate::compile::compile;
 use crate::failure::Failure;
-use crate::memory::{self, readable};
 use crate::{input, report};
 
 const EXAMPLES: &str = "\
@@ -36,24 +35,20 @@ pub(crate) fn run(Args { question: args }: &Args) -> Result<(), Failure> {
     let started = Instant::now();
     let scene = compile(input.scene, &args.input, 0)?;
     let build_seconds = started.elapsed().as_secs_f64();
-    let Stats { primitives, nodes, .. } = scene.bvh().stats();
-    let bytes = memory::of_hierarchy(scene.bvh());
-    let count = |of: fn(&Primitives) -> usize| scene.bvh().geometry().iter().map(of).sum::<usize>();
-    let triangles = count(|g| if matches!(g, Primitives::Triangles { .. }) { g.len() } else { 0 });
-    let spheres = count(|g| if matches!(g, Primitives::Spheres(_)) { g.len() } else { 0 });
+    let held = Holdings::of(scene.geometry());
     std::mem::forget(scene);
     if args.json {
         return report::json(&json!({
             "format": format,
-            "triangles": triangles,
-            "spheres": spheres,
-            "primitives": primitives,
+            "triangles": held.triangles,
+            "spheres": held.spheres,
+            "primitives": held.primitives(),
             "lights": lights,
             "materials": names.len(),
             "material_names": names,
             "bounds": bounds,
-            "nodes": nodes,
-            "bytes": bytes,
+            "nodes": held.nodes,
+            "bytes": held.bytes,
             "build_seconds": build_seconds,
             "peak_bytes": memory::peak(),
         }));
@@ -63,14 +58,13 @@ pub(crate) fn run(Args { question: args }: &Args) -> Result<(), Failure> {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{name:<12}{value}");
     };
-    let other = primitives - (triangles + spheres) as u64;
-    line("triangles", triangles.to_string());
-    line("spheres", spheres.to_string());
-    line("other", other.to_string());
+    line("triangles", held.triangles.to_string());
+    line("spheres", held.spheres.to_string());
+    line("other", held.other.to_string());
     line("lights", lights.to_string());
     line("materials", format!("{}: {}", names.len(), shortened(&names)));
     line("bounds", bounds.map_or("none".to_owned(), |[min, max]| format!("{min:?} to {max:?}")));
-    line("memory", readable(bytes));
+    line("memory", report::readable(held.bytes));
     line("build", format!("{build_seconds:.3} s"));
     report::data(text.as_bytes())
 }

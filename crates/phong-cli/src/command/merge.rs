@@ -4,11 +4,11 @@ use std::io::BufReader;
 use std::path::PathBuf;
 
 use phong::part::{Join, Part};
+use phong_lab::measure::memory;
 
 use crate::args::EncodingArgs;
 use crate::failure::Failure;
 use crate::input::open_file;
-use crate::memory;
 use crate::output::keep_inputs_safe;
 use crate::plan::Outputs;
 

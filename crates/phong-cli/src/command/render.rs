@@ -5,6 +5,7 @@ use std::time::Instant;
 use phong::film::{Film, Window};
 use phong::part::{Settings, fingerprint};
 use phong::render::{self, Rendered};
+use phong_lab::measure::memory;
 use serde_json::json;
 
 use super::check;
@@ -14,7 +15,6 @@ use crate::compile::compile;
 use crate::failure::Failure;
 use crate::input;
 use crate::interrupt;
-use crate::memory;
 use crate::output::keep_inputs_safe;
 use crate::plan::Plan;
 use crate::progress::{Meter, rate, short};
