@@ -139,6 +139,7 @@ fn what_mtl_cannot_say_of_a_material_is_told() {
         ("model = \"ggx\"", "the Fresnel reflectance of facets"),
         ("model = \"blinn-phong\"\nnormalize = true", "normalised"),
         ("ambient_rule = \"per-light\"", "ambient light per light"),
+        ("k_e = 0.5", "the light of its own"),
     ] {
         let text = format!("[materials.m]\n{keys}\n{FACE}material = \"m\"\n");
         let (_, _, export) = export(scene(&text), Format::Obj, false);

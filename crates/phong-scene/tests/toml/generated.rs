@@ -225,6 +225,8 @@ impl Make {
             k_a: self.float(),
             k_d: self.one(&[0.7, 0.1, 1.0]),
             k_s: if glossy { self.float() } else { 0.0 },
+            k_e: self.one(&[0.0, 0.0, 1.0, 12.345]),
+            emission_color: if self.flag() { None } else { Some(self.color()) },
             shininess,
             reflection: if self.flag() { Rgb::BLACK } else { self.color() },
             transmission,

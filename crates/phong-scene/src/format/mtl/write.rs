@@ -170,6 +170,9 @@ fn compare(m: &Material, back: &Material, differences: &mut Vec<Difference>) {
     if !near(m.k_d * m.color, back.k_d * back.color) {
         lost("the diffuse colour");
     }
+    if m.glows() {
+        lost("the light of its own");
+    }
     if !near(m.reflection, back.reflection) {
         if back.reflection.is_black() {
             lost("the mirror, whose weight is not that of the highlight");

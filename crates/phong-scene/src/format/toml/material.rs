@@ -51,6 +51,8 @@ pub(super) fn material(v: &Values, name: &str, notes: &mut Notes) -> Option<Mate
         k_a: v.number("k_a")? as f32,
         k_d: v.number("k_d")? as f32,
         k_s: v.number("k_s").unwrap_or(0.0) as f32,
+        k_e: v.number("k_e")? as f32,
+        emission_color: v.color("emission_color"),
         shininess: v.number("shininess").map_or(plain.shininess, |n| n as f32),
         reflection: v.color("reflection")?,
         transmission,

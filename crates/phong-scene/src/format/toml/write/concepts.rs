@@ -123,6 +123,8 @@ pub(super) fn material(material: &Material, key: &str) -> Option<Value> {
         "k_a" => number(m.k_a),
         "k_d" => number(m.k_d),
         "k_s" => number(m.k_s),
+        "k_e" => number(m.k_e),
+        "emission_color" => Value::Color(m.emission_color?),
         "reflection" => Value::Color(m.reflection),
         "transmission" => Value::Color(m.transmission),
         "ior" => number(m.ior),
