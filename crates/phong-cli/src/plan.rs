@@ -7,6 +7,7 @@ use phong::film::{Film, LayerKind, Window};
 use phong::image::{self, Bits, Content, Encoding, Format};
 use phong::part::{self, Settings};
 use phong::render::RenderOptions;
+use phong::terms::TermSet;
 use phong_scene::Scene;
 
 use crate::args::{self, EncodingArgs, ImageArgs, OutputFormat, RenderArgs, ViewArgs};
@@ -51,6 +52,14 @@ impl Outputs {
         };
         let files = contents.into_iter().map(create).collect::<Result<_, Failure>>()?;
         Ok(Self::Picture(format, files))
+    }
+
+    /// Gives up the files of layers that the film will not have.
+    pub(crate) fn keep(&mut self, kinds: &[LayerKind]) {
+        if let Self::Picture(format, files) = self {
+            let contents = Content::of(kinds, *format);
+            files.retain(|(content, _)| contents.contains(content));
+        }
     }
 
     /// Every file.
@@ -138,13 +147,14 @@ impl Plan {
         Ok(Self { output, terms: args.terms, aovs, encoding: encoding(&args.encoding), share })
     }
 
-    /// Makes ready what will be written.
+    /// Makes ready what may be written: which terms the scene has is not known yet.
     pub(crate) fn outputs(&self, args: &RenderArgs) -> Result<Outputs, Failure> {
         if self.share.is_some() {
             return Output::create(&self.output).map(Outputs::Part);
         }
         let any = RenderOptions::of(&phong_scene::Image::default());
-        let layers = RenderOptions { terms: self.terms, aovs: self.aovs.clone(), ..any }.layers();
+        let terms = if self.terms { TermSet::ALL } else { TermSet::NONE };
+        let layers = RenderOptions { terms, aovs: self.aovs.clone(), ..any }.layers();
         Outputs::picture(&self.output, args.encoding.output_format, &layers)
     }
 
@@ -156,7 +166,9 @@ impl Plan {
     ) -> Result<RenderOptions, Failure> {
         let mut options = settle(&args.image, &args.view, input)?;
         options.share = self.share;
-        options.terms = self.terms;
+        if self.terms {
+            options.terms = TermSet::of_scene(&input.scene);
+        }
         options.aovs.clone_from(&self.aovs);
         Ok(options)
     }

@@ -16,9 +16,10 @@ use phong::math::{Dir3, lobe};
 use phong::reflectance::microfacet::Lean;
 use phong::reflectance::{
     BlinnPhong, Distribution, Fresnel, Incident, Lambert, Microfacet, NARROWEST, OrenNayar,
-    OrenNayarForm, Phong, Reflectance, Shadowing, Switches, Terms, Ward, WardForm, blinn_phong,
-    fresnel, phong as phong_model,
+    OrenNayarForm, Phong, Reflectance, Shadowing, Switches, Ward, WardForm, blinn_phong, fresnel,
+    phong as phong_model,
 };
+use phong::terms::Terms;
 use phong_scene::Rgb;
 use thiserror::Error;
 

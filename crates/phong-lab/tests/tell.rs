@@ -5,6 +5,7 @@ use std::path::Path;
 
 use phong::explain::explain;
 use phong::render::RenderOptions;
+use phong::terms::TermSet;
 use phong::view::View;
 use phong_lab::tell;
 use phong_scene::{AmbientRule, Folder, Limits, Material};
@@ -23,7 +24,7 @@ fn changed(file: &str, change: fn(&mut Material)) -> (View, RenderOptions) {
     options.size = [20, 12];
     options.window = phong::film::Window::full(options.size);
     options.samples = 3;
-    options.terms = true;
+    options.terms = TermSet::ALL;
     (View::of(&scene).unwrap(), options)
 }
 

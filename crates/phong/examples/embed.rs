@@ -6,6 +6,7 @@ use std::error::Error;
 use phong::explain::explain;
 use phong::film::LayerKind;
 use phong::render::{Cancel, RenderOptions, render};
+use phong::terms::TermSet;
 use phong::view::View;
 use phong_scene::{Limits, Memory};
 
@@ -27,7 +28,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scene = reading.scene.ok_or("the scene has errors")?;
 
     // Compiling: what rays meet. Rendering: on rayon's threads, the same bits on any number.
-    let options = RenderOptions { terms: true, ..RenderOptions::of(&scene.image) };
+    let options = RenderOptions { terms: TermSet::ALL, ..RenderOptions::of(&scene.image) };
     let compiled = View::of(&scene)?;
     let film = render(&compiled, &options, &|_, _| {}, &Cancel::new())?.film;
 

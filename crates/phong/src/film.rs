@@ -5,7 +5,7 @@ mod values;
 use thiserror::Error;
 
 use crate::aov::Aov;
-use crate::reflectance::Terms;
+use crate::terms::Term;
 pub use values::Values;
 
 /// A half-open rectangle of pixels of the full picture: `x0 ≤ x < x1`, `y0 ≤ y < y1`.
@@ -64,8 +64,8 @@ pub enum LayerKind {
     Picture,
     /// Coverage in [0, 1]; 1 everywhere unless the background is transparent.
     Alpha,
-    /// One term, an index into [`Terms::NAMES`].
-    Term(usize),
+    /// One term of the sum.
+    Term(Term),
     /// One arbitrary output variable.
     Aov(Aov),
 }
@@ -76,8 +76,17 @@ impl LayerKind {
         match self {
             Self::Picture => "picture",
             Self::Alpha => "alpha",
-            Self::Term(index) => Terms::NAMES[index],
+            Self::Term(term) => term.name(),
             Self::Aov(aov) => aov.name(),
+        }
+    }
+
+    /// Whether it is the weighted mean of a pixel's samples; else it is of the ray through the
+    /// pixel's centre alone.
+    pub const fn is_averaged(self) -> bool {
+        match self {
+            Self::Picture | Self::Alpha | Self::Term(_) => true,
+            Self::Aov(_) => false,
         }
     }
 

@@ -1,8 +1,8 @@
 //! The renderer: from a [`phong_scene::Scene`] to light, and from light to pixels.
 //!
-//! Rooms, lowest storey first; a room imports only rooms below it: `math`; `reflectance`,
-//! `sampling`, `filter`; `material`, `light`, `camera`; `interaction`, `geometry`, `look`, `view`; `integrator`,
-//! `witness`; `film`, `aov`, `render`; `image`, `part`, `explain`.
+//! Rooms, lowest storey first; a room imports only rooms below it: `math`; `terms`,
+//! `reflectance`, `sampling`, `filter`; `material`, `light`, `camera`; `interaction`, `geometry`,
+//! `look`, `view`; `integrator`, `witness`; `film`, `aov`, `render`; `image`, `part`, `explain`.
 
 pub mod aov;
 pub mod camera;
@@ -21,5 +21,6 @@ pub mod part;
 pub mod reflectance;
 pub mod render;
 pub mod sampling;
+pub mod terms;
 pub mod view;
 pub mod witness;

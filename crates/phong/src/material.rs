@@ -8,8 +8,9 @@ use crate::math::Dir3;
 use crate::math::lanes::Real;
 use crate::reflectance::{
     BlinnPhong, Distribution, Falloff, Incident, Lambert, Microfacet, OrenNayar, OrenNayarForm,
-    Phong, Reflectance, Switches, Terms, Ward, fresnel,
+    Phong, Reflectance, Switches, Ward, fresnel,
 };
+use crate::terms::Terms;
 
 /// A material ready for light.
 #[derive(Clone, Debug)]
@@ -21,6 +22,8 @@ pub struct Material {
     ambient_color: Option<Rgb>,
     specular_color: Option<Rgb>,
     k_a: f32,
+    k_e: f32,
+    emission_color: Option<Rgb>,
     tint: Tint,
     ambient_rule: AmbientRule,
     /// Where highlights are seen from, if not from the ray's own eye.
@@ -45,6 +48,8 @@ impl Material {
             ambient_color: material.ambient_color,
             specular_color: material.specular_color,
             k_a: material.k_a,
+            k_e: material.k_e,
+            emission_color: material.emission_color,
             tint: material.tint,
             ambient_rule: material.ambient_rule,
             distant_eye: (material.viewer == Viewer::Distant).then_some(viewer),
@@ -74,6 +79,19 @@ impl Material {
             }
             AmbientRule::PerLight => like(Rgb::BLACK),
         }
+    }
+
+    /// Whether it has light of its own.
+    #[inline]
+    pub fn glows(&self) -> bool {
+        self.k_e > 0.0
+    }
+
+    /// `k_e C_e` where the surface's colour is `color`, of one surface or of eight.
+    #[inline(always)]
+    pub(crate) fn emission_of<F: Real>(&self, color: [F; 3]) -> [F; 3] {
+        let own = |c: Rgb| [color[0].like(c.r), color[0].like(c.g), color[0].like(c.b)];
+        self.emission_color.map_or(color, own).map(|channel| channel * self.k_e)
     }
 
     /// Whether mirror or glass rays go on from it.

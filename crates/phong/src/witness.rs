@@ -5,7 +5,8 @@ use phong_scene::Rgb;
 
 use crate::interaction::SurfaceInteraction;
 use crate::light::LightSample;
-use crate::reflectance::{Incident, Terms};
+use crate::reflectance::Incident;
+use crate::terms::{Term, Terms};
 
 /// Which ray goes on from a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,6 +15,16 @@ pub enum Branch {
     Reflection,
     /// The refracted ray.
     Transmission,
+}
+
+impl Branch {
+    /// The term that the ray brings.
+    pub const fn term(self) -> Term {
+        match self {
+            Self::Reflection => Term::Reflection,
+            Self::Transmission => Term::Transmission,
+        }
+    }
 }
 
 /// What happened with one light at one hit.
@@ -45,8 +56,8 @@ pub trait Witness {
 
     /// A ray hit nothing and saw this background.
     fn missed(&mut self, ray: &Ray, background: Rgb);
-    /// A ray met a surface, with this ambient term.
-    fn met(&mut self, ray: &Ray, at: &SurfaceInteraction, ambient: Rgb);
+    /// A ray met a surface, with these terms, that belong to no light and to no ray that goes on.
+    fn met(&mut self, ray: &Ray, at: &SurfaceInteraction, terms: Terms);
     /// A light was asked for at the surface just met.
     fn lit(&mut self, told: &LightTold);
     /// A ray goes on, with this weight; `fresnel` is the reflectance F where it was asked for.
@@ -61,7 +72,7 @@ impl Witness for () {
     const LISTENS: bool = false;
 
     fn missed(&mut self, _: &Ray, _: Rgb) {}
-    fn met(&mut self, _: &Ray, _: &SurfaceInteraction, _: Rgb) {}
+    fn met(&mut self, _: &Ray, _: &SurfaceInteraction, _: Terms) {}
     fn lit(&mut self, _: &LightTold) {}
     fn entered(&mut self, _: Branch, _: Rgb, _: Option<f32>, _: &Ray) {}
     fn left(&mut self, _: Branch, _: Rgb) {}

@@ -8,8 +8,8 @@ use phong::explain::explain;
 use phong::film::{Film, LayerKind, Window};
 use phong::geometry::{Geometry, GeometryOptions};
 use phong::look::Look;
-use phong::reflectance::Terms;
 use phong::render::{Cancel, RenderOptions, render};
+use phong::terms::{Term, TermSet};
 use phong::view::View;
 use phong_bvh::{BuildOptions, Level, Preset};
 use phong_scene::{Background, CameraKind, FilterKind, Limits, Memory, Reading, Rgb, Scene};
@@ -36,7 +36,7 @@ static CASES: LazyLock<Vec<Case>> = LazyLock::new(|| {
             assert!(diagnostics.is_empty(), "{name}: {diagnostics:#?}");
             let scene = scene.expect("a scene, for there is no error");
             let options = RenderOptions {
-                terms: true,
+                terms: TermSet::ALL,
                 // `cost` alone is exempt.
                 aovs: vec![Aov::Depth, Aov::Normal, Aov::Position, Aov::Object, Aov::Shadow],
                 ..RenderOptions::of(&scene.image)
@@ -191,7 +191,7 @@ fn the_picture_is_the_sum_of_its_terms() {
     for case in CASES.iter() {
         let layer = |kind| &case.film.layer(kind).expect("asked for").values;
         let picture = layer(LayerKind::Picture);
-        let terms: Vec<_> = (0..Terms::NAMES.len()).map(|i| layer(LayerKind::Term(i))).collect();
+        let terms: Vec<_> = Term::ALL.map(|term| layer(LayerKind::Term(term))).into();
         for (i, value) in picture.iter().enumerate() {
             let sum: f32 = terms.iter().map(|term| term[i]).fold(0.0, |sum, term| sum + term);
             assert_eq!(sum.to_bits(), value.to_bits(), "{}: value {i}", case.name);
@@ -262,7 +262,7 @@ fn every_camera_filter_and_background_is_drawn_as_explained_in_tiles_of_any_size
         let scene = few(kind, aperture);
         let size = [21, 13];
         let options = RenderOptions {
-            terms: true,
+            terms: TermSet::ALL,
             samples,
             filter,
             background,
@@ -282,8 +282,8 @@ fn every_camera_filter_and_background_is_drawn_as_explained_in_tiles_of_any_size
             };
             is(LayerKind::Picture, &told.linear.to_array());
             is(LayerKind::Alpha, &[told.alpha]);
-            for (i, term) in told.terms.to_array().iter().enumerate() {
-                is(LayerKind::Term(i), &term.to_array());
+            for (term, value) in told.terms.iter() {
+                is(LayerKind::Term(term), &value.to_array());
             }
         }
     }

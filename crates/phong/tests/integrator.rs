@@ -5,8 +5,9 @@ use glam::{DAffine3, DVec3, Vec3};
 use phong::aov::Aov;
 use phong::film::{Film, LayerKind};
 use phong::geometry::{Geometry, GeometryError, GeometryOptions};
-use phong::reflectance::{Terms, fresnel};
+use phong::reflectance::fresnel;
 use phong::render::{Cancel, Cancelled, RenderOptions, Rendered, render};
+use phong::terms::{TermSet, Terms};
 use phong::view::{View, ViewError};
 use phong_bvh::Ray;
 use phong_scene::{
@@ -67,7 +68,7 @@ fn plane(point: [f64; 3], normal: [f64; 3]) -> Object {
 }
 
 fn film_with(scene: Scene, change: impl FnOnce(&mut RenderOptions)) -> Film {
-    let mut options = RenderOptions { terms: true, ..RenderOptions::of(&scene.image) };
+    let mut options = RenderOptions { terms: TermSet::ALL, ..RenderOptions::of(&scene.image) };
     change(&mut options);
     let compiled = View::of(&scene).unwrap();
     let Rendered { film, .. } = render(&compiled, &options, &|_, _| {}, &Cancel::new()).unwrap();
@@ -77,11 +78,10 @@ fn film_with(scene: Scene, change: impl FnOnce(&mut RenderOptions)) -> Film {
 /// The terms of the only pixel.
 fn terms(scene: Scene) -> Terms {
     let film = film_with(scene, |_| {});
-    let term = |i| {
-        let v = film.at(LayerKind::Term(i), 0, 0).unwrap();
+    let terms = Terms::from_fn(|term| {
+        let v = film.at(LayerKind::Term(term), 0, 0).unwrap();
         Rgb::new(v[0], v[1], v[2])
-    };
-    let terms = Terms::from_array(std::array::from_fn(term));
+    });
     let picture = film.at(LayerKind::Picture, 0, 0).unwrap();
     assert_eq!(picture, terms.total().to_array(), "the terms sum to the picture");
     terms

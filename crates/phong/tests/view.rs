@@ -6,6 +6,7 @@ use phong::film::{Film, LayerKind};
 use phong::geometry::{Geometry, GeometryOptions};
 use phong::look::Look;
 use phong::render::{Cancel, RenderOptions, render};
+use phong::terms::TermSet;
 use phong::view::{View, ViewError};
 use phong_scene::{Limits, Memory, Rgb, Scene, read};
 
@@ -42,7 +43,7 @@ fn scene() -> Scene {
 }
 
 fn film(view: &View, scene: &Scene) -> Film {
-    let options = RenderOptions { terms: true, ..RenderOptions::of(&scene.image) };
+    let options = RenderOptions { terms: TermSet::ALL, ..RenderOptions::of(&scene.image) };
     render(view, &options, &|_, _| {}, &Cancel::new()).expect("nobody cancels").film
 }
 

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use phong::film::{Film, Window};
+use phong::film::{Film, LayerKind, Window};
 use phong::part::{Settings, fingerprint};
 use phong::render::{self, Rendered};
 use phong_lab::measure::memory;
@@ -35,6 +35,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let mut meter = Meter::new(quiet, "reading");
     let mut input = input::open(&args.input, quiet)?;
     let options = plan.settle(args, &mut input)?;
+    outputs.keep(&options.layers());
     keep_inputs_safe(outputs.iter(), input.files())?;
     clock.lap("read");
 
@@ -76,9 +77,12 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     }
     if args.work.json {
         let Window { x0, y0, x1, y1 } = options.window;
+        let layer =
+            |kind: LayerKind| json!({ "name": kind.name(), "averaged": kind.is_averaged() });
         report::json(&json!({
             "output": plan.output.to_string_lossy(),
             "size": [x1 - x0, y1 - y0],
+            "layers": options.layers().into_iter().map(layer).collect::<Vec<_>>(),
             "samples": options.samples,
             "threads": rayon::current_num_threads(),
             "seconds": clock.json(),

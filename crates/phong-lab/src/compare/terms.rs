@@ -1,15 +1,15 @@
 //! The difference of two renderings, told apart by the terms of the equation.
 
 use phong::film::{Film, LayerKind};
-use phong::reflectance::Terms;
+use phong::terms::Term;
 
 use super::CompareError;
 
 /// How much of the difference of two renderings is in one term; linear values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TermDifference {
-    /// The term's name, of [`Terms::NAMES`].
-    pub name: &'static str,
+    /// Which term.
+    pub term: Term,
     /// The term's mean in the first, over all pixels and channels.
     pub mean_a: f64,
     /// The same in the second.
@@ -27,7 +27,7 @@ pub struct TermDifference {
     pub share: f64,
 }
 
-/// Holds the terms of two renderings against each other, in the order of [`Terms::NAMES`]; terms
+/// Holds the terms of two renderings against each other, in the order of the sum; terms
 /// that one film lacks are left out.
 ///
 /// # Errors
@@ -38,10 +38,10 @@ pub fn terms(a: &Film, b: &Film) -> Result<Vec<TermDifference>, CompareError> {
         return Err(CompareError::Size { a: of_a, b: of_b });
     }
     let mut all = Vec::new();
-    for (i, name) in Terms::NAMES.into_iter().enumerate() {
-        let kind = LayerKind::Term(i);
+    for term in Term::ALL {
+        let kind = LayerKind::Term(term);
         let (Some(one), Some(two)) = (a.layer(kind), b.layer(kind)) else { continue };
-        all.push(difference(name, &one.values, &two.values, of_a[0]));
+        all.push(difference(term, &one.values, &two.values, of_a[0]));
     }
     if all.is_empty() {
         return Err(CompareError::Channels);
@@ -53,9 +53,9 @@ pub fn terms(a: &Film, b: &Film) -> Result<Vec<TermDifference>, CompareError> {
     Ok(all)
 }
 
-fn difference(name: &'static str, a: &[f32], b: &[f32], width: u32) -> TermDifference {
+fn difference(term: Term, a: &[f32], b: &[f32], width: u32) -> TermDifference {
     let mut told = TermDifference {
-        name,
+        term,
         mean_a: 0.0,
         mean_b: 0.0,
         mean: 0.0,
@@ -87,7 +87,8 @@ mod tests {
     use phong::film::Window;
 
     fn film(diffuse: [f32; 6], specular: [f32; 6]) -> Film {
-        let kinds = [LayerKind::Picture, LayerKind::Term(2), LayerKind::Term(3)];
+        let kinds =
+            [LayerKind::Picture, LayerKind::Term(Term::Diffuse), LayerKind::Term(Term::Specular)];
         let mut film = Film::new([2, 1], Window::full([2, 1]), 16, &kinds);
         film.layers[1].values = diffuse.into_iter().collect();
         film.layers[2].values = specular.into_iter().collect();
@@ -99,7 +100,10 @@ mod tests {
         let a = film([0.5; 6], [0.0; 6]);
         let b = film([0.5, 0.5, 0.5, 0.5, 0.5, 0.2], [0.0, 0.0, 0.0, 0.0, 0.9, 0.0]);
         let told = terms(&a, &b).unwrap();
-        assert_eq!(told.iter().map(|t| t.name).collect::<Vec<_>>(), ["diffuse", "specular"]);
+        assert_eq!(
+            told.iter().map(|t| t.term).collect::<Vec<_>>(),
+            [Term::Diffuse, Term::Specular]
+        );
         let [diffuse, specular] = told[..] else { panic!("two terms") };
         assert!((diffuse.mean - 0.05).abs() < 1e-7 && (diffuse.max - 0.3).abs() < 1e-7);
         assert!((diffuse.share - 0.25).abs() < 1e-6 && (specular.share - 0.75).abs() < 1e-6);
@@ -116,7 +120,7 @@ mod tests {
     #[test]
     fn films_of_other_sizes_or_without_terms_are_refused() {
         let a = film([0.5; 6], [0.0; 6]);
-        let other = Film::new([1, 2], Window::full([1, 2]), 16, &[LayerKind::Term(2)]);
+        let other = Film::new([1, 2], Window::full([1, 2]), 16, &[LayerKind::Term(Term::Diffuse)]);
         assert_eq!(terms(&a, &other), Err(CompareError::Size { a: [2, 1], b: [1, 2] }));
         let bare = Film::new([2, 1], Window::full([2, 1]), 16, &[LayerKind::Picture]);
         assert_eq!(terms(&a, &bare), Err(CompareError::Channels));

@@ -3,8 +3,8 @@
 use glam::{DAffine3, DVec3, Vec3};
 use phong::aov::Aov;
 use phong::film::{Film, LayerKind};
-use phong::reflectance::Terms;
 use phong::render::{Cancel, RenderOptions, render};
+use phong::terms::{Term, TermSet, Terms};
 use phong::view::View;
 use phong_scene::{
     Background, Camera, CameraKind, Image, Light, LightKind, Material, MaterialId, Object, Place,
@@ -20,10 +20,10 @@ const MEASURED: u32 = 160;
 /// Height of what a ball's camera sees, in radii: the ball with a little air.
 pub(super) const VIEW: f64 = 2.08;
 
-/// Index of a term among [`Terms::NAMES`].
-pub(super) const AMBIENT: LayerKind = LayerKind::Term(1);
-pub(super) const DIFFUSE: LayerKind = LayerKind::Term(2);
-pub(super) const SPECULAR: LayerKind = LayerKind::Term(3);
+/// The layers of the terms that a ball under lights has.
+pub(super) const AMBIENT: LayerKind = LayerKind::Term(Term::Ambient);
+pub(super) const DIFFUSE: LayerKind = LayerKind::Term(Term::Diffuse);
+pub(super) const SPECULAR: LayerKind = LayerKind::Term(Term::Specular);
 
 /// The blue plastic of the balls.
 pub(super) fn plastic() -> Material {
@@ -103,8 +103,11 @@ pub(super) fn measured(scene: &Scene) -> Film {
 }
 
 fn film(scene: Scene, aovs: &[Aov]) -> Film {
-    let options =
-        RenderOptions { terms: true, aovs: aovs.to_vec(), ..RenderOptions::of(&scene.image) };
+    let options = RenderOptions {
+        terms: TermSet::of_scene(&scene),
+        aovs: aovs.to_vec(),
+        ..RenderOptions::of(&scene.image)
+    };
     let scene = View::of(&scene).expect("a scene of a few shapes compiles");
     let nobody_watches = |_: &Film, _| ();
     let rendered = render(&scene, &options, &nobody_watches, &Cancel::new())
@@ -154,9 +157,7 @@ pub(super) fn spots(film: &Film) -> Vec<Spot> {
         spots.push(Spot {
             n,
             p: Vec3::from_array(triple(LayerKind::Aov(Aov::Position), x, y)),
-            terms: Terms::from_array(std::array::from_fn(|term| {
-                triple(LayerKind::Term(term), x, y).into()
-            })),
+            terms: Terms::from_fn(|term| triple(LayerKind::Term(term), x, y).into()),
             sum: triple(LayerKind::Picture, x, y).into(),
         });
     }

@@ -51,7 +51,7 @@ pub struct Grade {
     pub residual: Residual,
     /// How much of each of our terms is in it, by least squares over the linear values: 1 is
     /// right, 0 is missing, below 0 is subtracted. `None`: the scene has no such term.
-    pub terms: [(&'static str, Option<f64>); 4],
+    pub terms: Vec<(String, Option<f64>)>,
 }
 
 /// A possible cause.

@@ -222,7 +222,7 @@ pub(super) fn inner(points: &[Point], [width, height]: [u32; 2]) -> Vec<bool> {
         }
         _ => false,
     };
-    let brought = |i: usize| points[i].reflection + points[i].transmission;
+    let brought = |i: usize| points[i].terms.reflection + points[i].terms.transmission;
     let no_jump = |i: usize, j: usize| {
         (brought(i) - brought(j)).to_array().iter().all(|apart| apart.abs() <= JUMP)
     };

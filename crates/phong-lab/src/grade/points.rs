@@ -6,6 +6,7 @@ use phong::interaction::SurfaceInteraction;
 use phong::math::Dir3;
 use phong::render::{RenderOptions, camera_ray};
 use phong::sampling::Sampler;
+use phong::terms::Terms;
 use phong::view::View;
 use phong::witness::{Branch, LightTold, Witness};
 use phong_bvh::Ray;
@@ -15,13 +16,10 @@ use rayon::prelude::*;
 /// What one pixel is made of.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Point {
-    /// What the ray saw if it met nothing.
-    pub(super) background: Rgb,
-    /// What it met.
+    /// The terms as they are in the sum, but for what lights add.
+    pub(super) terms: Terms,
+    /// What the ray met.
     pub(super) surface: Option<Surface>,
-    /// What mirror and glass rays brought, as it is in the sum.
-    pub(super) reflection: Rgb,
-    pub(super) transmission: Rgb,
 }
 
 #[derive(Clone, Debug)]
@@ -91,12 +89,13 @@ struct Listener<'a> {
 impl Witness for Listener<'_> {
     fn missed(&mut self, _: &Ray, background: Rgb) {
         if self.weights.is_empty() {
-            self.point.background = background;
+            self.point.terms.background = background;
         }
     }
 
-    fn met(&mut self, ray: &Ray, at: &SurfaceInteraction, ambient: Rgb) {
+    fn met(&mut self, ray: &Ray, at: &SurfaceInteraction, terms: Terms) {
         if self.weights.is_empty() {
+            self.point.terms = terms;
             self.point.surface = Some(Surface {
                 object: self.scene.object(at.hit.prim),
                 material: at.material,
@@ -105,7 +104,7 @@ impl Witness for Listener<'_> {
                 e: at.e,
                 tangent: Dir3::from_unit(self.scene.coordinates(ray, &at.hit).tangent),
                 color: at.color,
-                ambient,
+                ambient: terms.ambient,
                 lights: Vec::with_capacity(self.scene.lights().len()),
             });
         }
@@ -142,10 +141,7 @@ impl Witness for Listener<'_> {
     fn left(&mut self, branch: Branch, light: Rgb) {
         let Some(weight) = self.weights.pop() else { return };
         if self.weights.is_empty() {
-            match branch {
-                Branch::Reflection => self.point.reflection = weight * light,
-                Branch::Transmission => self.point.transmission = weight * light,
-            }
+            self.point.terms[branch.term()] = weight * light;
         }
     }
 

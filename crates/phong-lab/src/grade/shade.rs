@@ -5,6 +5,7 @@
 use phong::light::LightSample;
 use phong::math::{Dir3, lobe, pow};
 use phong::reflectance::{blinn_phong, phong as phong_model};
+use phong::terms::Terms;
 use phong::view::View;
 use phong_scene::{Model, Rgb};
 
@@ -105,30 +106,14 @@ impl Default for Wrong {
     }
 }
 
-/// The terms of a pixel, as far as a mistake can tell them apart.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Sum {
-    pub(super) background: Rgb,
-    pub(super) ambient: Rgb,
-    pub(super) diffuse: Rgb,
-    pub(super) specular: Rgb,
-    pub(super) secondary: Rgb,
-}
-
-impl Sum {
-    pub(super) fn total(self) -> Rgb {
-        self.background + self.ambient + self.diffuse + self.specular + self.secondary
-    }
-}
-
 /// The sum at a point, computed with a mistake.
-pub(super) fn shade(scene: &View, point: &Point, wrong: &Wrong) -> Sum {
+pub(super) fn shade(scene: &View, point: &Point, wrong: &Wrong) -> Terms {
     let Some(surface) = &point.surface else {
-        return Sum { background: point.background, ..Sum::default() };
+        return point.terms;
     };
-    let mut sum = Sum { ambient: ambient(surface, wrong), ..Sum::default() };
-    if !wrong.no_secondary {
-        sum.secondary = point.reflection + point.transmission;
+    let mut sum = Terms { ambient: ambient(surface, wrong), ..point.terms };
+    if wrong.no_secondary {
+        (sum.reflection, sum.transmission) = (Rgb::BLACK, Rgb::BLACK);
     }
     let lights = if wrong.first_light { 1 } else { surface.lights.len() };
     for light in surface.lights.iter().take(lights) {

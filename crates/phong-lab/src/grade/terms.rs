@@ -1,25 +1,48 @@
 //! How much of each of our terms is in their picture.
 
+use phong::terms::{Term, Terms};
 use phong_scene::srgb_decode;
 
 use super::Prepared;
 use super::picture::Theirs;
 use super::shade::{Wrong, shade};
 
-const NAMES: [&str; 4] = ["ambient", "diffuse", "specular", "reflection and transmission"];
+/// Terms, each with a column of its own.
+const COUNT: usize = Term::ALL.len();
+
+/// The term in whose column another is counted: what mirror and glass rays bring is told as one.
+/// `None`: it is not fitted.
+fn counted_as(term: Term) -> Option<Term> {
+    match term {
+        Term::Background => None,
+        Term::Transmission => Some(Term::Reflection),
+        own => Some(own),
+    }
+}
+
+/// What a column is called: the names of the terms that are counted in it.
+fn named(column: Term) -> String {
+    let names = Term::ALL.into_iter().filter(|&term| counted_as(term) == Some(column));
+    names.map(Term::name).collect::<Vec<_>>().join(" and ")
+}
 
 /// Least squares over the linear values of inner pixels that are not clipped, and are numbers. `None` for a term
 /// that the scene does not have, or that cannot be told from the others.
-pub(super) fn fit(right: &Prepared, theirs: &Theirs) -> [(&'static str, Option<f64>); 4] {
-    let mut normal = [[0.0; 4]; 4];
-    let mut side = [0.0; 4];
+pub(super) fn fit(right: &Prepared, theirs: &Theirs) -> Vec<(String, Option<f64>)> {
+    let mut normal = [[0.0; COUNT]; COUNT];
+    let mut side = [0.0; COUNT];
     for (i, point) in right.points.iter().enumerate() {
         if !right.inner[i] || point.surface.is_none() {
             continue;
         }
         let sum = shade(&right.scene, point, &Wrong::default());
-        let columns =
-            [sum.ambient, sum.diffuse, sum.specular, sum.secondary].map(phong_scene::Rgb::to_array);
+        let mut columns = Terms::default();
+        for (term, value) in sum.iter() {
+            if let Some(column) = counted_as(term) {
+                columns[column] += value;
+            }
+        }
+        let columns = Term::ALL.map(|column| columns[column].to_array());
         let drawn = theirs.at(i, right.size, None);
         for channel in 0..3 {
             let level = f64::from(drawn[channel].value);
@@ -36,19 +59,20 @@ pub(super) fn fit(right: &Prepared, theirs: &Theirs) -> [(&'static str, Option<f
         }
     }
     let factors = solve(normal, side);
-    std::array::from_fn(|i| (NAMES[i], factors[i]))
+    let all = Term::ALL.into_iter().zip(factors);
+    all.filter(|&(term, _)| counted_as(term) == Some(term)).map(|(t, f)| (named(t), f)).collect()
 }
 
 /// Gaussian elimination with the largest pivot of the diagonal; `None` where a column is zero, or
 /// is left without anything of its own.
-fn solve(mut m: [[f64; 4]; 4], mut y: [f64; 4]) -> [Option<f64>; 4] {
-    let scale: [f64; 4] = std::array::from_fn(|i| m[i][i]);
+fn solve<const N: usize>(mut m: [[f64; N]; N], mut y: [f64; N]) -> [Option<f64>; N] {
+    let scale: [f64; N] = std::array::from_fn(|i| m[i][i]);
     let mut order = Vec::new();
-    for _ in 0..4 {
-        let free = (0..4).filter(|i| !order.contains(i) && m[*i][*i] > 1e-9 * scale[*i].max(1e-12));
+    for _ in 0..N {
+        let free = (0..N).filter(|i| !order.contains(i) && m[*i][*i] > 1e-9 * scale[*i].max(1e-12));
         let Some(pivot) = free.max_by(|&a, &b| m[a][a].total_cmp(&m[b][b])) else { break };
         order.push(pivot);
-        for row in (0..4).filter(|&row| row != pivot) {
+        for row in (0..N).filter(|&row| row != pivot) {
             let factor = m[row][pivot] / m[pivot][pivot];
             let from = m[pivot];
             for (entry, from) in m[row].iter_mut().zip(from) {

@@ -9,8 +9,8 @@ use std::io::Write as _;
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use phong::explain::{End, Explanation, Lit, Onward, RayTold, Surface, explain};
-use phong::reflectance::Terms;
 use phong::render::{Cancel, Cancelled, RenderOptions};
+use phong::terms::Term;
 use phong::view::View;
 use phong_scene::{AmbientRule, Model, Rgb};
 use rayon::prelude::*;
@@ -92,7 +92,6 @@ impl Shared<'_> {
             json!({
                 "name": m.name,
                 "model": described(m),
-                "k_a": number(m.k_a),
                 "k_d": number(m.k_d),
                 "k_s": number(m.k_s),
                 "shininess": number(m.shininess),
@@ -107,7 +106,7 @@ impl Shared<'_> {
         let mut objects = vec![Value::Null];
         objects.extend(scene.objects().iter().map(|o| json!([o.name, o.place.to_string()])));
         json!({
-            "terms": Terms::NAMES,
+            "terms": Term::ALL.map(Term::name),
             "objects": objects,
             "lights": scene
                 .written_lights()
@@ -126,7 +125,7 @@ impl Shared<'_> {
                 .iter()
                 .map(|s| s.ray.as_ref().map(|ray| self.ray(ray, 1.0)))
                 .collect::<Vec<_>>(),
-            "terms": told.terms.to_array().map(term),
+            "terms": told.terms.iter().map(|(_, value)| term(value)).collect::<Vec<_>>(),
             "linear": rgb(told.linear),
             "bytes": told.encoded(0.0).bytes,
         })
@@ -150,8 +149,10 @@ impl Shared<'_> {
             "ng": dir(s.ng),
             "n": dir(s.n),
             "e": dir(s.e),
-            "ca": rgb(s.c_a),
-            "a": rgb(s.ambient),
+            "own": product::own_terms(s)
+                .iter()
+                .map(|(term, product)| json!([term.name(), written(product)]))
+                .collect::<Vec<_>>(),
             "lights": s.lights.iter().map(|lit| light(s, lit)).collect::<Vec<_>>(),
         });
         if let Some(element) = s.element {

@@ -2,7 +2,7 @@
 
 use phong::explain::{Blocker, End, Explanation, Lit, Onward, RayTold, Sample, Surface};
 use phong::math::Dir3;
-use phong::reflectance::Terms;
+use phong::terms::Terms;
 use phong_scene::{Place, Rgb};
 use serde_json::{Map, Value, json};
 
@@ -63,6 +63,8 @@ fn ray_into(out: &mut Map<String, Value>, told: &RayTold) {
             put("e", dir(s.e));
             put("ambient", rgb(s.ambient));
             put("c_a", rgb(s.c_a));
+            put("emission", rgb(s.terms.emission));
+            put("c_e", rgb(s.c_e()));
             put("material", material(&s.material));
             put("lights", s.lights.iter().map(light).collect());
             put("reflection", s.reflection.as_ref().map_or(Value::Null, onward));
@@ -94,6 +96,7 @@ fn material(m: &phong_scene::Material) -> Value {
         "k_a": number(m.k_a),
         "k_d": number(m.k_d),
         "k_s": number(m.k_s),
+        "k_e": number(m.k_e),
         "shininess": number(m.shininess),
         "at": at(&m.place),
     })
@@ -136,8 +139,7 @@ fn onward(onward: &Onward) -> Value {
 }
 
 fn terms(terms: Terms) -> Value {
-    let named = Terms::NAMES.iter().zip(terms.to_array());
-    Value::Object(named.map(|(name, term)| ((*name).to_owned(), rgb(term))).collect())
+    Value::Object(terms.iter().map(|(term, value)| (term.name().to_owned(), rgb(value))).collect())
 }
 
 fn at(place: &Place) -> Value {

@@ -4,7 +4,6 @@ use std::fmt::Write;
 
 use phong::explain::{End, Explanation, Lit, RayTold, Surface};
 use phong::math::Dir3;
-use phong::reflectance::Terms;
 use phong_scene::{Model, Rgb};
 
 use super::product::{self, Number, Power, Product};
@@ -57,8 +56,8 @@ fn surface(out: &mut String, s: &Surface) {
         n(s.t)
     );
     let _ = writeln!(out, "N &= {} & E &= {} \\\\", dir(s.n), dir(s.e));
-    if let Some(ambient) = product::ambient(s) {
-        product(out, &ambient);
+    for (_, term) in product::own_terms(s) {
+        product(out, &term);
     }
     end(out);
     for lit in &s.lights {
@@ -75,10 +74,8 @@ fn surface(out: &mut String, s: &Surface) {
         );
     }
     let _ = writeln!(out, "\\begin{{align*}}");
-    for (name, term) in Terms::NAMES.iter().zip(s.terms.to_array()) {
-        if !term.is_black() {
-            let _ = writeln!(out, "\\text{{{name}}} &= {} \\\\", color(term));
-        }
+    for (term, value) in s.terms.iter().filter(|(_, value)| !value.is_black()) {
+        let _ = writeln!(out, "\\text{{{}}} &= {} \\\\", term.name(), color(value));
     }
     let _ = writeln!(out, "\\text{{sum}} &= {}\n\\end{{align*}}", color(s.terms.total()));
 }

@@ -4,6 +4,7 @@ use phong::explain::{Lit, Surface};
 use phong::math::lobe;
 use phong::reflectance::blinn_phong::{self, rational_lobe};
 use phong::reflectance::phong as phong_model;
+use phong::terms::Term;
 use phong_scene::{AmbientRule, Material, Model, Rgb};
 
 /// A term: its factors in the order they are written, and what they come to, as it is in the sum.
@@ -50,11 +51,20 @@ fn grey_or_color(words: &str, latex: &'static str, of: Rgb) -> Factor {
     if of.r == of.g && of.g == of.b { one(words, latex, of.r) } else { color(words, latex, of) }
 }
 
-/// The ambient term; `None` where it is added light by light.
-pub(super) fn ambient(s: &Surface) -> Option<Product> {
-    let factors = vec![one("k_a", "k_a", s.material.k_a), color("C_a", "C_a", s.c_a)];
-    let once = s.material.ambient_rule != AmbientRule::PerLight;
-    once.then_some(Product { factors, value: s.ambient })
+/// The terms that belong to the surface as it is, and to no light: of the ambient term nothing
+/// where it is added light by light.
+pub(super) fn own_terms(s: &Surface) -> Vec<(Term, Product)> {
+    let m = &s.material;
+    let mut terms = Vec::new();
+    if m.ambient_rule != AmbientRule::PerLight {
+        let factors = vec![one("k_a", "k_a", m.k_a), color("C_a", "C_a", s.c_a)];
+        terms.push((Term::Ambient, Product { factors, value: s.ambient }));
+    }
+    if m.glows() {
+        let factors = vec![one("k_e", "k_e", m.k_e), color("C_e", "C_e", s.c_e())];
+        terms.push((Term::Emission, Product { factors, value: s.terms.emission }));
+    }
+    terms
 }
 
 /// What one light adds to the ambient term; `None` where lights add nothing to it.

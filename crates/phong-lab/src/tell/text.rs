@@ -3,8 +3,8 @@
 use std::fmt::{self, Write};
 
 use phong::explain::{Encoded, End, Explanation, Lit, Onward, RayTold, Sample, Surface};
-use phong::reflectance::Terms;
-use phong_scene::{Model, Viewer};
+use phong::terms::Terms;
+use phong_scene::{AmbientRule, Model, Viewer};
 
 use super::numbers::{Color, Digits, Direction, Position, columns};
 use super::product::{self, Factor, Number, Power, Product};
@@ -120,9 +120,11 @@ impl Page {
             ("E       ", Direction(s.e).to_string()),
         ]);
         self.blank();
-        match product::ambient(s) {
-            Some(ambient) => self.product("ambient", s, &ambient),
-            None => self.line(format_args!("ambient  is added by each light")),
+        if s.material.ambient_rule == AmbientRule::PerLight {
+            self.line(format_args!("ambient  is added by each light"));
+        }
+        for (term, product) in product::own_terms(s) {
+            self.product(term.name(), s, &product);
         }
         for light in &s.lights {
             self.blank();
@@ -228,8 +230,8 @@ impl Page {
     }
 
     fn terms(&mut self, terms: Terms) {
-        let shown = Terms::NAMES.into_iter().zip(terms.to_array());
-        let mut rows: Vec<_> = shown.filter(|(_, term)| !term.is_black()).collect();
+        let shown = terms.iter().filter(|(_, value)| !value.is_black());
+        let mut rows: Vec<_> = shown.map(|(term, value)| (term.name(), value)).collect();
         rows.push(("sum", terms.total()));
         let written: Vec<String> = rows.iter().map(|row| Color(row.1).to_string()).collect();
         for ((name, _), triple) in rows.iter().zip(columns(&written)) {

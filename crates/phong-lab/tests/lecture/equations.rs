@@ -2,7 +2,8 @@
 
 use glam::Vec3;
 use phong::math::{Dir3, reflect};
-use phong::reflectance::{Distribution, Incident, Phong, Reflectance, Switches, Terms};
+use phong::reflectance::{Distribution, Incident, Phong, Reflectance, Switches};
+use phong::terms::Terms;
 use phong_lab::eval::{Directions, Lobe, Query, Value};
 use phong_scene::Rgb;
 

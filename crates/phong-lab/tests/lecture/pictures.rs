@@ -5,8 +5,8 @@ use phong::aov::Aov;
 use phong::explain::{End, Lit, Surface, explain};
 use phong::film::{Film, LayerKind};
 use phong::math::Dir3;
-use phong::reflectance::Terms;
 use phong::render::{Cancel, RenderOptions, render};
+use phong::terms::{Term, TermSet, Terms};
 use phong::view::View;
 use phong_scene::{
     Camera, CameraKind, Image, Light, LightKind, Material, MaterialId, Model, Object, Place, Rgb,
@@ -17,9 +17,9 @@ const SIZE: u32 = 48;
 const CENTER: DVec3 = DVec3::new(0.2, -0.1, 0.0);
 const RADIUS: f64 = 1.5;
 const EYE: DVec3 = DVec3::new(0.0, 0.0, 6.0);
-const AMBIENT: LayerKind = LayerKind::Term(1);
-const DIFFUSE: LayerKind = LayerKind::Term(2);
-const SPECULAR: LayerKind = LayerKind::Term(3);
+const AMBIENT: LayerKind = LayerKind::Term(Term::Ambient);
+const DIFFUSE: LayerKind = LayerKind::Term(Term::Diffuse);
+const SPECULAR: LayerKind = LayerKind::Term(Term::Specular);
 
 /// An orange plastic ball in front of black, seen from `EYE`, under `lights`.
 fn ball(lights: Vec<Light>) -> Scene {
@@ -76,7 +76,7 @@ fn lamp(position: DVec3) -> Light {
 
 fn compiled(scene: Scene) -> (View, RenderOptions) {
     let aovs = vec![Aov::Normal, Aov::Position];
-    let options = RenderOptions { terms: true, aovs, ..RenderOptions::of(&scene.image) };
+    let options = RenderOptions { terms: TermSet::ALL, aovs, ..RenderOptions::of(&scene.image) };
     (View::of(&scene).unwrap(), options)
 }
 
@@ -167,8 +167,8 @@ fn the_light_vector_depends_on_the_kind_of_light() {
 fn the_three_terms_add_up_to_the_picture() {
     let film = film(ball(vec![sun(), lamp(DVec3::new(3.0, 1.0, 2.0))]));
     for pixel in pixels() {
-        let terms: [Rgb; 6] = std::array::from_fn(|i| rgb(&film, LayerKind::Term(i), pixel));
-        assert_eq!(rgb(&film, LayerKind::Picture, pixel), Terms::from_array(terms).total());
+        let terms = Terms::from_fn(|term| rgb(&film, LayerKind::Term(term), pixel));
+        assert_eq!(rgb(&film, LayerKind::Picture, pixel), terms.total());
     }
 }
 

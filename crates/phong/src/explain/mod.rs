@@ -13,9 +13,9 @@ use thiserror::Error;
 use crate::filter::Filter;
 use crate::integrator::{Integrator, Radiance8, RayCounts};
 use crate::math::{Dir3, wide};
-use crate::reflectance::Terms;
 use crate::render::{RenderOptions, Sums8, camera_ray};
 use crate::sampling::Sampler;
+use crate::terms::Terms;
 use crate::view::View;
 use record::Recorder;
 
@@ -260,6 +260,13 @@ impl Explanation {
             curve,
             bytes: curve.map(|v| (v * 255.0 + 0.5).floor() as u8),
         }
+    }
+}
+
+impl Surface {
+    /// `C_e`: the colour of the surface's own light.
+    pub fn c_e(&self) -> Rgb {
+        self.material.emission_color.unwrap_or(self.color)
     }
 }
 

@@ -6,7 +6,8 @@ use phong_scene::Rgb;
 use super::{Blocker, End, Lit, Onward, RayTold, Surface};
 use crate::interaction::SurfaceInteraction;
 use crate::math::Dir3;
-use crate::reflectance::{Incident, Terms};
+use crate::reflectance::Incident;
+use crate::terms::Terms;
 use crate::view::View;
 use crate::witness::{Branch, LightTold, Witness};
 
@@ -52,15 +53,10 @@ impl<'a> Recorder<'a> {
     fn goes_on(&mut self, branch: Branch, onward: Onward) {
         let Some(surface) = self.surface() else { return };
         let brought = onward.weight * onward.light;
+        surface.terms[branch.term()] = brought;
         match branch {
-            Branch::Reflection => {
-                surface.terms.reflection = brought;
-                surface.reflection = Some(onward);
-            }
-            Branch::Transmission => {
-                surface.terms.transmission = brought;
-                surface.transmission = Some(onward);
-            }
+            Branch::Reflection => surface.reflection = Some(onward),
+            Branch::Transmission => surface.transmission = Some(onward),
         }
     }
 
@@ -84,7 +80,7 @@ impl Witness for Recorder<'_> {
         self.tell(ray, None, End::Background(background));
     }
 
-    fn met(&mut self, ray: &Ray, at: &SurfaceInteraction, ambient: Rgb) {
+    fn met(&mut self, ray: &Ray, at: &SurfaceInteraction, terms: Terms) {
         let scene = self.scene;
         let object = scene.object(at.hit.prim);
         let record = &scene.objects()[object as usize];
@@ -107,11 +103,11 @@ impl Witness for Recorder<'_> {
             from_outside: at.from_outside(),
             color: at.color,
             c_a: scene.ambient() * material.ambient_color.unwrap_or(at.color),
-            ambient,
+            ambient: terms.ambient,
             lights: Vec::with_capacity(scene.lights().len()),
             reflection: None,
             transmission: None,
-            terms: Terms { ambient, ..Terms::default() },
+            terms,
         };
         self.tell(ray, Some(*at), End::Surface(Box::new(surface)));
     }

@@ -5,6 +5,7 @@ use std::io::Cursor;
 use super::*;
 use crate::aov::Aov;
 use crate::film::Window;
+use crate::terms::Term;
 
 const PICTURE: LayerKind = LayerKind::Picture;
 
@@ -65,7 +66,7 @@ fn a_linear_png_says_so() {
 
 #[test]
 fn a_stop_of_exposure_doubles_the_light_of_the_picture_alone() {
-    let term = LayerKind::Term(2);
+    let term = LayerKind::Term(Term::Diffuse);
     let film = film([1, 1], &[(PICTURE, &[0.25; 3]), (term, &[0.25; 3])]);
     let encoding = Encoding { exposure: 1.0, ..Encoding::default() };
     assert_eq!(png_of(&film, PICTURE, &encoding).1, [188; 3]);
@@ -142,7 +143,7 @@ fn an_exr_holds_every_layer_to_the_bit() {
         &[
             (PICTURE, &picture),
             (LayerKind::Alpha, &vec![0.5; 5 * 37]),
-            (LayerKind::Term(3), &picture),
+            (LayerKind::Term(Term::Specular), &picture),
             (LayerKind::Aov(Aov::Depth), &depth),
             (LayerKind::Aov(Aov::Normal), &picture),
         ],
@@ -229,7 +230,8 @@ fn a_picture_that_claims_to_be_huge_is_refused_before_memory_is_taken() {
 
 #[test]
 fn files_of_a_film_are_named_by_their_layers() {
-    let kinds = [PICTURE, LayerKind::Alpha, LayerKind::Term(2), LayerKind::Aov(Aov::Depth)];
+    let kinds =
+        [PICTURE, LayerKind::Alpha, LayerKind::Term(Term::Diffuse), LayerKind::Aov(Aov::Depth)];
     let words = |format| Content::of(&kinds, format).into_iter().map(Content::word).collect();
     let apart: Vec<_> = words(Format::Png);
     assert_eq!(apart, [None, Some("diffuse"), Some("depth")]);

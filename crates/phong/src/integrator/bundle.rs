@@ -2,8 +2,8 @@
 
 use phong_bvh::{Ray, Rays8};
 
-use crate::reflectance::Terms8;
 use crate::sampling::{Sampler, Samplers8};
+use crate::terms::{Term, TermSet, Terms8};
 
 /// A ray from the camera.
 #[derive(Clone, Copy, Debug)]
@@ -50,23 +50,26 @@ impl From<CameraRay> for Bundle {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Radiance8 {
     /// The terms, linear and unclamped.
-    pub terms: Terms8,
+    pub(crate) terms: Terms8,
+    /// Those that any of the rays may have brought; the others are black.
+    pub(crate) brought: TermSet,
     /// The rays that met a surface, a bit each, the lowest for the first.
-    pub met: u32,
-    /// Whether any went on from there: otherwise there is neither reflection nor transmission.
-    pub went_on: bool,
+    pub(crate) met: u32,
 }
 
 impl Radiance8 {
     /// Nothing.
-    pub const NONE: Self = Self { terms: Terms8::NONE, met: 0, went_on: false };
+    pub const NONE: Self = Self { terms: Terms8::NONE, brought: TermSet::NONE, met: 0 };
 
     /// Nothing again, from rays of which these met a surface.
     #[inline(always)]
     pub(super) fn begin(&mut self, met: u32) {
-        let used = if self.went_on { 6 } else { Terms8::REFLECTION };
-        self.terms.0[..used].fill([[0.0; 8]; 3]);
-        (self.met, self.went_on) = (met, false);
+        for term in Term::ALL {
+            if self.brought.has(term) {
+                self.terms[term] = [[0.0; 8]; 3];
+            }
+        }
+        (self.brought, self.met) = (TermSet::NONE, met);
     }
 }
 

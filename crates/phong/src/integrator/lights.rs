@@ -10,8 +10,8 @@ use super::met::{Met, is_above, origins, same_material, to_eye};
 use crate::light::{Light, LightSample, Reach};
 use crate::math::Dir3;
 use crate::math::lanes::{Lanes3, direction, dot, get, load3, select3, store3};
-use crate::reflectance::{Terms, Terms8};
 use crate::sampling::{Samplers8, Use};
+use crate::terms::{Term, Terms};
 use crate::witness::{LightTold, Witness};
 
 /// What a light sends to the surfaces met.
@@ -140,7 +140,7 @@ impl Integrator<'_> {
                 {
                     let color = Rgb::from(get(&dressed.color, lane));
                     let more = material.ambient_of_light(color, self.scene.ambient(), &sample);
-                    out.terms.add(Terms8::AMBIENT, lane, more);
+                    out.terms.add(Term::Ambient, lane, more);
                 }
             }
         }
@@ -226,9 +226,9 @@ impl Kernel for Shade<'_> {
                     let share = f32x8::load_array(simd, sent.share);
                     let [c_d, c_s] = material.incident8(dot(n, l), color, light.colors(), share);
                     let same = mask32x8::from_bitmask(simd, same.into());
-                    let terms = &mut out.terms.0;
-                    add(simd, &mut terms[Terms8::DIFFUSE], same, diffuse, c_d);
-                    add(simd, &mut terms[Terms8::SPECULAR], same, specular, c_s);
+                    let terms = &mut out.terms;
+                    add(simd, &mut terms[Term::Diffuse], same, diffuse, c_d);
+                    add(simd, &mut terms[Term::Specular], same, specular, c_s);
                     continue;
                 }
                 for lane in lanes(same) {
@@ -242,8 +242,8 @@ impl Kernel for Shade<'_> {
                         Dir3::X
                     };
                     let terms = material.shade_light(n, tangent, e, color, &sample);
-                    out.terms.add(Terms8::DIFFUSE, lane, terms.diffuse);
-                    out.terms.add(Terms8::SPECULAR, lane, terms.specular);
+                    out.terms.add(Term::Diffuse, lane, terms.diffuse);
+                    out.terms.add(Term::Specular, lane, terms.specular);
                 }
             }
         }

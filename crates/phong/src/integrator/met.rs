@@ -9,7 +9,7 @@ use super::Integrator;
 use super::bundle::Radiance8;
 use crate::interaction::SurfaceInteraction;
 use crate::math::lanes::{direction, dot, get, load3, select3, set, splat3, store3};
-use crate::reflectance::Terms8;
+use crate::terms::{Term, TermSet};
 use crate::view::{Shading8, View};
 
 /// The surfaces that the rays of a bundle met; eight for eight rays. Where a ray met nothing, the
@@ -87,6 +87,8 @@ impl Kernel for Begin<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
+        /// What lights add to in any case, and the ambient term.
+        const LOCAL: TermSet = TermSet::of(&[Term::Ambient, Term::Diffuse, Term::Specular]);
         let Self { scene, background, height, rays, met, out } = self;
         let Met { hits, surfaces, dressed } = met;
         let mut index = 0;
@@ -96,7 +98,8 @@ impl Kernel for Begin<'_> {
             out.begin(met);
             let missed = rays.there & !met;
             if missed != 0 {
-                let to = &mut out.terms.0[Terms8::BACKGROUND];
+                out.brought = out.brought.with(Term::Background);
+                let to = &mut out.terms[Term::Background];
                 match background {
                     Background::Color(color) => {
                         let missed = mask32x8::from_bitmask(simd, missed.into());
@@ -118,15 +121,22 @@ impl Kernel for Begin<'_> {
             }
             let (ng, e) = (load3(simd, &surface.ng), to_eye(simd, rays));
             scene.shading8(simd, hits, ng, e, &mut index, dressed);
-            let ambient = &mut out.terms.0[Terms8::AMBIENT];
+            out.brought = out.brought.or(LOCAL);
             let mut left = met;
             while left != 0 {
                 let (number, same) = same_material(simd, &dressed.material, left);
                 left &= !same;
-                let color = load3(simd, &dressed.color);
-                let own = scene.materials()[number].ambient_of(color, scene.ambient());
+                let (material, color) = (&scene.materials()[number], load3(simd, &dressed.color));
                 let same = mask32x8::from_bitmask(simd, same.into());
+                let ambient = &mut out.terms[Term::Ambient];
+                let own = material.ambient_of(color, scene.ambient());
                 *ambient = store3(select3(same, own, load3(simd, ambient)));
+                if material.glows() {
+                    out.brought = out.brought.with(Term::Emission);
+                    let emission = &mut out.terms[Term::Emission];
+                    let own = material.emission_of(color);
+                    *emission = store3(select3(same, own, load3(simd, emission)));
+                }
             }
         }
     }

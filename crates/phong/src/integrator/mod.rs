@@ -5,7 +5,7 @@
 //! them in order and the hierarchy can use what they have in common. One ray takes this very road
 //! too, with seven lanes idle, which is how `explain` is told.
 //!
-//! [`Terms`]: crate::reflectance::Terms
+//! [`Terms`]: crate::terms::Terms
 
 mod bundle;
 mod lights;
@@ -21,7 +21,6 @@ use phong_scene::{Background, Rgb};
 use crate::interaction::SurfaceInteraction;
 use crate::material::Material;
 use crate::math::lanes::set;
-use crate::reflectance::{Terms, Terms8};
 use crate::sampling::{Sampler, Samplers8};
 use crate::view::View;
 use crate::witness::{Branch, Witness};
@@ -138,11 +137,11 @@ impl Integrator<'_> {
         if W::LISTENS {
             for (i, (rays8, out)) in rays.iter().zip(&*out).enumerate() {
                 for lane in lanes(rays8.there) {
-                    let Terms { background, ambient, .. } = out.terms.get(lane);
+                    let terms = out.terms.get(lane);
                     if out.met >> lane & 1 != 0 {
-                        witness.met(&rays8.get(lane), &met.at(rays, i, lane), ambient);
+                        witness.met(&rays8.get(lane), &met.at(rays, i, lane), terms);
                     } else {
-                        witness.missed(&rays8.get(lane), background);
+                        witness.missed(&rays8.get(lane), terms.background);
                     }
                 }
             }
@@ -177,12 +176,9 @@ impl Integrator<'_> {
             for (k, &Step { parent: (i, lane), weight, .. }) in from.iter().enumerate() {
                 let light = work.out[k / 8].terms.get(k % 8).total();
                 witness.left(branch, light);
-                let term = match branch {
-                    Branch::Reflection => Terms8::REFLECTION,
-                    Branch::Transmission => Terms8::TRANSMISSION,
-                };
-                set(&mut out[i].terms.0[term], lane, (weight * light).to_array());
-                out[i].went_on = true;
+                let term = branch.term();
+                set(&mut out[i].terms[term], lane, (weight * light).to_array());
+                out[i].brought = out[i].brought.with(term);
             }
         }
     }

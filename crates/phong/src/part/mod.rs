@@ -20,7 +20,7 @@ pub use join::{Join, JoinError};
 pub use settings::Settings;
 
 /// The first line of every part file: what it is, and the version of its format.
-const MAGIC: &str = "phong part 1\n";
+const MAGIC: &str = "phong part 2\n";
 
 /// The longest header that is read, in bytes.
 const MAX_HEADER: usize = 64 << 10;

@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use crate::aov::Aov;
 use crate::film::{Film, LayerKind, Window};
 use crate::image::{Bits, Encoding};
-use crate::reflectance::Terms;
 use crate::render::RenderOptions;
+use crate::terms::Term;
 
 /// What picture a part is of, and how it is to be written when it is whole.
 #[derive(Clone, Debug, PartialEq)]
@@ -154,10 +154,10 @@ impl Settings {
 }
 
 fn layer_of(name: &str) -> Option<LayerKind> {
-    let term = || Terms::NAMES.iter().position(|term| *term == name).map(LayerKind::Term);
     match name {
         "picture" => Some(LayerKind::Picture),
         "alpha" => Some(LayerKind::Alpha),
-        _ => term().or_else(|| Aov::from_name(name).map(LayerKind::Aov)),
+        _ => (Term::from_name(name).map(LayerKind::Term))
+            .or_else(|| Aov::from_name(name).map(LayerKind::Aov)),
     }
 }

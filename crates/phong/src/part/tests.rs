@@ -5,6 +5,7 @@ use crate::aov::Aov;
 use crate::film::Window;
 use crate::image::{Bits, Encoding};
 use crate::render::RenderOptions;
+use crate::terms::TermSet;
 
 const NO_LIMIT: u64 = u64::MAX;
 
@@ -13,7 +14,7 @@ fn settings(share: Option<(u32, u32)>) -> Settings {
     let options = RenderOptions {
         window: Window { x0: 1, y0: 2, x1: 40, y1: 30 },
         share,
-        terms: true,
+        terms: TermSet::ALL,
         aovs: vec![Aov::Depth, Aov::Normal],
         ..RenderOptions::of(&image)
     };
@@ -85,8 +86,10 @@ fn every_flipped_bit_is_noticed() {
 fn other_files_and_other_versions_are_told_apart() {
     assert!(matches!(read(b"\x89PNG\r\n\x1a\n0123456789"), Err(PartError::Unknown)));
     assert!(matches!(read(b""), Err(PartError::Unknown)));
-    let newer = String::from_utf8_lossy(MAGIC.as_bytes()).replace('1', "2");
-    assert!(matches!(read(newer.as_bytes()), Err(PartError::Version)));
+    for other in ["1", "3"] {
+        let other = String::from_utf8_lossy(MAGIC.as_bytes()).replace('2', other);
+        assert!(matches!(read(other.as_bytes()), Err(PartError::Version)));
+    }
 }
 
 #[test]

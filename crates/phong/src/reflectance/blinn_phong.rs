@@ -2,10 +2,11 @@
 
 use std::f32::consts::SQRT_2;
 
+use super::Incident;
 use super::scale::{Scale, Switches};
-use super::{Incident, Terms};
 use crate::math::lanes::{Real, add, dot};
 use crate::math::{Dir3, pow};
+use crate::terms::Terms;
 
 /// `k_d (L·N) C_d + k_s (N·H)^α C_s`, with `H = (L+E)/‖L+E‖`.
 #[derive(Clone, Copy, Debug, PartialEq)]

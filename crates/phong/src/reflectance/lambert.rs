@@ -1,8 +1,9 @@
 //! Lambert's cosine law: rough surfaces that look equally bright from everywhere.
 
-use super::{Incident, Terms};
+use super::Incident;
 use crate::math::Dir3;
 use crate::math::lanes::{Real, dot};
+use crate::terms::Terms;
 
 /// `k_d (L·N) C_d`.
 ///

@@ -13,7 +13,6 @@ pub mod microfacet;
 mod oren_nayar;
 pub mod phong;
 mod scale;
-mod terms;
 mod ward;
 
 pub use blinn_phong::{BlinnPhong, Falloff};
@@ -22,15 +21,16 @@ pub use microfacet::{Distribution, Microfacet};
 pub use oren_nayar::{OrenNayar, OrenNayarForm};
 pub use phong::Phong;
 pub use scale::Switches;
-pub use terms::{Incident, Terms, Terms8};
 pub use ward::Ward;
 
 pub use phong_scene::{Fresnel, Shadowing, WardForm};
 
 use fearless_simd::{Simd, f32x8};
+use phong_scene::Rgb;
 
 use crate::math::Dir3;
 use crate::math::lanes::Real;
+use crate::terms::Terms;
 
 /// Cosines up to this are 0 but for rounding; what is divided by them would be noise, or ∞.
 const HORIZON: f32 = 1e-9;
@@ -38,6 +38,19 @@ const HORIZON: f32 = 1e-9;
 /// Roughnesses below this count as this: a narrower lobe is a mirror, which f32 cannot hold and
 /// which no light but the mirror ray would ever meet.
 pub const NARROWEST: f32 = 1e-4;
+
+/// Light that arrives at a point from one light, already tinted by the material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Incident {
+    /// To the light.
+    pub l: Dir3,
+    /// `C_{m,d}`: the light's colour, attenuated, times the material's diffuse colour. No cosine.
+    pub c_d: Rgb,
+    /// `C_{m,s}`: the light's specular colour, attenuated, times the material's specular colour.
+    pub c_s: Rgb,
+    /// The material's diffuse colour alone: what tints light once more that meets two facets.
+    pub color: Rgb,
+}
 
 /// How a surface answers light: one of the models, with its numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]

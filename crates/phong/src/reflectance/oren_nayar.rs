@@ -6,8 +6,9 @@ use std::f32::consts::FRAC_1_PI;
 
 use phong_scene::Rgb;
 
-use super::{HORIZON, Incident, Terms};
+use super::{HORIZON, Incident};
 use crate::math::{Dir3, acos};
+use crate::terms::Terms;
 
 /// `π f (N·L) C`, with `f = ρ/π (direct + ρ interreflected)` and ρ = `k_d` × colour.
 ///

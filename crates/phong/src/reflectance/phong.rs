@@ -1,9 +1,10 @@
 //! Phong's model: a highlight around the mirror image of the light.
 
+use super::Incident;
 use super::scale::{Scale, Switches};
-use super::{Incident, Terms};
 use crate::math::Dir3;
 use crate::math::lanes::{Real, dot, mirror};
+use crate::terms::Terms;
 
 /// `k_d (L·N) C_d + k_s (R·E)^α C_s`, with `R = 2(L·N)N − L`.
 #[derive(Clone, Copy, Debug, PartialEq)]

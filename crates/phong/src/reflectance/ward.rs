@@ -4,8 +4,9 @@ use std::f32::consts::PI;
 
 use phong_scene::WardForm;
 
-use super::{HORIZON, Incident, NARROWEST, Terms};
+use super::{HORIZON, Incident, NARROWEST};
 use crate::math::{Dir3, Frame, exp};
+use crate::terms::Terms;
 
 /// `k_d (L·N) C_d + k_s π f (N·L) C_s`, with f the anisotropic Gaussian lobe.
 #[derive(Clone, Copy, Debug, PartialEq)]

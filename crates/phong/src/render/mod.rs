@@ -17,7 +17,7 @@ use thiserror::Error;
 use crate::aov::Aov;
 use crate::film::{Film, LayerKind, Window};
 use crate::integrator::{Integrator, RayCounts};
-use crate::reflectance::Terms;
+use crate::terms::TermSet;
 use crate::view::View;
 
 /// What to render.
@@ -43,8 +43,8 @@ pub struct RenderOptions {
     pub background: Background,
     /// Edge of a tile in pixels, ≥ 1; changes no bit of the picture.
     pub tile: u32,
-    /// Whether to keep a layer for each term.
-    pub terms: bool,
+    /// Which terms to keep a layer for.
+    pub terms: TermSet,
     /// Which other variables to keep.
     pub aovs: Vec<Aov>,
 }
@@ -66,7 +66,7 @@ impl RenderOptions {
             filter: image.filter,
             background: image.background,
             tile: Self::TILE,
-            terms: false,
+            terms: TermSet::NONE,
             aovs: Vec::new(),
         }
     }
@@ -74,9 +74,7 @@ impl RenderOptions {
     /// The layers of the film: the picture, its alpha, the terms and variables asked for.
     pub fn layers(&self) -> Vec<LayerKind> {
         let mut kinds = vec![LayerKind::Picture, LayerKind::Alpha];
-        if self.terms {
-            kinds.extend((0..Terms::NAMES.len()).map(LayerKind::Term));
-        }
+        kinds.extend(self.terms.iter().map(LayerKind::Term));
         kinds.extend(self.aovs.iter().copied().map(LayerKind::Aov));
         kinds
     }

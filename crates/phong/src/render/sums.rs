@@ -5,22 +5,28 @@ use phong_bvh::{Bvh, Kernel};
 use phong_scene::Background;
 
 use crate::integrator::Radiance8;
-use crate::reflectance::Terms8;
+use crate::terms::{PerTerm, Term, TermSet, Terms8};
 
 /// The sums of eight pixels.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
 pub(crate) struct Sums8 {
     /// Of each term red, green and blue.
-    terms: [[[f64; 8]; 3]; 6],
+    terms: PerTerm<[[f64; 8]; 3]>,
+    /// The terms that anything was added to; the others are 0.
+    brought: TermSet,
     alpha: [f64; 8],
     weight: [f64; 8],
 }
 
 impl Sums8 {
     /// No samples.
-    pub(crate) const NONE: Self =
-        Self { terms: [[[0.0; 8]; 3]; 6], alpha: [0.0; 8], weight: [0.0; 8] };
+    pub(crate) const NONE: Self = Self {
+        terms: PerTerm::splat([[0.0; 8]; 3]),
+        brought: TermSet::NONE,
+        alpha: [0.0; 8],
+        weight: [0.0; 8],
+    };
 
     /// Adds samples to sums: one to each eight pixels, then the next to each, and so on. One that
     /// brought nothing, outside a fisheye's image circle, still has its weight.
@@ -61,15 +67,11 @@ impl Kernel for Add<'_> {
             let weight = weight.widen();
             plus(simd, &mut sums.weight, weight);
             // Of what is black everywhere nothing is added.
-            for term in 0..6 {
-                let wanted = match term {
-                    Terms8::BACKGROUND => sample.met != 0xff,
-                    Terms8::REFLECTION | Terms8::TRANSMISSION => sample.went_on,
-                    _ => sample.met != 0,
-                };
-                if wanted {
+            sums.brought = sums.brought.or(sample.brought);
+            for term in Term::ALL {
+                if sample.brought.has(term) {
                     for channel in 0..3 {
-                        let value = wide(simd, &sample.terms.0[term][channel]);
+                        let value = wide(simd, &sample.terms[term][channel]);
                         plus(simd, &mut sums.terms[term][channel], times(weight, value));
                     }
                 }
@@ -107,7 +109,7 @@ impl Kernel for Resolve<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> Self::Output {
-        let Self { sums: Sums8 { terms, alpha, weight }, samples, background } = self;
+        let Self { sums: Sums8 { terms, brought, alpha, weight }, samples, background } = self;
         // Signed weights that all but cancel would blow up what little is left.
         let least = f64x4::splat(simd, 0.25 * f64::from(samples));
         let total = |half: usize| {
@@ -120,9 +122,11 @@ impl Kernel for Resolve<'_> {
             (l / low).narrow(h / high)
         };
         let mut out = Terms8::NONE;
-        for (sum, term) in terms.iter().zip(&mut out.0) {
-            for (sum, channel) in sum.iter().zip(term) {
-                *channel = resolved(sum).into();
+        for term in Term::ALL {
+            if brought.has(term) {
+                for (sum, channel) in terms[term].iter().zip(&mut out[term]) {
+                    *channel = resolved(sum).into();
+                }
             }
         }
         let mut share: [f32; 8] = resolved(alpha).into();

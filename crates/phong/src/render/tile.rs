@@ -13,8 +13,8 @@ use crate::film::{LayerKind, Window};
 use crate::filter::Filter;
 use crate::integrator::{CameraRay, Integrator, RayCounts, Work};
 use crate::math::lanes::{Lanes3, store3};
-use crate::reflectance::Terms8;
 use crate::sampling::Sampler;
+use crate::terms::{Terms, Terms8};
 use crate::witness::{Branch, LightTold, Witness};
 
 /// Pixels are visited in squares of this edge within a tile: rays near one another in a bundle
@@ -185,7 +185,7 @@ impl LightsSeen {
 
 impl Witness for LightsSeen {
     fn missed(&mut self, _: &phong_bvh::Ray, _: Rgb) {}
-    fn met(&mut self, _: &phong_bvh::Ray, _: &crate::interaction::SurfaceInteraction, _: Rgb) {}
+    fn met(&mut self, _: &phong_bvh::Ray, _: &crate::interaction::SurfaceInteraction, _: Terms) {}
     fn lit(&mut self, told: &LightTold) {
         self.lights += 1;
         self.seen += u32::from(told.visible);
@@ -232,7 +232,7 @@ impl<'a, R: Iterator<Item = (&'a Pixels8, (&'a Terms8, [f32; 8]))>> Kernel for P
                     }
                     LayerKind::Alpha => values[at..][..len].copy_from_slice(&alpha[..len]),
                     LayerKind::Term(term) => {
-                        put_colors(&mut values[at..][..3 * len], &terms.0[*term]);
+                        put_colors(&mut values[at..][..3 * len], &terms[*term]);
                     }
                     LayerKind::Aov(_) => {}
                 }

@@ -3,7 +3,8 @@
 use phong::film::Film;
 use phong::image::Picture;
 use phong::render::{Cancel, RenderOptions, render as trace};
-use phong_lab::compare::{TermDifference, terms};
+use phong::terms::TermSet;
+use phong_lab::compare::{TermDifference, terms as between};
 use phong_lab::fit::{Remodelled, Target, remodel};
 use phong_scene::Scene;
 use serde_json::{Value, json};
@@ -68,14 +69,13 @@ pub(super) fn render(
         seed: args.image.seed.or(Some(of_a.seed)),
         ..args.image
     };
+    let terms = TermSet::of_scene(&a.scene).or(TermSet::of_scene(&b.scene));
     let mut sides = names.map(|name| Side { name: name.clone(), model: None, changed: Vec::new() });
     let mut films = Vec::with_capacity(2);
     let mut told = ([0, 0], 1, [0, 0]);
     for (k, mut input) in [a, b].into_iter().enumerate() {
-        let options = RenderOptions {
-            terms: true,
-            ..plan::settle(&alike, &ViewArgs::default(), &mut input)?
-        };
+        let options =
+            RenderOptions { terms, ..plan::settle(&alike, &ViewArgs::default(), &mut input)? };
         if let Some(target) = models[k] {
             sides[k].model = Some(target);
             sides[k].changed = remodelled(&mut input, target);
@@ -83,7 +83,7 @@ pub(super) fn render(
         told = (options.size, options.samples, [options.window.x0, options.window.y0]);
         films.push(draw(input.scene, &inputs[k], &options)?);
     }
-    let terms = terms(&films[0], &films[1]).map_err(|e| Failure::System(e.to_string()))?;
+    let terms = between(&films[0], &films[1]).map_err(|e| Failure::System(e.to_string()))?;
     let pictures = [Picture::of_film(&films[0]), Picture::of_film(&films[1])];
     let (size, samples, corner) = told;
     Ok((pictures, Scenes { terms, sides, size, samples, corner }))
@@ -98,7 +98,7 @@ fn draw(scene: Scene, args: &InputArgs, options: &RenderOptions) -> Result<Film,
     let window = &options.window;
     let pixels = u64::from(window.width()) * u64::from(window.height());
     // Two films with their terms, the pictures made of them, and their differences.
-    let beside = pixels * 4 * (2 * 22 + 2 * 4 + 8);
+    let beside = pixels * 4 * (2 * 25 + 2 * 4 + 8);
     let scene = compile(scene, args, beside)?;
     let cancelled = |cancelled: phong::render::Cancelled| Failure::System(cancelled.to_string());
     Ok(trace(&scene, options, &|_, _| {}, &Cancel::new()).map_err(cancelled)?.film)
@@ -130,7 +130,7 @@ impl Scenes {
                     "worst": t.worst,
                     "share": t.share,
                 });
-                (t.name.to_owned(), told)
+                (t.term.name().to_owned(), told)
             })
             .collect();
         let sides = self.sides.iter().map(|side| {

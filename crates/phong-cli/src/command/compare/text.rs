@@ -134,7 +134,7 @@ fn write_scenes(out: &mut String, scenes: &Scenes, told: &Comparison, args: &Arg
     )?;
     for t in &scenes.terms {
         let [a, b, mean, max] = [t.mean_a, t.mean_b, t.mean, t.max].map(brief);
-        write!(out, "{:<13} {a:>10}  {b:>10}  {mean:>10}  {max:>10}  ", t.name)?;
+        write!(out, "{:<13} {a:>10}  {b:>10}  {mean:>10}  {max:>10}  ", t.term.name())?;
         if t.max == 0.0 {
             writeln!(out, "{:>7}  -", "-")?;
         } else {

@@ -11,8 +11,9 @@ pub use distribution::{Distribution, Lean};
 pub use shadowing::visible;
 
 use super::fresnel::mirrored;
-use super::{HORIZON, Incident, Terms};
+use super::{HORIZON, Incident};
 use crate::math::Dir3;
+use crate::terms::Terms;
 
 /// `k_d (L·N) C_d + k_s π f (N·L) C_s`, with `f = D G F / (4 (N·L)(N·E))`.
 ///
