@@ -295,7 +295,12 @@ impl<'a> Reader<'a> {
             },
             shape: part.shape,
             material,
-            transform: transform * part.transform,
+            // A product with the identity would lose the sign of a 0.
+            transform: if part.transform == DAffine3::IDENTITY {
+                transform
+            } else {
+                transform * part.transform
+            },
             place: place.clone(),
         };
         parts.into_iter().map(draft).collect()
