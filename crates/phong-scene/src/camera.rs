@@ -22,6 +22,8 @@
 
 use glam::DVec3;
 
+use crate::limits::Range;
+
 /// Where the picture is taken from.
 ///
 /// Right-handed: forward = `look_at − eye`, right = forward × up, image up = right × forward.
@@ -76,6 +78,13 @@ pub enum CameraKind {
     },
     /// Equirectangular, 360° × 180°, forward in the middle.
     Panorama,
+}
+
+impl CameraKind {
+    /// The angles of a perspective camera, degrees.
+    pub(crate) const PERSPECTIVE: Range = Range::open(0.0, 180.0);
+    /// The angles of a fisheye's image circle, degrees.
+    pub(crate) const FISHEYE: Range = Range::above(0.0, 360.0);
 }
 
 impl Default for CameraKind {

@@ -39,6 +39,7 @@ use glam::DVec3;
 
 use crate::color::Rgb;
 use crate::diagnostic::Place;
+use crate::limits::Range;
 
 /// One light of the sum over lights.
 #[derive(Clone, Debug, PartialEq)]
@@ -105,6 +106,15 @@ pub enum LightKind {
         /// As for a point light.
         radius: f64,
     },
+}
+
+impl LightKind {
+    /// Half-angles of full light, degrees.
+    pub(crate) const CONE: Range = Range::closed(0.0, 90.0);
+    /// Half-angles where a cone ends, degrees.
+    pub(crate) const EDGE: Range = Range::above(0.0, 90.0);
+    /// Angles across a luminous disc, degrees.
+    pub(crate) const ANGLE: Range = Range { max_included: false, ..Range::closed(0.0, 180.0) };
 }
 
 impl Default for LightKind {

@@ -1,7 +1,62 @@
-//! What a reader may use at most, so that no input can exhaust the machine.
+//! Limits of numbers, and what a reader may use at most, so that no input can exhaust the machine.
 
 /// The largest magnitude of any number in a scene: its square still fits an f32.
 pub(crate) const LARGEST: f64 = 1e18;
+
+/// An interval of numbers.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Range {
+    /// The lower end.
+    pub(crate) min: f64,
+    /// The upper end.
+    pub(crate) max: f64,
+    /// Whether `min` itself is in it.
+    pub(crate) min_included: bool,
+    /// Whether `max` itself is in it.
+    pub(crate) max_included: bool,
+}
+
+impl Range {
+    /// Above 0.
+    pub(crate) const POSITIVE: Self =
+        Self { min: 0.0, max: LARGEST, min_included: false, max_included: true };
+    /// 0 or above.
+    pub(crate) const NOT_NEGATIVE: Self = Self::closed(0.0, LARGEST);
+
+    /// From `min` to `max`, both included.
+    pub(crate) const fn closed(min: f64, max: f64) -> Self {
+        Self { min, max, min_included: true, max_included: true }
+    }
+
+    /// From `min` to `max`, neither included.
+    pub(crate) const fn open(min: f64, max: f64) -> Self {
+        Self { min, max, min_included: false, max_included: false }
+    }
+
+    /// From `min`, not included, to `max`, included.
+    pub(crate) const fn above(min: f64, max: f64) -> Self {
+        Self { min, max, min_included: false, max_included: true }
+    }
+
+    /// Whether it holds `v`.
+    pub(crate) fn holds(&self, v: f64) -> bool {
+        (if self.min_included { v >= self.min } else { v > self.min })
+            && (if self.max_included { v <= self.max } else { v < self.max })
+    }
+
+    /// What a number in it is: `above 0`, `from 0 to 90`, `above 0 and below 180`.
+    pub(crate) fn words(&self) -> String {
+        let Self { min, max, min_included, max_included } = *self;
+        let lower = if min_included { format!("from {min}") } else { format!("above {min}") };
+        match max_included {
+            _ if max >= LARGEST && min_included => format!("{min} or above"),
+            _ if max >= LARGEST => lower,
+            true if min_included => format!("{lower} to {max}"),
+            true => format!("{lower} up to {max}"),
+            false => format!("{lower} and below {max}"),
+        }
+    }
+}
 
 /// Upper bounds that every reader takes; going over one is an error at its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -18,6 +73,9 @@ pub struct Limits {
     pub triangles: u64,
     /// Includes and groups within one another. Default 32.
     pub nesting: u32,
+    /// Whether to draw what can be drawn of a damaged model: what is there of a file that is cut
+    /// short, and all faces but those that use positions out of range. Default: no, they are errors.
+    pub lenient: bool,
 }
 
 impl Default for Limits {
@@ -28,6 +86,7 @@ impl Default for Limits {
             vertices: u64::from(u32::MAX) - 1,
             triangles: u64::from(u32::MAX) - 1,
             nesting: 32,
+            lenient: false,
         }
     }
 }

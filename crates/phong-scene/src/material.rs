@@ -58,6 +58,7 @@
 
 use crate::color::Rgb;
 use crate::diagnostic::Place;
+use crate::limits::Range;
 
 /// Index into [`Scene::materials`](crate::Scene::materials).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -143,6 +144,9 @@ impl Default for Material {
 }
 
 impl Material {
+    /// Indices of refraction.
+    pub(crate) const IOR: Range = Range::above(0.0, 100.0);
+
     /// Whether it has light of its own.
     pub fn glows(&self) -> bool {
         self.k_e > 0.0
@@ -188,6 +192,13 @@ pub enum Model {
         /// Which normalisation.
         form: WardForm,
     },
+}
+
+impl Model {
+    /// Roughnesses: Beckmann's m, GGX's α, Ward's.
+    pub(crate) const ROUGHNESS: Range = Range::above(0.0, 10.0);
+    /// Standard deviations of slopes, degrees.
+    pub(crate) const SIGMA: Range = Range::closed(0.0, 90.0);
 }
 
 /// The distribution of microfacet normals.

@@ -37,3 +37,9 @@ pub fn cofactor(m: DMat3) -> DMat3 {
     let c = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
     if m.determinant() < 0.0 { -c } else { c }
 }
+
+/// Whether a matrix can be undone, in numbers an f64 holds.
+pub(crate) fn is_regular(matrix: DMat3) -> bool {
+    let inverse = matrix.inverse();
+    matrix.determinant() != 0.0 && inverse.is_finite()
+}

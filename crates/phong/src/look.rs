@@ -2,7 +2,7 @@
 //!
 //! All of it is cheap to make and to change, and nothing of it is needed to build trees.
 
-use phong_scene::{Background, Camera, Light, Material, Rgb, Scene};
+use phong_scene::{Background, Camera, Diagnostic, Image, Light, Material, Rgb, Scene};
 
 /// What a geometry looks like, as it was written. Each part can be replaced.
 ///
@@ -31,5 +31,13 @@ impl Look {
             ambient: scene.ambient,
             background: scene.image.background,
         }
+    }
+    /// What is wrong with it, by the rules of [`Scene::check`].
+    #[must_use]
+    pub fn check(&self) -> Vec<Diagnostic> {
+        let Self { camera, lights, materials, ambient, background } = self.clone();
+        let image = Image { background, ..Image::default() };
+        let scene = Scene { image, camera, ambient, lights, materials, ..Scene::default() };
+        scene.check().into_iter().filter(Diagnostic::is_error).collect()
     }
 }

@@ -6,11 +6,11 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 use phong_bvh::{Bvh, Coordinates, Hit, Ray, Surface};
-use phong_scene::{Background, Rgb, Scene};
+use phong_scene::{Background, Diagnostic, Rgb, Scene};
 use thiserror::Error;
 
 use crate::camera::Camera;
-use crate::geometry::{Geometry, GeometryError, GeometryOptions, ObjectRecord};
+use crate::geometry::{Geometry, GeometryError, GeometryOptions, ObjectRecord, told};
 use crate::interaction::SurfaceInteraction;
 use crate::light::Light;
 use crate::look::Look;
@@ -41,6 +41,10 @@ pub enum ViewError {
     /// The geometry cannot be built.
     #[error(transparent)]
     Geometry(#[from] GeometryError),
+    /// The camera, a light, a material, or the ambient light is broken, as
+    /// [`Scene::check`](phong_scene::Scene::check) says: the caller's fault.
+    #[error("{}", told(.0))]
+    Look(Vec<Diagnostic>),
     /// A surface names a material that the look does not have: the caller's fault.
     #[error("a surface is of material {number}, and the look has {count} materials")]
     NoMaterial {
@@ -64,8 +68,12 @@ impl View {
     /// A geometry with a look: nothing is built.
     ///
     /// # Errors
-    /// [`ViewError::NoMaterial`].
+    /// [`ViewError::Look`], [`ViewError::NoMaterial`].
     pub fn new(geometry: Arc<Geometry>, look: Look) -> Result<Self, ViewError> {
+        let broken = look.check();
+        if !broken.is_empty() {
+            return Err(ViewError::Look(broken));
+        }
         let count = look.materials.len();
         if geometry.materials() as usize > count {
             return Err(ViewError::NoMaterial { number: geometry.materials() - 1, count });

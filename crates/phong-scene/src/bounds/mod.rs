@@ -86,10 +86,8 @@ impl Mesh {
             .par_iter()
             .with_min_len(1 << 12)
             .fold(empty, |b, triangle| {
-                triangle.iter().fold(b, |(min, max), &i| {
-                    let p = self.positions[i as usize];
-                    (min.min(p), max.max(p))
-                })
+                let corners = triangle.iter().filter_map(|&i| self.positions.get(i as usize));
+                corners.fold(b, |(min, max), p| (min.min(*p), max.max(*p)))
             })
             .reduce(empty, join)
     }
@@ -131,20 +129,25 @@ impl Scene {
     }
 }
 
-fn bounds_of(objects: &[Object], groups: &[Bounds]) -> Bounds {
-    let bounds = |object: &Object| {
-        match &object.shape {
+impl Object {
+    /// The smallest box that holds it, of its instance the box around its group's; empty if it has
+    /// no end. `groups` are the boxes of the groups.
+    pub(crate) fn bounds(&self, groups: &[Bounds]) -> Bounds {
+        match &self.shape {
             // Without arithmetic in between, and in one pass.
-            Shape::Mesh(mesh) if object.transform == DAffine3::IDENTITY => return mesh.bounds(),
-            Shape::Points(p) if object.transform == DAffine3::IDENTITY => return p.bounds(),
+            Shape::Mesh(mesh) if self.transform == DAffine3::IDENTITY => return mesh.bounds(),
+            Shape::Points(p) if self.transform == DAffine3::IDENTITY => return p.bounds(),
             _ => {}
         }
-        object.reach(AXES, groups).map_or(Bounds::EMPTY, |[a, b, c, d, e, f]| Bounds {
+        self.reach(AXES, groups).map_or(Bounds::EMPTY, |[a, b, c, d, e, f]| Bounds {
             min: -DVec3::new(d, e, f),
             max: DVec3::new(a, b, c),
         })
-    };
-    objects.iter().map(bounds).fold(Bounds::EMPTY, Bounds::union)
+    }
+}
+
+fn bounds_of(objects: &[Object], groups: &[Bounds]) -> Bounds {
+    objects.iter().map(|object| object.bounds(groups)).fold(Bounds::EMPTY, Bounds::union)
 }
 
 fn empty() -> (Vec3, Vec3) {
@@ -263,7 +266,7 @@ mod tests {
     #[test]
     fn the_origin_of_bulk_data_is_added_in_f64() {
         let origin = DVec3::new(1e9, 0.0, 0.0);
-        let points = Points { origin, spheres: vec![[0.25, 0.0, 0.0, 0.125]], colors: Vec::new() };
+        let points = Points { origin, spheres: vec![[0.25, 0.0, 0.0, 0.125]], ..Points::default() };
         close(points.bounds(), [1e9 + 0.125, -0.125, -0.125], [1e9 + 0.375, 0.125, 0.125]);
         let stray = Vec3::splat(1e6);
         let mesh = Mesh {

@@ -154,6 +154,16 @@ pub fn srgb_encode(v: f64) -> f64 {
     if v <= 0.003_130_8 { v * 12.92 } else { 1.055 * libm::pow(v, 1.0 / 2.4) - 0.055 }
 }
 
+/// Whether these are colours counted up to 255: whole numbers, and one of them at least 2.
+pub(crate) fn are_bytes(mut colors: impl Iterator<Item = Rgb>) -> bool {
+    let mut largest = 0.0_f32;
+    let whole = colors.all(|color| {
+        largest = largest.max(color.max_channel());
+        color.to_array().iter().all(|&c| c.fract() == 0.0 && (0.0..=255.0).contains(&c))
+    });
+    whole && largest >= 2.0
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -69,8 +69,10 @@ pub fn read(path: &str, format: Option<Format>, source: &dyn Source, limits: &Li
         return Reading { scene: None, bare: true, diagnostics };
     };
     let bare = fragment.camera.is_none() && fragment.lights.is_empty();
-    let scene = Some(frame(fragment, &Framing::default(), &place));
-    Reading { scene, bare, diagnostics }
+    let scene = frame(fragment, &Framing::default(), &place);
+    diagnostics.extend(scene.check());
+    let sound = !diagnostics.iter().any(Diagnostic::is_error);
+    Reading { scene: sound.then_some(scene), bare, diagnostics }
 }
 
 /// How a scene is to be written.
@@ -114,7 +116,8 @@ impl Scene {
     /// apart from the numbers of objects where a mesh of several materials becomes several.
     ///
     /// # Errors
-    /// What makes the scene one that the format cannot hold at all.
+    /// What makes the scene one that the format cannot hold at all, or the first error of
+    /// [`Scene::check`].
     ///
     /// ```
     /// use phong_scene::{ExportOptions, Limits, Memory, read};
@@ -134,6 +137,9 @@ impl Scene {
             let help = format!("write {}", endings(&Format::writable(), "or"));
             return Err(Box::new(Diagnostic::error(message, None).with_help(help)));
         };
+        if let Some(error) = self.check().into_iter().find(Diagnostic::is_error) {
+            return Err(Box::new(error));
+        }
         let ExportOptions { format, ply, bare, max_bytes } = *options;
         let writing = Writing { format: format.name(), ply, bare, max_bytes };
         let mut account = Account::default();

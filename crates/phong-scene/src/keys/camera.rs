@@ -1,6 +1,8 @@
 //! The camera's keys.
 
-use super::{Default, Key, Kind, Range, Table};
+use super::{Default, Key, Kind, Table};
+use crate::camera::CameraKind;
+use crate::limits::Range;
 
 /// `[camera]`.
 pub(crate) static CAMERA: Table = Table {
@@ -29,7 +31,7 @@ pub(crate) static CAMERA: Table = Table {
         ),
         Key::new(
             "fov",
-            Kind::Number(Range::open(0.0, 180.0)),
+            Kind::Number(CameraKind::PERSPECTIVE),
             Default::Number(40.0),
             "Vertical field of view, degrees.",
         )
@@ -43,7 +45,7 @@ pub(crate) static CAMERA: Table = Table {
         .only(&["orthographic"]),
         Key::new(
             "fov",
-            Kind::Number(Range::above(0.0, 360.0)),
+            Kind::Number(CameraKind::FISHEYE),
             Default::Number(180.0),
             "Full angle of the image circle, degrees; it touches the nearer edges.",
         )

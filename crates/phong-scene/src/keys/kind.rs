@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::Table;
-use crate::limits::LARGEST;
+use crate::limits::Range;
 use crate::wording::list;
 
 /// What may stand as a key's value. No number is ever NaN, infinite or beyond [`LARGEST`].
@@ -105,61 +105,6 @@ impl Kind {
             Self::Tables(_) => "a list of tables".to_owned(),
             Self::Named(_) => "tables by name".to_owned(),
             Self::NotYet => "not built yet".to_owned(),
-        }
-    }
-}
-
-/// An interval of numbers.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Range {
-    /// The lower end.
-    pub(crate) min: f64,
-    /// The upper end.
-    pub(crate) max: f64,
-    /// Whether `min` itself is in it.
-    pub(crate) min_included: bool,
-    /// Whether `max` itself is in it.
-    pub(crate) max_included: bool,
-}
-
-impl Range {
-    /// Above 0.
-    pub(crate) const POSITIVE: Self =
-        Self { min: 0.0, max: LARGEST, min_included: false, max_included: true };
-    /// 0 or above.
-    pub(crate) const NOT_NEGATIVE: Self = Self::closed(0.0, LARGEST);
-
-    /// From `min` to `max`, both included.
-    pub(crate) const fn closed(min: f64, max: f64) -> Self {
-        Self { min, max, min_included: true, max_included: true }
-    }
-
-    /// From `min` to `max`, neither included.
-    pub(crate) const fn open(min: f64, max: f64) -> Self {
-        Self { min, max, min_included: false, max_included: false }
-    }
-
-    /// From `min`, not included, to `max`, included.
-    pub(crate) const fn above(min: f64, max: f64) -> Self {
-        Self { min, max, min_included: false, max_included: true }
-    }
-
-    /// Whether it holds `v`.
-    pub(crate) fn holds(&self, v: f64) -> bool {
-        (if self.min_included { v >= self.min } else { v > self.min })
-            && (if self.max_included { v <= self.max } else { v < self.max })
-    }
-
-    /// What a number in it is: `above 0`, `from 0 to 90`, `above 0 and below 180`.
-    pub(crate) fn words(&self) -> String {
-        let Self { min, max, min_included, max_included } = *self;
-        let lower = if min_included { format!("from {min}") } else { format!("above {min}") };
-        match max_included {
-            _ if max >= LARGEST && min_included => format!("{min} or above"),
-            _ if max >= LARGEST => lower,
-            true if min_included => format!("{lower} to {max}"),
-            true => format!("{lower} up to {max}"),
-            false => format!("{lower} and below {max}"),
         }
     }
 }

@@ -1,6 +1,8 @@
 //! The lights' keys.
 
-use super::{Default, Key, Kind, Range, Table};
+use super::{Default, Key, Kind, Table};
+use crate::light::LightKind;
+use crate::limits::Range;
 
 /// `[[light]]`.
 pub(crate) static LIGHT: Table = Table {
@@ -33,14 +35,14 @@ pub(crate) static LIGHT: Table = Table {
             .only(&["spot"]),
         Key::new(
             "cone",
-            Kind::Number(Range::closed(0.0, 90.0)),
+            Kind::Number(LightKind::CONE),
             Default::Required,
             "Half-angle of full light, degrees.",
         )
         .only(&["spot"]),
         Key::new(
             "edge",
-            Kind::Number(Range::above(0.0, 90.0)),
+            Kind::Number(LightKind::EDGE),
             Default::Said("`cone`"),
             "Half-angle where the light ends, degrees, not below `cone`; between them \
              smoothstep in the cosine.",
@@ -80,7 +82,7 @@ pub(crate) static LIGHT: Table = Table {
         .only(&["point", "spot"]),
         Key::new(
             "angle",
-            Kind::Number(Range { max_included: false, ..Range::closed(0.0, 180.0) }),
+            Kind::Number(LightKind::ANGLE),
             Default::Number(0.0),
             "Degrees across of the luminous disc; 0: hard shadows.",
         )

@@ -1,6 +1,8 @@
 //! The materials' keys.
 
-use super::{Default, Key, Kind, Range, Table};
+use super::{Default, Key, Kind, Table};
+use crate::limits::Range;
+use crate::material::{Material, Model};
 
 /// The models with a power lobe.
 const LOBES: &[&str] = &["phong", "blinn-phong", "blinn-fast"];
@@ -80,7 +82,7 @@ pub(crate) static MATERIAL: Table = Table {
         .only(&["cook-torrance"]),
         Key::new(
             "roughness",
-            Kind::Number(Range::above(0.0, 10.0)),
+            Kind::Number(Model::ROUGHNESS),
             Default::Number(0.3),
             "Beckmann's m or GGX's α, as they stand in the formulas (not squared); Blinn's \
              distribution takes `shininess` instead.",
@@ -126,7 +128,7 @@ pub(crate) static MATERIAL: Table = Table {
         .only(FACETS),
         Key::new(
             "sigma",
-            Kind::Number(Range::closed(0.0, 90.0)),
+            Kind::Number(Model::SIGMA),
             Default::Number(20.0),
             "Standard deviation of the facets' slope angle, degrees; 0 is Lambert.",
         )
@@ -140,14 +142,14 @@ pub(crate) static MATERIAL: Table = Table {
         .only(&["oren-nayar"]),
         Key::new(
             "roughness_x",
-            Kind::Number(Range::above(0.0, 10.0)),
+            Kind::Number(Model::ROUGHNESS),
             Default::Number(0.2),
             "Roughness along the tangent.",
         )
         .only(&["ward"]),
         Key::new(
             "roughness_y",
-            Kind::Number(Range::above(0.0, 10.0)),
+            Kind::Number(Model::ROUGHNESS),
             Default::Said("`roughness_x`"),
             "Roughness across the tangent.",
         )
@@ -175,7 +177,7 @@ pub(crate) static MATERIAL: Table = Table {
         Key::new("transmission", Kind::Color, Default::Number(0.0), "Weight of the refracted ray."),
         Key::new(
             "ior",
-            Kind::Number(Range::above(0.0, 100.0)),
+            Kind::Number(Material::IOR),
             Default::Number(1.5),
             "Index of refraction of the inside relative to the outside.",
         ),

@@ -12,7 +12,7 @@ mod scene;
 mod schema;
 mod shape;
 
-pub(crate) use kind::{Default, Kind, Range};
+pub(crate) use kind::{Default, Kind};
 pub(crate) use light::LIGHT;
 pub(crate) use material::MATERIAL;
 pub use reference::reference_markdown;

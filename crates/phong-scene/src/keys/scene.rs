@@ -5,6 +5,7 @@ use super::light::LIGHT;
 use super::material::MATERIAL;
 use super::shape::{GROUP, SHAPES};
 use super::{Default, Key, Kind, Table};
+use crate::scene::Image;
 
 /// A scene file as a whole.
 pub(crate) static SCENE: Table = Table {
@@ -76,7 +77,7 @@ pub(crate) static IMAGE: Table = Table {
         Key::new("size", Kind::Size, Default::Size([960, 540]), "Width and height in pixels."),
         Key::new(
             "samples",
-            Kind::Integer(1, 1_000_000),
+            Kind::Integer(1, Image::MOST_SAMPLES as u64),
             Default::Integer(16),
             "Samples a pixel; 1 is the pixel's centre.",
         ),
@@ -101,7 +102,7 @@ pub(crate) static IMAGE: Table = Table {
         ),
         Key::new(
             "depth",
-            Kind::Integer(0, 100),
+            Kind::Integer(0, Image::DEEPEST as u64),
             Default::Integer(8),
             "Mirror and glass bounces; beyond it a ray brings black.",
         ),

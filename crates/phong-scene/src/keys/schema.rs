@@ -2,8 +2,9 @@
 
 use serde_json::{Map, Value, json};
 
-use super::{BACKGROUND, Default, Key, Kind, Range, SCENE, Table};
-use crate::limits::LARGEST;
+use super::{BACKGROUND, Default, Key, Kind, SCENE, Table};
+use crate::limits::{LARGEST, Range};
+use crate::scene::Image;
 
 /// The scene text as a JSON schema (draft 7, which TOML editors understand).
 ///
@@ -111,7 +112,9 @@ fn kind(kind: Kind) -> Value {
         Kind::Background => json!({ "anyOf": [color(LARGEST), object(&BACKGROUND)] }),
         Kind::Word(words) => json!({ "enum": words }),
         Kind::Text | Kind::File | Kind::Material | Kind::Group => text(),
-        Kind::Size => list(&json!({ "type": "integer", "minimum": 1, "maximum": 1 << 20 }), 2),
+        Kind::Size => {
+            list(&json!({ "type": "integer", "minimum": 1, "maximum": Image::LARGEST }), 2)
+        }
         Kind::Attenuation => list(&number(&Range::NOT_NEGATIVE), 3),
         Kind::Points | Kind::Directions => list(&list(&any_number(), 3), 3),
         Kind::Uvs => list(&list(&any_number(), 2), 3),

@@ -1,6 +1,7 @@
 //! The shapes' keys.
 
-use super::{Default, Key, Kind, Range, Table};
+use super::{Default, Key, Kind, Table};
+use crate::limits::Range;
 
 /// Where any shape is placed: scale, then rotate, then translate; or a matrix alone.
 pub(super) static PLACED: [Key; 5] = [

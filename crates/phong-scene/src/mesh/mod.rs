@@ -2,12 +2,16 @@
 //!
 //! The renderer takes these arrays by value; nothing copies them.
 
+mod groups;
 mod part;
 mod polygon;
 mod smooth;
+mod spacing;
 mod tidy;
 
+pub(crate) use groups::FLAT;
 pub(crate) use polygon::cut_polygons;
+pub(crate) use tidy::collapse_faces;
 
 use glam::{DVec3, Vec2, Vec3};
 
@@ -48,4 +52,7 @@ pub struct Points {
     pub spheres: Vec<[f32; 4]>,
     /// A linear colour a point, which replaces the material's; empty: none.
     pub colors: Vec<Rgb>,
+    /// The radius of all, if nobody gave one and the reader guessed it: a picture that cannot show
+    /// spheres so small may draw larger ones. `None`: the radii are as they were meant.
+    pub guessed: Option<f32>,
 }

@@ -22,7 +22,8 @@ impl Mesh {
     /// Positions count as the same if their coordinates are equal, whatever their numbers, so
     /// seams and triangles that share no vertices are smoothed too. Faces without area give no
     /// normal and get none. The result does not depend on the number of threads. A mesh of more
-    /// than `u32::MAX / 3` triangles is left with geometric normals.
+    /// than `u32::MAX / 3` triangles is left with geometric normals, as is one with an index out of
+    /// range.
     ///
     /// ```
     /// use phong_scene::Mesh;
@@ -41,7 +42,7 @@ impl Mesh {
     pub fn smooth(&mut self, crease_degrees: f64) {
         self.normals = Vec::new();
         self.normal_indices = Vec::new();
-        if self.indices.len() > (u32::MAX / 3) as usize {
+        if self.indices.len() > (u32::MAX / 3) as usize || !self.has_sound_indices() {
             return;
         }
         let least = libm::cos(crease_degrees.clamp(0.0, 180.0).to_radians());
@@ -118,7 +119,7 @@ impl Mesh {
     }
 
     /// Twice the area of every face along its normal, in units that make the mesh's size 1.
-    fn area_vectors(&self) -> Vec<Vec3> {
+    pub(super) fn area_vectors(&self) -> Vec<Vec3> {
         let size = self.bounds().size().max_element();
         let scale = if size > 0.0 { size.recip() } else { 1.0 };
         let face = |corners: &[u32; 3]| {
@@ -191,7 +192,7 @@ fn unit(v: DVec3) -> Vec3 {
 }
 
 /// For every position the first one with the same coordinates; `None` if all differ.
-fn places(positions: &[Vec3]) -> Option<Vec<u32>> {
+pub(super) fn places(positions: &[Vec3]) -> Option<Vec<u32>> {
     let key = |p: Vec3| {
         // Adding 0 makes −0 the same as 0.
         let [x, y, z] = (p + 0.0).to_array().map(|c| u64::from(c.to_bits()));

@@ -72,11 +72,73 @@ impl Mesh {
     }
 }
 
+impl Mesh {
+    /// Which positions are no numbers; they become 0, for something to leave out.
+    pub(crate) fn take_unplaced(&mut self) -> Option<Vec<bool>> {
+        let all = self.positions.par_iter().with_min_len(1 << 12).all(|p| p.is_finite());
+        if all {
+            return None;
+        }
+        let unplaced = self.positions.iter().map(|p| !p.is_finite()).collect();
+        self.positions.iter_mut().filter(|p| !p.is_finite()).for_each(|p| *p = Vec3::ZERO);
+        Some(unplaced)
+    }
+
+    /// Whether every index is one of something, and the arrays are as long as they must be.
+    pub(crate) fn has_sound_indices(&self) -> bool {
+        let (vertices, triangles) = (self.positions.len(), self.indices.len());
+        let all = |indices: &[[u32; 3]], count: usize, optional: bool| {
+            let held = |&i: &u32| (i as usize) < count || optional && i == NO_INDEX;
+            indices.par_iter().with_min_len(1 << 12).all(|corners| corners.iter().all(held))
+        };
+        let kind = |indices: &[[u32; 3]], count: usize| match indices.len() {
+            0 => count == 0 || count >= vertices,
+            length => length == triangles && all(indices, count, true),
+        };
+        all(&self.indices, vertices, false)
+            && kind(&self.normal_indices, self.normals.len())
+            && kind(&self.uv_indices, self.uvs.len())
+            && (self.face_materials.is_empty() || self.face_materials.len() == triangles)
+    }
+}
+
 impl Points {
     /// Bytes that the arrays take in memory.
     pub fn bytes(&self) -> u64 {
         (16 * self.spheres.len() + 12 * self.colors.len()) as u64
     }
+}
+
+/// Makes nothing of the faces of which a corner is `bad`: [`Mesh::drop_collapsed`] takes them away
+/// with those that collapsed by themselves. `polygons` are the first triangle and the number of
+/// corners of every face of more than three. How many faces, and how many triangles of them.
+pub(crate) fn collapse_faces(
+    indices: &mut [[u32; 3]],
+    polygons: &mut Vec<[u32; 2]>,
+    bad: impl Fn(u32) -> bool + Sync,
+) -> [u64; 2] {
+    let is_bad = |triangle: &[u32; 3]| triangle.iter().any(|&corner| bad(corner));
+    if !indices.par_iter().with_min_len(1 << 12).any(is_bad) {
+        return [0; 2];
+    }
+    let (mut faces, mut triangles) = (0, 0);
+    polygons.retain(|&[start, corners]| {
+        let end = start.saturating_add(corners.saturating_sub(2)) as usize;
+        let Some(fan) = indices.get_mut(start as usize..end) else { return true };
+        let sound = !fan.iter().any(is_bad);
+        if !sound {
+            faces += 1;
+            triangles += fan.len() as u64;
+            fan.fill([0; 3]);
+        }
+        sound
+    });
+    for triangle in indices.iter_mut().filter(|t| **t != [0; 3] && is_bad(t)) {
+        faces += 1;
+        triangles += 1;
+        *triangle = [0; 3];
+    }
+    [faces, triangles]
 }
 
 /// Keeps what is to be kept, if there is anything.

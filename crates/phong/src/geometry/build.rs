@@ -95,7 +95,7 @@ impl Built {
     }
 
     fn points(&mut self, points: Points, to_world: DAffine3, object: u32, material: u32) {
-        let Points { origin, spheres, colors } = points;
+        let Points { origin, spheres, colors, .. } = points;
         let move_by = to_world * DAffine3::from_translation(origin);
         let batch = |colors| Batch { colors, ..Batch::new(Objects::One(object), material) };
         let Some(scale) = even_scale(move_by.matrix3) else {

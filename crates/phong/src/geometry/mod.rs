@@ -11,7 +11,7 @@ mod solid;
 
 use glam::{DVec3, Vec3};
 use phong_bvh::{BuildError, BuildOptions, Bvh, Coordinates, Hit, Preset, Primitives, Ray};
-use phong_scene::{Place, Scene, Shape};
+use phong_scene::{Diagnostic, Place, Scene, Shape};
 use thiserror::Error;
 
 pub(crate) use batch::Batch;
@@ -96,12 +96,21 @@ pub enum GeometryError {
         /// The limit.
         limit: u64,
     },
+    /// An object or a group is broken, as [`Scene::check_objects`] says: the scene's fault.
+    #[error("{}", told(.0))]
+    Scene(Vec<Diagnostic>),
     /// The trees cannot be built.
     #[error(transparent)]
     Build(#[from] BuildError),
-    /// The scene is so large that distances in it overflow f32: the input's fault.
-    #[error("the scene is {0:e} units across, more than the 1e18 that numbers can hold")]
-    TooLarge(f64),
+}
+
+/// The first of some diagnostics, and how many more there are.
+pub(crate) fn told(diagnostics: &[Diagnostic]) -> String {
+    let first = diagnostics.first().map_or_else(String::new, |d| d.message.clone());
+    match diagnostics.len() {
+        0 | 1 => first,
+        count => format!("{first} (and {} more)", count - 1),
+    }
 }
 
 /// The preset that takes the least time in all for so many rays.
@@ -121,6 +130,10 @@ impl Geometry {
     /// # Errors
     /// [`GeometryError`].
     pub fn new(scene: &Scene, options: GeometryOptions) -> Result<Self, GeometryError> {
+        let broken = scene.check_objects();
+        if !broken.is_empty() {
+            return Err(GeometryError::Scene(broken));
+        }
         if let Some(limit) = options.max_bytes {
             let needed = estimate::estimate(scene);
             if needed > limit {
@@ -128,10 +141,6 @@ impl Geometry {
             }
         }
         let bounds = scene.bounds();
-        let extent = bounds.size().max_element();
-        if extent.is_nan() || extent > 1e18 {
-            return Err(GeometryError::TooLarge(extent));
-        }
         let center = build::center(bounds);
         let options = options.build.unwrap_or_else(|| soonest(scene, options.rays));
         let leaves = flatten::flatten(&scene.objects, &scene.groups);

@@ -81,7 +81,7 @@ impl Sum {
     }
 
     fn points(&mut self, points: &Points) {
-        let Points { origin, spheres, colors } = points;
+        let Points { origin, spheres, colors, .. } = points;
         self.debug(origin);
         self.words(spheres.iter().flatten().map(|v| v.to_bits()));
         self.words(colors.iter().flat_map(|c| c.to_array()).map(f32::to_bits));

@@ -274,7 +274,7 @@ pub(crate) fn spheres(scene: &Scene, colors: bool, uneven: &mut BTreeMap<String,
                 one = Points {
                     origin: *center,
                     spheres: vec![[0.0, 0.0, 0.0, *radius as f32]],
-                    colors: Vec::new(),
+                    ..Points::default()
                 };
                 &one
             }

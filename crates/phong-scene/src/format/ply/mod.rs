@@ -29,7 +29,6 @@ mod body;
 pub(crate) mod export;
 mod faces;
 mod header;
-mod radius;
 mod vertices;
 mod write;
 
@@ -142,8 +141,7 @@ impl Body<'_> {
                 return None;
             }
             if self.plan.columns[RADIUS].is_none() && self.plan.radius == 0.0 {
-                let radius = radius::automatic(&points.spheres);
-                points.spheres.iter_mut().for_each(|sphere| sphere[3] = radius);
+                points.guess_radius();
             }
             return Some(points.into());
         }

@@ -273,6 +273,7 @@ fn what_is_written_reads_back_to_the_bit() {
             origin: glam::DVec3::ZERO,
             spheres: vec![[0.1, -2.0, 3e9, 0.5], [1.0, 2.0, 3.0, 1e-9]],
             colors: vec![Rgb::new(0.25, 1.0, 7.5), Rgb::BLACK],
+            guessed: None,
         };
         let mut file = Vec::new();
         cloud.write_ply(encoding, &mut file).unwrap();

@@ -241,7 +241,12 @@ impl Vertices {
     }
 
     pub(super) fn into_points(self, plan: &Plan) -> Points {
-        Points { origin: plan.origin, spheres: self.spheres, colors: self.colors }
+        Points {
+            origin: plan.origin,
+            spheres: self.spheres,
+            colors: self.colors,
+            ..Points::default()
+        }
     }
 }
 

@@ -31,6 +31,10 @@ impl Mesh {
     /// # Ok::<(), std::io::Error>(())
     /// ```
     pub fn write_ply(&self, encoding: PlyEncoding, to: &mut dyn Write) -> io::Result<()> {
+        if !self.has_sound_indices() {
+            let message = "an index of the mesh is out of range";
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
+        }
         let (vertices, triangles) = self.single_vertices();
         let mut text = header(encoding, vertices.len(), self.origin);
         let [normals, uvs] = [self.normals.len(), self.uvs.len()].map(|n| n > 0);

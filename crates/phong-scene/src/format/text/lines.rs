@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::number::Decimal;
+use super::number::{BadNumber, Decimal, blame};
 use super::report::span;
 use crate::diagnostic::Span;
 use crate::source::Blob;
@@ -368,6 +368,16 @@ impl<'a> Cursor<'a> {
         let length = text.iter().position(|&b| b == b'\n').unwrap_or(text.len());
         let start = start.saturating_sub(self.line_start);
         span(file, self.line, &text[..length], start..end.saturating_sub(self.line_start))
+    }
+
+    /// Takes a word that says NaN or infinity, which programs write where they have no number;
+    /// whether there is one.
+    pub(crate) fn take_no_number(&mut self) -> bool {
+        let none = self.more() && blame(self.rest()) != BadNumber::Malformed;
+        if none {
+            self.word();
+        }
+        none
     }
 
     /// The word that stands here as text to be quoted, cut to a sane length.

@@ -253,5 +253,5 @@ fn drop_normals(mesh: &mut Mesh) {
 /// A sphere at every vertex.
 fn vertices(mesh: Mesh, radius: f32) -> Points {
     let spheres = mesh.positions.iter().map(|p| [p.x, p.y, p.z, radius]).collect();
-    Points { origin: mesh.origin, spheres, colors: mesh.colors }
+    Points { origin: mesh.origin, spheres, colors: mesh.colors, ..Points::default() }
 }

@@ -3,11 +3,9 @@
 use super::draft::{Draft, DraftShape, Named, say_unknown_name};
 use super::notes::Notes;
 use super::text::Spot;
+use crate::check::MOST_OBJECTS;
 use crate::limits::Limits;
 use crate::wording::list;
-
-/// Most objects that a scene's instances may unfold into.
-const MOST_OBJECTS: u64 = 1 << 28;
 
 /// An instance: the number of its group, and where its name stands.
 type Edge = (usize, Spot);

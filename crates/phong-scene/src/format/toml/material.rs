@@ -2,6 +2,7 @@
 
 use super::notes::Notes;
 use super::table::Values;
+use crate::check::material as judge;
 use crate::color::Rgb;
 use crate::material::{
     AmbientRule, Dialect, Distribution, Fresnel, Material, Model, Shadowing, Tint, Viewer, WardForm,
@@ -87,6 +88,9 @@ pub(super) fn material(v: &Values, name: &str, notes: &mut Notes) -> Option<Mate
                     `transmission` as it is written";
         notes.warning(v.spot_of("transmission"), message).help = Some(help.to_owned());
     }
+    if !notes.judge(|key| v.spot_of(key), |faults| judge::material(&material, faults)) {
+        return None;
+    }
     if material.dialect == Dialect::ThreeJs && material.model == Model::BlinnPhong {
         three_js(v, material, notes)
     } else {
@@ -129,10 +133,6 @@ fn cook_torrance(v: &Values, notes: &mut Notes) -> Option<Model> {
         notes.error(v.spot_of(other), message).help = Some(help);
     }
     let roughness = v.number(takes)? as f32;
-    if roughness <= 0.0 {
-        notes.error(v.spot_of(takes), format!("`{takes}` must be above 0 for facets"));
-        return None;
-    }
     Some(Model::Microfacet {
         distribution,
         roughness,
@@ -168,10 +168,6 @@ fn fresnel(v: &Values, notes: &mut Notes) -> Option<Fresnel> {
         return Some(if f0 == Rgb::WHITE { Fresnel::None } else { Fresnel::Schlick { f0 } });
     }
     let eta = v.color("eta")?;
-    if eta.to_array().contains(&0.0) {
-        notes.error(v.spot_of("eta"), "`eta` must be above 0");
-        return None;
-    }
     if v.has("k") {
         return Some(Fresnel::Conductor { eta, k: v.color("k")? });
     }

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::text::{Spot, Text};
+use crate::check::fault::{Fault, Faults};
 use crate::diagnostic::{Diagnostic, Place, Severity, Span};
 
 /// Most diagnostics that are told; the rest is counted, and said to be. A generated file may be
@@ -86,6 +87,21 @@ impl Notes {
         &mut self.spare
     }
 
+    /// Says what is wrong with a thing, each at the value of its key; whether nothing is.
+    pub(super) fn judge(
+        &mut self,
+        spot_of: impl Fn(&str) -> Spot,
+        judge: impl FnOnce(&mut Faults),
+    ) -> bool {
+        let mut faults = Faults::default();
+        judge(&mut faults);
+        let sound = faults.all.is_empty();
+        for Fault { field, message, help } in faults.all {
+            self.error(spot_of(field), message).help = help;
+        }
+        sound
+    }
+
     /// Remembers that the tables which begin there lost a statement to a syntax error.
     pub(super) fn lose(&mut self, file: u32, lost: BTreeSet<usize>) {
         self.lost.extend(lost.into_iter().map(|start| (file, start)));
@@ -101,6 +117,11 @@ impl Notes {
         if self.is_full() {
             self.count(diagnostic.severity);
             return;
+        }
+        // What is of the scene as a whole is told where its text begins.
+        if diagnostic.span.is_none() {
+            let place = Place { file: self.texts[0].file.clone(), line: 1, column: 1 };
+            diagnostic.span = Some(Span { place, ..Span::default() });
         }
         let mut at = Spot::new(0, 0..0);
         let labels = diagnostic.labels.iter_mut().map(|label| &mut label.span);

@@ -7,7 +7,6 @@ use super::groups;
 use super::notes::Notes;
 use super::reader::Reader;
 use super::text::Spot;
-use crate::check::check;
 use crate::diagnostic::Diagnostic;
 use crate::material::{Material, MaterialId};
 use crate::scene::{Group, Object, Scene};
@@ -74,9 +73,11 @@ impl Reader<'_> {
                 |name| format!("no instance places the group {name}"),
                 &mut notes,
             );
-            let main = notes.text(0).file.clone();
-            check(scene, &main, &mut |warning| notes.say_located(warning));
+            for diagnostic in scene.check() {
+                notes.say_located(diagnostic);
+            }
         }
+        let scene = scene.filter(|_| !notes.has_errors());
         (scene, notes.into_diagnostics())
     }
 }

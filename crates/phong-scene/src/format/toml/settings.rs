@@ -3,6 +3,7 @@
 use super::notes::Notes;
 use super::table::Values;
 use crate::camera::{Camera, CameraKind};
+use crate::check::settings as judge;
 use crate::scene::{FilterKind, Image};
 
 /// `[image]`; what is wrong with it has been said.
@@ -25,24 +26,6 @@ pub(super) fn image(v: &Values) -> Option<Image> {
 /// `[camera]`; says if it looks nowhere.
 pub(super) fn camera(v: &Values, notes: &mut Notes) -> Option<Camera> {
     let (eye, look_at, up) = (v.vector("eye")?, v.vector("look_at")?, v.vector("up")?);
-    let Some(forward) = (look_at - eye).try_normalize() else {
-        let help = "the camera looks from `eye` to `look_at`; they must differ";
-        notes.error(v.spot_of("look_at"), "`look_at` is where the eye is").help =
-            Some(help.to_owned());
-        return None;
-    };
-    // Below a millionth of a degree, "up" is decided by rounding.
-    let sideways = up.try_normalize().map_or(0.0, |up| forward.cross(up).length());
-    if sideways < 1e-8 {
-        let help = "`up` must point elsewhere than the camera looks; try `up = [0, 0, 1]`";
-        let help = if forward.z.abs() > 0.9 {
-            help.replace("0, 0, 1", "0, 1, 0")
-        } else {
-            help.to_owned()
-        };
-        notes.error(v.spot_of("up"), "`up` is parallel to the view").help = Some(help);
-        return None;
-    }
     let kind = match v.word("kind")? {
         "orthographic" => CameraKind::Orthographic { height: v.number("height")? },
         "fisheye" => CameraKind::Fisheye { fov: v.number("fov")? },
@@ -50,5 +33,7 @@ pub(super) fn camera(v: &Values, notes: &mut Notes) -> Option<Camera> {
         _ => CameraKind::Perspective { fov: v.number("fov")? },
     };
     let aperture = v.number("aperture").unwrap_or(0.0);
-    Some(Camera { kind, eye, look_at, up, aperture, focus: v.number("focus") })
+    let camera = Camera { kind, eye, look_at, up, aperture, focus: v.number("focus") };
+    let sound = notes.judge(|key| v.spot_of(key), |faults| judge::camera(&camera, faults));
+    sound.then_some(camera)
 }

@@ -4,87 +4,53 @@ use glam::{DAffine3, DMat3, DVec3};
 
 use super::notes::Notes;
 use super::table::Values;
-use super::value::is_regular;
+use crate::check::shape as judge;
 use crate::shape::Shape;
+use crate::transform::is_regular;
 
 /// A shape of this kind; `None`: something is wrong, which has been said.
 pub(super) fn shape(kind: &str, v: &Values, notes: &mut Notes) -> Option<Shape> {
-    match kind {
-        "sphere" => {
-            Some(Shape::Sphere { center: v.vector("center")?, radius: v.number("radius")? })
-        }
-        "plane" => Some(Shape::Plane { point: v.vector("point")?, normal: v.vector("normal")? }),
-        "triangle" => triangle(v, notes),
-        "disc" => Some(Shape::Disc {
+    let shape = read(kind, v)?;
+    let sound = notes.judge(|key| v.spot_of(key), |faults| judge::shape(&shape, faults));
+    sound.then_some(shape)
+}
+
+fn read(kind: &str, v: &Values) -> Option<Shape> {
+    Some(match kind {
+        "sphere" => Shape::Sphere { center: v.vector("center")?, radius: v.number("radius")? },
+        "plane" => Shape::Plane { point: v.vector("point")?, normal: v.vector("normal")? },
+        "triangle" => Shape::Triangle {
+            points: v.vectors("points")?,
+            normals: v.vectors("normals"),
+            uv: v.uvs("uv"),
+        },
+        "disc" => Shape::Disc {
             center: v.vector("center")?,
             normal: v.vector("normal")?,
             radius: v.number("radius")?,
-        }),
-        "box" => cuboid(v, notes),
-        "cylinder" => {
-            let (from, to) = axis(v, notes)?;
-            let (radius, capped) = (v.number("radius")?, v.flag("capped")?);
-            Some(Shape::Cylinder { from, to, radius, capped })
-        }
-        "cone" => cone(v, notes),
-        "torus" => torus(v, notes),
-        _ => None,
-    }
-}
-
-fn triangle(v: &Values, notes: &mut Notes) -> Option<Shape> {
-    let points @ [a, b, c] = v.vectors("points")?;
-    if (b - a).cross(c - a) == DVec3::ZERO {
-        let message = "the corners lie on one line: a triangle without area";
-        notes.error(v.spot_of("points"), message);
-        return None;
-    }
-    Some(Shape::Triangle { points, normals: v.vectors("normals"), uv: v.uvs("uv") })
-}
-
-fn cuboid(v: &Values, notes: &mut Notes) -> Option<Shape> {
-    let (min, max) = (v.vector("min")?, v.vector("max")?);
-    for (axis, (min, max)) in
-        ['x', 'y', 'z'].into_iter().zip(min.to_array().into_iter().zip(max.to_array()))
-    {
-        if min >= max {
-            let message = format!("`max` is not above `min` in {axis}: {max} and {min}");
-            notes.error(v.spot_of("max"), message);
-            return None;
-        }
-    }
-    Some(Shape::Box { min, max })
-}
-
-fn cone(v: &Values, notes: &mut Notes) -> Option<Shape> {
-    let (from, to) = axis(v, notes)?;
-    let (radius, radius_to) = (v.number("radius")?, v.number("radius_to")?);
-    if radius == 0.0 && radius_to == 0.0 {
-        notes.error(v.spot_of("radius"), "`radius` and `radius_to` are both 0: only a line");
-        return None;
-    }
-    Some(Shape::Cone { from, to, radius, radius_to, capped: v.flag("capped")? })
-}
-
-fn torus(v: &Values, notes: &mut Notes) -> Option<Shape> {
-    let (radius, tube) = (v.number("radius")?, v.number("tube")?);
-    if tube >= radius {
-        let message = format!("`tube` is not below `radius`, which is {radius}");
-        let help = "the ring must have a hole: `radius` is to the middle of the tube";
-        notes.error(v.spot_of("tube"), message).help = Some(help.to_owned());
-        return None;
-    }
-    Some(Shape::Torus { center: v.vector("center")?, axis: v.vector("axis")?, radius, tube })
-}
-
-/// `from` and `to`, which must differ.
-fn axis(v: &Values, notes: &mut Notes) -> Option<(DVec3, DVec3)> {
-    let (from, to) = (v.vector("from")?, v.vector("to")?);
-    if (to - from).try_normalize().is_none() {
-        notes.error(v.spot_of("to"), "`to` is where `from` is: no axis");
-        return None;
-    }
-    Some((from, to))
+        },
+        "box" => Shape::Box { min: v.vector("min")?, max: v.vector("max")? },
+        "cylinder" => Shape::Cylinder {
+            from: v.vector("from")?,
+            to: v.vector("to")?,
+            radius: v.number("radius")?,
+            capped: v.flag("capped")?,
+        },
+        "cone" => Shape::Cone {
+            from: v.vector("from")?,
+            to: v.vector("to")?,
+            radius: v.number("radius")?,
+            radius_to: v.number("radius_to")?,
+            capped: v.flag("capped")?,
+        },
+        "torus" => Shape::Torus {
+            center: v.vector("center")?,
+            axis: v.vector("axis")?,
+            radius: v.number("radius")?,
+            tube: v.number("tube")?,
+        },
+        _ => return None,
+    })
 }
 
 /// Scale, then rotate, then translate; or the matrix alone.

@@ -1,15 +1,16 @@
 //! One value of the text, as its key's kind says it must be.
 
-use glam::{DAffine3, DMat3, DMat4, DVec2, DVec3, DVec4};
+use glam::{DAffine3, DMat4, DVec2, DVec3, DVec4};
 use toml::Spanned;
 use toml::de::DeValue;
 
 use super::notes::Notes;
 use super::text::Spot;
 use crate::color::Rgb;
-use crate::keys::{Key, Kind, Range};
-use crate::limits::LARGEST;
-use crate::scene::Background;
+use crate::keys::{Key, Kind};
+use crate::limits::{LARGEST, Range};
+use crate::scene::{Background, Image};
+use crate::transform::is_regular;
 use crate::wording::{closest, quoted};
 
 /// A value, read or to be written.
@@ -260,7 +261,9 @@ impl ValueReader<'_> {
     fn size(&mut self, value: &Spanned<DeValue<'_>>) -> Option<[u32; 2]> {
         let [w, h] = self.items(value)?;
         let pixels = |v: &Spanned<DeValue<'_>>| {
-            whole(v.get_ref()).filter(|n| (1..=1 << 20).contains(n)).map(|n| n as u32)
+            whole(v.get_ref())
+                .filter(|n| (1..=u64::from(Image::LARGEST)).contains(n))
+                .map(|n| n as u32)
         };
         match (pixels(w), pixels(h)) {
             (Some(w), Some(h)) => Some([w, h]),
@@ -320,12 +323,6 @@ impl ValueReader<'_> {
         }
         Some(matrix)
     }
-}
-
-/// Whether a matrix can be undone, in numbers an f64 holds.
-pub(super) fn is_regular(matrix: DMat3) -> bool {
-    let inverse = matrix.inverse();
-    matrix.determinant() != 0.0 && inverse.is_finite()
 }
 
 /// A whole number, 0 or above.

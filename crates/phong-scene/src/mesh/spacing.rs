@@ -2,12 +2,24 @@
 
 use rayon::prelude::*;
 
+use super::Points;
+
 /// Distances taken at most: what a hundred points among a million cost.
 const DISTANCES: usize = 1 << 27;
 
+impl Points {
+    /// Gives all points the radius at which neighbours just touch: half the median distance between
+    /// a point and its nearest neighbour.
+    pub(crate) fn guess_radius(&mut self) {
+        let radius = automatic(&self.spheres);
+        self.spheres.iter_mut().for_each(|sphere| sphere[3] = radius);
+        self.guessed = Some(radius);
+    }
+}
+
 /// Half the median distance from a point to its nearest neighbour elsewhere, over up to 512 points
 /// spread evenly over the file (fewer among millions); 1 if all are at one place.
-pub(super) fn automatic(spheres: &[[f32; 4]]) -> f32 {
+fn automatic(spheres: &[[f32; 4]]) -> f32 {
     let xyz = |s: &[f32; 4]| [s[0], s[1], s[2]];
     let asked = (DISTANCES / spheres.len().max(1)).clamp(16, 512).min(spheres.len());
     let queries: Vec<[f32; 3]> =

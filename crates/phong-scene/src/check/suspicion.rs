@@ -1,10 +1,9 @@
 //! What can hardly be meant although every part of the scene is valid: all of it warnings.
 
-use std::sync::Arc;
-
 use glam::DVec3;
 
-use crate::diagnostic::{Diagnostic, Label, Place, Span};
+use super::at;
+use crate::diagnostic::{Diagnostic, Label};
 use crate::light::{Light, LightKind};
 use crate::scene::{Object, Scene};
 use crate::shape::Shape;
@@ -12,17 +11,15 @@ use crate::shape::Shape;
 /// Most pairs of a light and an object that are looked at: a check must not outlast the render.
 const MOST_PAIRS: usize = 10_000_000;
 
-/// Says everything suspicious about a scene, each with its place but without an excerpt. What is
-/// missing from the scene as a whole is told of the file `main`.
-pub(crate) fn check(scene: &Scene, main: &Arc<str>, say: &mut dyn FnMut(Diagnostic)) {
-    let top = Place { file: Arc::clone(main), line: 1, column: 1 };
+/// Says everything suspicious about a scene, each with its place but without an excerpt.
+pub(super) fn check(scene: &Scene, say: &mut dyn FnMut(Diagnostic)) {
     if scene.objects.is_empty() {
         let help = "add a shape, such as `[[sphere]]`";
-        say(Diagnostic::warning("the scene has no objects", at(&top)).with_help(help));
+        say(Diagnostic::warning("the scene has no objects", None).with_help(help));
     }
     if scene.lights.is_empty() {
         let help = "without a `[[light]]` only the ambient term is seen";
-        say(Diagnostic::warning("the scene has no lights", at(&top)).with_help(help));
+        say(Diagnostic::warning("the scene has no lights", None).with_help(help));
     }
     if scene.objects.len().saturating_mul(scene.lights.len()) <= MOST_PAIRS {
         scene.objects.iter().for_each(|object| shut_in(scene, object, say));
@@ -53,14 +50,11 @@ fn shut_in(scene: &Scene, object: &Object, say: &mut dyn FnMut(Diagnostic)) {
 /// The warning that nothing outside `object` gets anything of the light inside it.
 fn dark(light: &Light, object: &Object) -> Diagnostic {
     let message = format!("{} is inside {}, which keeps all its light", light.name, object.name);
-    let label = Label { message: format!("{} is here", object.name), span: at(&object.place) };
+    let label =
+        at(&object.place).map(|span| Label { message: format!("{} is here", object.name), span });
     let mut warning = Diagnostic::warning(message, at(&light.place));
-    warning.labels.push(label);
+    warning.labels.extend(label);
     warning.with_help("move it out, or give the light `shadows = false`")
-}
-
-fn at(place: &Place) -> Span {
-    Span { place: place.clone(), ..Span::default() }
 }
 
 fn position(light: &Light) -> Option<DVec3> {

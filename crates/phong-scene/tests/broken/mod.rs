@@ -1,0 +1,190 @@
+//! Scenes of which some are broken: wrong numbers, indices, lengths, groups.
+
+use glam::{DAffine3, DVec3, Vec2, Vec3};
+use phong_scene::{
+    Background, Camera, CameraKind, Fresnel, Group, GroupId, Image, Light, LightKind, Material,
+    MaterialId, Mesh, Model, NO_INDEX, Object, Points, Rgb, Scene, Shape,
+};
+use proptest::prelude::*;
+
+/// Numbers of which some are no numbers, or too large.
+fn number() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        200 => -10.0..10.0,
+        1 => prop::sample::select(vec![
+            0.0, -0.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e18, -1e300, 1e-300, f64::MAX,
+        ]),
+    ]
+}
+
+/// Lengths and weights, of which most are above 0.
+fn length() -> impl Strategy<Value = f64> {
+    prop_oneof![30 => 0.1..4.0, 1 => number()]
+}
+
+fn single() -> impl Strategy<Value = f32> {
+    prop_oneof![30 => 0.0..1.0_f32, 1 => number().prop_map(|n| n as f32)]
+}
+
+fn vector() -> impl Strategy<Value = DVec3> {
+    prop::array::uniform3(number()).prop_map(DVec3::from)
+}
+
+fn color() -> impl Strategy<Value = Rgb> {
+    prop::array::uniform3(single()).prop_map(Rgb::from)
+}
+
+fn index() -> impl Strategy<Value = u32> {
+    prop_oneof![60 => 0..3_u32, 1 => Just(NO_INDEX), 1 => any::<u32>()]
+}
+
+fn list<S: Strategy>(of: S) -> impl Strategy<Value = Vec<S::Value>>
+where
+    S::Value: Clone,
+{
+    prop::collection::vec(of, 0..5)
+}
+
+pub(crate) fn mesh() -> impl Strategy<Value = Mesh> {
+    let corners = || list(prop::array::uniform3(index()));
+    let single3 = || prop::array::uniform3(single()).prop_map(Vec3::from);
+    (
+        (vector(), list(single3()), corners(), list(single3()), corners()),
+        (
+            list(prop::array::uniform2(single()).prop_map(Vec2::from)),
+            corners(),
+            list(color()),
+            list(index()),
+        ),
+    )
+        .prop_map(|((origin, positions, indices, normals, normal_indices), rest)| {
+            let (uvs, uv_indices, colors, face_materials) = rest;
+            // Most arrays fit: cut to the lengths that others have.
+            Mesh {
+                origin,
+                positions,
+                indices,
+                normals,
+                normal_indices,
+                uvs,
+                uv_indices,
+                colors,
+                face_materials,
+            }
+        })
+}
+
+fn shape() -> impl Strategy<Value = Shape> {
+    let points = (vector(), list(prop::array::uniform4(single())), list(color())).prop_map(
+        |(origin, spheres, colors)| Points { origin, spheres, colors, guessed: None }.into(),
+    );
+    let capped = any::<bool>;
+    prop_oneof![
+        (vector(), length()).prop_map(|(center, radius)| Shape::Sphere { center, radius }),
+        (vector(), vector()).prop_map(|(point, normal)| Shape::Plane { point, normal }),
+        prop::array::uniform3(vector()).prop_map(|points| Shape::Triangle {
+            points,
+            normals: None,
+            uv: None
+        }),
+        (vector(), vector(), number()).prop_map(|(center, normal, radius)| Shape::Disc {
+            center,
+            normal,
+            radius
+        }),
+        (vector(), vector()).prop_map(|(min, max)| Shape::Box { min, max }),
+        (vector(), vector(), length(), capped())
+            .prop_map(|(from, to, radius, capped)| Shape::Cylinder { from, to, radius, capped }),
+        (vector(), vector(), length(), length(), capped()).prop_map(
+            |(from, to, radius, radius_to, capped)| Shape::Cone {
+                from,
+                to,
+                radius,
+                radius_to,
+                capped
+            }
+        ),
+        (vector(), vector(), length(), length())
+            .prop_map(|(center, axis, radius, tube)| Shape::Torus { center, axis, radius, tube }),
+        mesh().prop_map(Shape::from),
+        points,
+        index().prop_map(|group| Shape::Instance(GroupId(group))),
+    ]
+}
+
+fn objects() -> impl Strategy<Value = Vec<Object>> {
+    let transform = prop_oneof![
+        4 => Just(DAffine3::IDENTITY),
+        1 => prop::array::uniform4(vector())
+            .prop_map(|[x, y, z, t]| DAffine3 { matrix3: glam::DMat3::from_cols(x, y, z), translation: t }),
+    ];
+    prop::collection::vec(
+        (shape(), index(), transform).prop_map(|(shape, material, transform)| Object {
+            material: MaterialId(material % 7),
+            transform,
+            ..shape.into()
+        }),
+        0..4,
+    )
+}
+
+prop_compose! {
+    fn light()(
+        color in color(), position in vector(), target in vector(), cone in length(),
+        edge in length(), attenuation in prop::array::uniform3(length()), radius in length(),
+        kind in 0..3,
+    ) -> Light {
+        let kind = match kind {
+            0 => LightKind::Point { position, attenuation, radius },
+            1 => LightKind::Distant { direction: target, angle: cone },
+            _ => LightKind::Spot { position, target, cone, edge, attenuation, radius },
+        };
+        Light { color, kind, ..Light::default() }
+    }
+}
+
+prop_compose! {
+    fn material()(
+        color in color(), ambient_color in prop::option::of(color()), k in prop::array::uniform4(single()),
+        ior in single(), reflection in color(), sigma in single(), kind in 0..4, f0 in color(),
+    ) -> Material {
+        let [k_a, k_d, k_s, shininess] = k;
+        let model = match kind {
+            0 => Model::Phong,
+            1 => Model::OrenNayar { sigma, full: true },
+            2 => Model::Ward { roughness_x: sigma, roughness_y: ior, form: phong_scene::WardForm::Gmd },
+            _ => Model::Microfacet {
+                distribution: phong_scene::Distribution::Ggx,
+                roughness: sigma,
+                shadowing: phong_scene::Shadowing::Correlated,
+                fresnel: Fresnel::Schlick { f0 },
+            },
+        };
+        Material {
+            color, ambient_color, k_a, k_d, k_s, shininess, ior, reflection, model,
+            transmission: f0,
+            ..Material::default()
+        }
+    }
+}
+
+prop_compose! {
+    pub(crate) fn any_scene()(
+        size in prop::array::uniform2(prop_oneof![9 => 1..9_u32, 1 => Just(0)]), samples in prop_oneof![9 => 1..3_u32, 1 => Just(0)],
+        depth in 0..9_u32,
+        camera in (vector(), vector(), vector(), length(), length()),
+        ambient in color(), top in color(), lights in list(light()),
+        materials in prop::collection::vec(material(), 2..5),
+        objects in objects(), groups in prop::collection::vec(objects(), 0..4),
+    ) -> Scene {
+        let (eye, look_at, up, fov, aperture) = camera;
+        let kind = CameraKind::Perspective { fov: 10.0 * fov };
+        let background = Background::Gradient { top, bottom: ambient };
+        let groups = groups.into_iter().map(|objects| Group { name: "g".into(), objects }).collect();
+        Scene {
+            image: Image { size, samples, depth, background, ..Image::default() },
+            camera: Camera { kind, eye, look_at, up, aperture, focus: None },
+            ambient, lights, materials, objects, groups,
+        }
+    }
+}

@@ -1,0 +1,39 @@
+//! No value of a public type makes the renderer panic, hang or recurse for ever.
+
+#[path = "../../phong-scene/tests/broken/mod.rs"]
+mod broken;
+
+use std::sync::Arc;
+
+use phong::geometry::{Geometry, GeometryOptions};
+use phong::look::Look;
+use phong::render::{Cancel, RenderOptions, render};
+use phong::view::View;
+use phong_scene::{Diagnostic, Light, Object, Scene};
+use proptest::prelude::*;
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(512))]
+
+    #[test]
+    fn a_broken_scene_is_an_error_and_any_other_is_drawn(scene in broken::any_scene()) {
+        let sound = !scene.check().iter().any(Diagnostic::is_error);
+        match View::of(&scene) {
+            Ok(view) if sound => {
+                let image = phong_scene::Image { size: [8, 8], ..scene.image.clone() };
+                let drawn = render(&view, &RenderOptions::of(&image), &|_, _| {}, &Cancel::new());
+                prop_assert!(drawn.is_ok());
+            }
+            Ok(_) => {} // the picture's own settings are not part of a view
+            Err(error) => prop_assert!(!sound, "{error}"),
+        }
+        // A look may be put on any geometry.
+        let other = Scene { lights: vec![Light::default()], ..Scene::default() };
+        if let Ok(geometry) = Geometry::new(&scene, GeometryOptions::default()) {
+            let _ = View::new(Arc::new(geometry), Look::new(&other));
+        }
+        let ball = Scene { objects: vec![Object::default()], ..Scene::default() };
+        let geometry = Geometry::new(&ball, GeometryOptions::default())?;
+        let _ = View::new(Arc::new(geometry), Look::new(&scene));
+    }
+}
