@@ -3,6 +3,8 @@
 //! Beside every `NAME.obj`, `.mtl` and `.ply` lies `NAME.txt`: what reading it gives, as text.
 //! `PHONG_BLESS=1` writes the texts anew.
 
+mod differing;
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::io;
@@ -11,6 +13,8 @@ use std::path::{Path, PathBuf};
 use phong_scene::{
     Diagnostic, Limits, Material, Memory, Mesh, NO_INDEX, Reading, Scene, Shape, read,
 };
+
+use differing::differing;
 
 #[test]
 fn obj_files_give_what_lies_beside_them() -> io::Result<()> {
@@ -113,7 +117,7 @@ fn tell_scene(text: &mut Vec<String>, scene: &Scene) {
     }
     // Material 0 is that of things without one.
     for material in &scene.materials[1..] {
-        tell_material(text, material);
+        text.push(differing(material, &Material::default()));
     }
 }
 
@@ -150,25 +154,5 @@ fn tell_mesh(text: &mut Vec<String>, mesh: &Mesh, materials: &[Material]) {
     }
     for (material, count) in used {
         text.push(format!("  {count} of material {:?}", materials[material as usize].name));
-    }
-}
-
-fn tell_material(text: &mut Vec<String>, m: &Material) {
-    let rgb = |c: phong_scene::Rgb| format!("{:?}", c.to_array());
-    text.push(format!("material {:?} ({}): {:?}", m.name, m.place, m.model));
-    text.push(format!("  color {} k_a {} k_d {} k_s {}", rgb(m.color), m.k_a, m.k_d, m.k_s));
-    if let Some(ambient) = m.ambient_color {
-        text.push(format!("  ambient {}", rgb(ambient)));
-    }
-    if m.k_s > 0.0 {
-        let specular = m.specular_color.map_or("object".to_owned(), rgb);
-        text.push(format!("  specular {specular} shininess {}", m.shininess));
-    }
-    if !m.reflection.is_black() || !m.transmission.is_black() {
-        let (reflection, transmission) = (rgb(m.reflection), rgb(m.transmission));
-        text.push(format!(
-            "  reflection {reflection} transmission {transmission} ior {} fresnel {}",
-            m.ior, m.fresnel
-        ));
     }
 }

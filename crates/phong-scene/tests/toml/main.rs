@@ -5,6 +5,8 @@
 //! the scenes include. `PHONG_BLESS=1 cargo test -p phong-scene --test toml` writes the texts.
 
 mod cases;
+#[path = "../differing/mod.rs"]
+mod differing;
 mod docs;
 mod generated;
 mod hostile;
@@ -15,7 +17,12 @@ mod told;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use phong_scene::{Folder, Limits, Object, Reading, Scene, read};
+use phong_scene::{
+    Camera, Folder, Image, Light, Limits, Material, Mesh, Object, Points, Reading, Scene, Shape,
+    read,
+};
+
+use crate::differing::differing;
 
 /// Reads a scene of this folder, as if from within it, so that no path of this machine shows.
 fn read_case(path: &Path) -> Reading {
@@ -54,13 +61,16 @@ fn bad(name: &str) {
     assert_text(&path.with_extension("txt"), &told::all(&reading.diagnostics));
 }
 
-/// Everything in a scene, a line a thing.
+/// Everything in a scene that is not as by default, a line a thing.
 fn summary(scene: &Scene) -> String {
     let Scene { image, camera, ambient, lights, materials, objects, groups } = scene;
-    let mut lines =
-        vec![format!("{image:?}"), format!("{camera:?}"), format!("ambient {ambient:?}")];
-    lines.extend(lights.iter().map(|light| format!("{light:?}")));
-    lines.extend(materials.iter().map(|material| format!("{material:?}")));
+    let mut lines = vec![
+        differing(image, &Image::default()),
+        differing(camera, &Camera::default()),
+        format!("ambient {ambient:?}"),
+    ];
+    lines.extend(lights.iter().map(|light| differing(light, &Light::default())));
+    lines.extend(materials.iter().map(|material| differing(material, &Material::default())));
     lines.extend(objects.iter().map(object_line));
     for group in groups {
         lines.push(format!("group {}", group.name));
@@ -73,5 +83,10 @@ fn object_line(object: &Object) -> String {
     let Object { name, shape, material, transform, place } = object;
     let still = *transform == glam::DAffine3::IDENTITY;
     let moved = if still { String::new() } else { format!(" moved by {transform:?}") };
-    format!("{name} at {place} of material {}{moved}: {shape:?}", material.0)
+    let shape = match shape {
+        Shape::Mesh(mesh) => differing(&**mesh, &Mesh::default()),
+        Shape::Points(points) => differing(&**points, &Points::default()),
+        shape => format!("{shape:?}"),
+    };
+    format!("{name} at {place} of material {}{moved}: {shape}", material.0)
 }
