@@ -3,13 +3,15 @@
 use crate::color::Rgb;
 use crate::diagnostic::Span;
 use crate::format::text::Findings;
+use crate::limits::LARGEST;
 use crate::material::{Dialect, Material, Model};
 
 /// What the statements behind one `newmtl` say.
 #[derive(Debug)]
 pub(super) struct Draft {
-    name: String,
-    span: Span,
+    pub(super) name: String,
+    /// Where `newmtl` stands.
+    pub(super) span: Span,
     pub(super) ambient: Option<Rgb>,
     pub(super) diffuse: Option<Rgb>,
     pub(super) specular: Option<Rgb>,
@@ -19,6 +21,10 @@ pub(super) struct Draft {
     pub(super) dissolve: Option<f32>,
     pub(super) transparency: Option<f32>,
     pub(super) illum: Option<(u8, Span)>,
+    /// Whether an image says what the diffuse colour is.
+    pub(super) diffuse_map: bool,
+    /// What was found in its statements.
+    pub(super) findings: Findings,
 }
 
 impl Draft {
@@ -35,15 +41,31 @@ impl Draft {
             dissolve: None,
             transparency: None,
             illum: None,
+            diffuse_map: false,
+            findings: Findings::default(),
+        }
+    }
+
+    /// The colours that its statements give.
+    pub(super) fn colors(&self) -> impl Iterator<Item = Rgb> {
+        [self.ambient, self.diffuse, self.specular, self.filter].into_iter().flatten()
+    }
+
+    /// Takes colours as counted up to 255.
+    pub(super) fn divide_colors(&mut self) {
+        for color in [&mut self.ambient, &mut self.diffuse, &mut self.specular, &mut self.filter] {
+            *color = color.map(|color| color / 255.0);
         }
     }
 
     /// The material, as the module's tables say.
-    pub(super) fn finish(self, findings: &mut Findings) -> Material {
+    pub(super) fn finish(&self, findings: &mut Findings) -> Material {
+        self.warn_of_bright_colors(findings);
         let k_s = self.specular.unwrap_or(Rgb::BLACK);
-        let highlight = !k_s.is_black();
+        let highlight = !k_s.is_black() && !self.has_no_highlight(findings);
         let illum = self.illum.as_ref().map_or(if highlight { 2 } else { 1 }, |(n, _)| *n);
-        let exponent = self.in_range("Ns", self.exponent.unwrap_or(32.0), 0.0, f32::MAX, findings);
+        let most = LARGEST as f32;
+        let exponent = self.in_range("Ns", self.exponent.unwrap_or(32.0), 0.0, most, findings);
         let ior = self.index_of_refraction(findings);
         let opacity = self.opacity(findings);
         self.warn_of_model(illum, highlight, findings);
@@ -56,11 +78,18 @@ impl Draft {
         } else {
             (1.0 - opacity) * filter
         };
+        let diffuse = match self.diffuse {
+            // The image would say it; black would hide that there is one.
+            Some(color) if color.is_black() && self.diffuse_map => None,
+            color => color,
+        };
+        // White is what programs write that have no ambient colour to give.
+        let ambient = self.ambient.filter(|&color| color != Rgb::WHITE);
         Material {
-            name: self.name,
+            name: self.name.clone(),
             model: if highlight { Model::BlinnPhong } else { Model::Lambert },
-            color: self.diffuse.unwrap_or(Rgb::grey(0.8)),
-            ambient_color: self.ambient,
+            color: diffuse.unwrap_or(Rgb::grey(0.8)),
+            ambient_color: ambient,
             specular_color: Some(if highlight { k_s } else { Rgb::WHITE }),
             k_a: opacity * if self.ambient.is_some() { 1.0 } else { 0.1 },
             k_d: opacity,
@@ -71,7 +100,7 @@ impl Draft {
             ior: if refracts || illum == 5 { ior } else { 1.0 },
             fresnel: matches!(illum, 5 | 7),
             dialect: Dialect::Mtl,
-            place: self.span.place,
+            place: self.span.place.clone(),
             ..Material::default()
         }
     }
@@ -81,6 +110,13 @@ impl Draft {
         let opacity = match (self.dissolve, self.transparency) {
             (None, None) => 1.0,
             (Some(d), None) => d,
+            (None, Some(1.0)) => {
+                self.warn("`Tr 1` without `d`", findings, || {
+                    "`Tr 1` would be invisible; it is read as opaque, since programs write it so"
+                        .to_owned()
+                });
+                1.0
+            }
             (None, Some(tr)) => 1.0 - tr,
             (Some(d), Some(tr)) => {
                 if (1.0 - tr - d).abs() > 0.01 {
@@ -100,6 +136,29 @@ impl Draft {
         opacity
     }
 
+    /// Whether the exponent says that there is no highlight, as programs write it.
+    fn has_no_highlight(&self, findings: &mut Findings) -> bool {
+        let Some(exponent) = self.exponent.filter(|&exponent| exponent <= 0.0) else {
+            return false;
+        };
+        self.warn("exponents that are not above 0", findings, || {
+            format!("`Ns {exponent}` leaves no highlight: `Ks` is not drawn")
+        });
+        true
+    }
+
+    fn warn_of_bright_colors(&self, findings: &mut Findings) {
+        let names = ["Ka", "Kd", "Ks", "Tf"];
+        let colors = [self.ambient, self.diffuse, self.specular, self.filter];
+        for (name, color) in names.into_iter().zip(colors) {
+            let Some(color) = color.filter(|color| color.max_channel() > 1.0) else { continue };
+            self.warn("colours above 1", findings, || {
+                let [r, g, b] = color.to_array();
+                format!("`{name} {r} {g} {b}` is above 1: it gives back more light than there is")
+            });
+        }
+    }
+
     fn index_of_refraction(&self, findings: &mut Findings) -> f32 {
         match self.index {
             // Written by programs that have none to give.
@@ -109,7 +168,10 @@ impl Draft {
                 });
                 1.5
             }
-            index => index.unwrap_or(1.5),
+            index => {
+                let most = Material::IOR.max as f32;
+                self.in_range("Ni", index.unwrap_or(1.5), 0.0, most, findings)
+            }
         }
     }
 

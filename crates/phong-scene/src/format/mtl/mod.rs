@@ -2,14 +2,15 @@
 //!
 //! Read by the specification of 1995 (Alias|Wavefront, version 4.2). The model is Blinn and
 //! Phong's `(N·H)^Ns` in [`Dialect::Mtl`](crate::Dialect::Mtl): `Ka Ia + Σ (Kd (N·L) + Ks (N·H)^Ns) I`.
-//! Colours are linear; g and b default to r.
+//! Colours are linear; g and b default to r. Above 1 they are a warning; if all of the file's are
+//! whole numbers up to 255 and one is at least 2, they are bytes.
 //!
 //! | statement | becomes |
 //! |---|---|
-//! | `Kd` | `color`, with `k_d` 1; without it 0.8 |
-//! | `Ka` | `ambient_color`, with `k_a` 1; without it `k_a` is 0.1 of the diffuse colour |
-//! | `Ks`, `Ns` | `specular_color`, with `k_s` 1 if it is not black; `shininess`, 32 without it |
-//! | `d`, `Tr` | `Tr` is not in the specification: 1 − d, unless `d` stands beside it |
+//! | `Kd` | `color`, with `k_d` 1; without it, or where it is black beside a `map_Kd`, 0.8 |
+//! | `Ka` | `ambient_color`, with `k_a` 1; white is the filler of programs that have none and is taken times Kd, as other readers do; without it `k_a` is 0.1 of the diffuse colour |
+//! | `Ks`, `Ns` | `specular_color`, with `k_s` 1 if it is not black; `shininess`, 32 without it; an exponent of 0 or below means no highlight |
+//! | `d`, `Tr` | `Tr` is not in the specification: 1 − d, unless `d` stands beside it; `Tr 1` alone is opaque, since programs write it so |
 //! | `Ni` | `ior` |
 //! | `Tf` | the filter of `transmission`; white without it |
 //! | `illum` | see below; without it 2 where there is a highlight, else 1 |
@@ -37,68 +38,106 @@ mod draft;
 mod texture;
 mod write;
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 pub(crate) use write::{Difference, write as write_material};
 
 use self::draft::Draft;
 use super::text::{Cursor, Decimal, Findings, Piece, blame, read_text, whole};
-use crate::color::Rgb;
+use crate::color::{Rgb, are_bytes};
 use crate::diagnostic::Diagnostic;
-use crate::limits::Limits;
+use crate::limits::{LARGEST, Limits};
 use crate::material::Material;
 use crate::source::{Source, trouble};
 
-/// Reads an MTL file: its materials in order, those before an error included.
-pub(crate) fn read_mtl(
-    path: &str,
-    source: &dyn Source,
-    limits: &Limits,
-    out: &mut Vec<Diagnostic>,
-) -> Vec<Material> {
-    let file: Arc<str> = path.into();
-    let text = match read_text(source, path, limits) {
-        Ok(text) => text,
-        Err(error) => {
-            out.push(Diagnostic::warning(
-                format!("cannot be read: {}", trouble(&error)),
-                whole(&file),
-            ));
-            return Vec::new();
+/// An MTL file, whose materials are made, and told of, as they are asked for: nothing is said of
+/// those that nothing uses.
+#[derive(Debug)]
+pub(crate) struct Library {
+    file: Arc<str>,
+    drafts: Vec<Draft>,
+    /// The draft of each name that counts: the first.
+    numbers: BTreeMap<String, usize>,
+    /// Whether its colours are bytes.
+    bytes: bool,
+    findings: Findings,
+}
+
+impl Library {
+    /// Reads an MTL file; `None` if it cannot be read, which has been said.
+    pub(crate) fn read(
+        path: &str,
+        source: &dyn Source,
+        limits: &Limits,
+        out: &mut Vec<Diagnostic>,
+    ) -> Option<Self> {
+        let file: Arc<str> = path.into();
+        let text = match read_text(source, path, limits) {
+            Ok(text) => text,
+            Err(error) => {
+                let message = format!("cannot be read: {}", trouble(&error));
+                out.push(Diagnostic::warning(message, whole(&file)));
+                return None;
+            }
+        };
+        let mut reader = Reader { file: &file, drafts: Vec::new(), findings: Findings::default() };
+        let piece = Piece { text: &text, offset: 0, line: 1, rows: 0 };
+        let mut cursor = Cursor::new(piece, false);
+        while !cursor.is_done() {
+            if cursor.more() {
+                reader.statement(&mut cursor);
+            }
+            cursor.next_line();
         }
-    };
-    let mut reader = Reader { file: &file, drafts: Vec::new(), findings: Findings::default() };
-    let piece = Piece { text: &text, offset: 0, line: 1, rows: 0 };
-    let mut cursor = Cursor::new(piece, false);
-    while !cursor.is_done() {
-        if cursor.more() {
-            reader.statement(&mut cursor);
+        let Reader { drafts, findings, .. } = reader;
+        let mut numbers = BTreeMap::new();
+        for (number, draft) in drafts.iter().enumerate() {
+            numbers.entry(draft.name.clone()).or_insert(number);
         }
-        cursor.next_line();
+        let bytes = are_bytes(drafts.iter().flat_map(Draft::colors));
+        Some(Self { file, drafts, numbers, bytes, findings })
     }
-    let Reader { drafts, mut findings, .. } = reader;
-    let mut materials: Vec<Material> = Vec::new();
-    for draft in drafts {
-        let material = draft.finish(&mut findings);
-        if let Some(first) = materials.iter().find(|m| m.name == material.name) {
-            let (line, place) = (first.place.line, material.place.clone());
-            let name = &material.name;
-            findings.warning(
+
+    /// The material of this name; `None`: the file defines none.
+    pub(crate) fn material(&mut self, name: &str) -> Option<Material> {
+        let number = *self.numbers.get(name)?;
+        if self.bytes {
+            self.findings.warning(
+                "colours read as bytes",
+                || whole(&self.file),
+                || {
+                    "all colours are whole numbers up to 255, some above 1: they are read as bytes"
+                        .to_owned()
+                },
+            );
+            // Said once is enough.
+            self.bytes = false;
+            self.drafts.iter_mut().for_each(Draft::divide_colors);
+        }
+        let line = self.drafts[number].span.place.line;
+        for again in self.drafts[number + 1..].iter().filter(|draft| draft.name == name) {
+            self.findings.warning(
                 "materials defined before",
-                || crate::diagnostic::Span { place, ..crate::diagnostic::Span::default() },
+                || again.span.clone(),
                 || format!("the material `{name}` is defined on line {line}, which counts"),
             );
-        } else {
-            materials.push(material);
         }
+        let draft = &mut self.drafts[number];
+        self.findings.append(std::mem::take(&mut draft.findings));
+        Some(draft.finish(&mut self.findings))
     }
-    findings.tell(&file, out);
-    materials
+
+    /// Everything there is to say about what was asked for.
+    pub(crate) fn tell(self, out: &mut Vec<Diagnostic>) {
+        self.findings.tell(&self.file, out);
+    }
 }
 
 struct Reader<'a> {
     file: &'a Arc<str>,
     drafts: Vec<Draft>,
+    /// What was found before the first material.
     findings: Findings,
 }
 
@@ -153,9 +192,14 @@ impl Reader<'_> {
                 }
             }
             _ => match texture::file_name(keyword, cursor.rest_of_line()) {
-                Some(name) => self.warn(&here, "textures", |word| {
-                    format!("textures are not drawn yet: `{word}` of `{name}` is left out")
-                }),
+                Some(name) => {
+                    if let (b"map_Kd", Some(draft)) = (keyword, self.drafts.last_mut()) {
+                        draft.diffuse_map = true;
+                    }
+                    self.warn(&here, "textures", |word| {
+                        format!("textures are not drawn yet: `{word}` of `{name}` is left out")
+                    });
+                }
                 None => self.warn(&here, "statements that are not known", |word| {
                     format!("the statement `{word}` is not known")
                 }),
@@ -192,7 +236,7 @@ impl Reader<'_> {
                 });
                 value = 0.0;
             }
-            channels[count] = value;
+            channels[count] = value.min(LARGEST as f32);
             count += 1;
         }
         let first = channels[0];
@@ -216,9 +260,10 @@ impl Reader<'_> {
         if value.is_some_and(f32::is_finite) {
             return value;
         }
-        self.findings.error(
+        let file = self.file;
+        self.found().error(
             "numbers that cannot be read",
-            || here.here(self.file),
+            || here.here(file),
             || match value {
                 _ if !something => "a number is missing".to_owned(),
                 Some(_) => format!("`{}` is too large", here.quote()),
@@ -245,6 +290,15 @@ impl Reader<'_> {
     }
 
     fn warn(&mut self, at: &Cursor<'_>, plural: &'static str, tell: impl FnOnce(String) -> String) {
-        self.findings.warning(plural, || at.here(self.file), || tell(at.quote()));
+        let file = self.file;
+        self.found().warning(plural, || at.here(file), || tell(at.quote()));
+    }
+
+    /// Where what is found here belongs: to the material, if it stands behind a `newmtl`.
+    fn found(&mut self) -> &mut Findings {
+        match self.drafts.last_mut() {
+            Some(draft) => &mut draft.findings,
+            None => &mut self.findings,
+        }
     }
 }

@@ -3,15 +3,21 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use glam::Vec2;
 use rayon::prelude::*;
 
-use super::block::{BAD_INDEX, Block, Context, Indices, Mark, NO_COLOR};
+use super::block::{BAD_INDEX, Block, Context, Indices, Mark, NO_COLOR, absolute};
+use super::libraries::Libraries;
+use crate::color::{Rgb, are_bytes, srgb_decode};
 use crate::diagnostic::Span;
+use crate::format::input::Input;
 use crate::format::text::{Cursor, Findings, Piece, TOLD, whole};
 use crate::fragment::{Fragment, flat};
 use crate::limits::Limits;
 use crate::material::Material;
-use crate::mesh::{Mesh, NO_INDEX, cut_polygons};
+use crate::mesh::{FLAT, Mesh, NO_INDEX, Points, collapse_faces, cut_polygons};
+use crate::scene::Object;
+use crate::shape::Shape;
 use crate::source::Blob;
 
 /// What the three indices of a corner refer to.
@@ -27,9 +33,16 @@ pub(super) struct Assembly {
     runs: Vec<(u32, u32)>,
     names: Vec<(String, Span)>,
     numbers: BTreeMap<String, u32>,
+    /// From which triangle on which smoothing group the faces are of.
+    smoothing: Vec<(u32, u32)>,
+    /// The positions of point elements.
+    points: Vec<u32>,
+    has_lines: bool,
     blocks: Vec<Start>,
     /// Whether a limit was met, and the rest of the file not read.
     stopped: bool,
+    /// How many triangles were made nothing of, which is said elsewhere.
+    lost: u64,
     pub(super) libraries: Vec<(String, Span)>,
     pub(super) findings: Findings,
 }
@@ -115,6 +128,9 @@ impl Assembly {
             });
             self.runs.push((first + start, number));
         }
+        self.smoothing.extend(block.smoothing.into_iter().map(|(start, g)| (first + start, g)));
+        self.points.extend(block.points.into_iter().map(|i| absolute(i, counts[0])));
+        self.has_lines |= block.has_lines;
         self.libraries.extend(block.libraries);
         true
     }
@@ -124,31 +140,65 @@ impl Assembly {
         mut self,
         blob: &dyn Blob,
         context: &Context,
-        known: &BTreeMap<String, Material>,
+        libraries: &mut Libraries,
+        input: &Input<'_>,
     ) -> (Option<Fragment>, Findings) {
-        if !self.stopped {
-            self.check_indices(blob, context);
-        }
         let at_file = || whole(&context.file);
-        if self.mesh.indices.is_empty() && !self.findings.any_error() {
+        if !self.stopped {
+            self.check_indices(blob, context, input.limits.lenient);
+            self.check_points(context);
+        }
+        if self.mesh.indices.is_empty() && self.points.is_empty() && !self.has_lines {
+            // As a file of PLY without faces.
+            self.points = (0..self.mesh.positions.len() as u32).collect();
+        }
+        if self.mesh.indices.is_empty() && self.points.is_empty() && !self.findings.any_error() {
             let count = self.mesh.positions.len();
             self.findings.error("empty models", at_file, || {
-                format!("there is nothing to draw: no face among {count} vertices (points alone are drawn from PLY files)")
+                format!("there is nothing to draw: no face and no point among {count} vertices")
             });
         }
         if self.findings.any_error() {
             return (None, self.findings);
         }
-        let materials = self.assign_materials(known);
-        let Self { mut mesh, mut findings, .. } = self;
-        mesh.origin = context.origin;
-        if !mesh.colors.is_empty() && self.colored < mesh.positions.len() as u64 {
-            findings.warning("vertices without colour", at_file, || {
-                let without = mesh.positions.len() as u64 - self.colored;
+        self.mesh.origin = context.origin;
+        self.mend_colors(context);
+        let materials = self.assign_materials(libraries);
+        let unplaced = self.mesh.take_unplaced();
+        let points = self.take_points(unplaced.as_deref(), input.radius, context);
+        let mesh = self.triangulate(unplaced.as_deref(), context);
+        let shapes = mesh.map(Shape::from).into_iter().chain(points.map(Shape::from));
+        let mut fragment = Fragment::default();
+        fragment.objects =
+            shapes.map(|shape| Object { name: String::new(), ..Object::from(shape) }).collect();
+        fragment.materials.extend(materials);
+        if fragment.objects.is_empty() {
+            self.findings.error("empty models", at_file, || {
+                "there is nothing to draw: no face is left".to_owned()
+            });
+        }
+        let sound = !self.findings.any_error();
+        (sound.then_some(fragment), self.findings)
+    }
+
+    /// The faces as triangles, with their normals; `None`: none are left.
+    fn triangulate(&mut self, unplaced: Option<&[bool]>, context: &Context) -> Option<Mesh> {
+        let at_file = || whole(&context.file);
+        let mut mesh = std::mem::take(&mut self.mesh);
+        let findings = &mut self.findings;
+        let mut gone = self.lost;
+        if let Some(unplaced) = unplaced {
+            let is_unplaced = |i: u32| unplaced.get(i as usize).copied().unwrap_or(false);
+            let [faces, triangles] =
+                collapse_faces(&mut mesh.indices, &mut self.polygons, is_unplaced);
+            let count = unplaced.iter().filter(|unplaced| **unplaced).count();
+            findings.warning("positions that are no numbers", at_file, || {
                 format!(
-                    "vertices without a colour beside some that have one: {without}; they are grey"
+                    "positions that are NaN or infinite: {count}; they are left out, and the \
+                     {faces} faces that use them"
                 )
             });
+            gone += triangles;
         }
         let tangled = cut_polygons(
             &mesh.positions,
@@ -163,7 +213,18 @@ impl Assembly {
                 )
             });
         }
-        let collapsed = mesh.drop_collapsed();
+        if mesh.normals.is_empty() && !self.smoothing.is_empty() {
+            let ends = self.smoothing.iter().map(|(start, _)| *start).chain([u32::MAX]);
+            let mut groups = vec![FLAT; mesh.indices.len()];
+            for ((start, group), end) in self.smoothing.iter().zip(ends.skip(1)) {
+                let range = *start as usize..(end as usize).min(groups.len());
+                if let Some(faces) = groups.get_mut(range) {
+                    faces.fill(*group);
+                }
+            }
+            mesh.smooth_groups(&groups);
+        }
+        let collapsed = mesh.drop_collapsed().saturating_sub(gone);
         if collapsed > 0 {
             findings.warning("collapsed triangles", at_file, || {
                 format!("triangles that use a vertex twice: {collapsed}; they are left out")
@@ -178,23 +239,119 @@ impl Assembly {
         let zeros = mesh.mend_normals();
         if zeros > 0 {
             findings.warning("normals of length 0", at_file, || {
-                format!("normals of length 0: {zeros}; the geometric one stands in for them")
+                format!(
+                    "normals without a direction: {zeros}; the geometric one stands in for them"
+                )
             });
         }
+        mesh.uvs.iter_mut().filter(|uv| !uv.is_finite()).for_each(|uv| *uv = Vec2::ZERO);
         if mesh.indices.is_empty() {
-            findings.error("empty models", at_file, || {
-                "there is nothing to draw: no face is left".to_owned()
-            });
-            return (None, findings);
+            return None;
         }
         if mesh.is_flat() {
             findings.warning("flat models", at_file, || flat(mesh.indices.len()));
         }
-        (Some(Fragment::of(mesh, materials)), findings)
+        Some(mesh)
+    }
+
+    /// The spheres of the point elements; `None`: there are none.
+    fn take_points(
+        &self,
+        unplaced: Option<&[bool]>,
+        radius: Option<f32>,
+        context: &Context,
+    ) -> Option<Points> {
+        let placed = |i: &&u32| !unplaced.is_some_and(|unplaced| unplaced[**i as usize]);
+        let kept: Vec<u32> = self.points.iter().filter(placed).copied().collect();
+        let mut points = Points { origin: context.origin, ..Points::default() };
+        points.spheres = kept
+            .iter()
+            .map(|&i| self.mesh.positions[i as usize])
+            .map(|p| [p.x, p.y, p.z, radius.unwrap_or(0.0)])
+            .collect();
+        if !self.mesh.colors.is_empty() {
+            points.colors = kept.iter().map(|&i| self.mesh.colors[i as usize]).collect();
+        }
+        if points.spheres.is_empty() {
+            return None;
+        }
+        if radius.is_none() {
+            points.guess_radius();
+            if let ([sphere], false) = (&mut points.spheres[..], self.mesh.indices.is_empty()) {
+                // A single point beside a mesh is small beside it.
+                sphere[3] = (0.01 * self.mesh.bounds().size().max_element()) as f32;
+                points.guessed = Some(sphere[3]);
+            }
+        }
+        Some(points)
+    }
+
+    /// Says if point elements use positions that there are not.
+    fn check_points(&mut self, context: &Context) {
+        let count = self.mesh.positions.len();
+        let bad = self.points.iter().filter(|i| **i as usize >= count).count();
+        if bad > 0 {
+            self.findings.error(
+                "points out of range",
+                || whole(&context.file),
+                || format!("points that use a position out of range: {bad}"),
+            );
+        }
+    }
+
+    /// Decodes the colours, which are sRGB, and gives grey to vertices that have none.
+    fn mend_colors(&mut self, context: &Context) {
+        let colors = &mut self.mesh.colors;
+        if colors.is_empty() {
+            return;
+        }
+        let findings = &mut self.findings;
+        let at_file = || whole(&context.file);
+        let is_color = |color: &Rgb| color.to_array().iter().all(|c| c.is_finite());
+        let without = colors.par_iter().filter(|color| !is_color(color)).count() as u64;
+        let unsaid = without.saturating_sub(colors.len() as u64 - self.colored);
+        if without > unsaid {
+            findings.warning("vertices without colour", at_file, || {
+                let count = without - unsaid;
+                format!(
+                    "vertices without a colour beside some that have one: {count}; they are grey"
+                )
+            });
+        }
+        if unsaid > 0 {
+            findings.warning("colours that are no numbers", at_file, || {
+                format!("colours that are NaN or infinite: {unsaid}; they are grey")
+            });
+        }
+        let colored = || colors.iter().filter(|color| is_color(color)).copied();
+        let bytes = are_bytes(colored());
+        let above = colored().filter(|color| color.max_channel() > 1.0).count();
+        if bytes {
+            findings.warning("colours read as bytes", at_file, || {
+                "all colours are whole numbers up to 255, some above 1: they are read as bytes"
+                    .to_owned()
+            });
+        } else if above > 0 {
+            findings.warning("colours above 1", at_file, || {
+                format!("colours above 1: {above}; they are brighter than white")
+            });
+        }
+        // Up to 1 they are linear already; of bytes those are 0 and 1, which are the same decoded.
+        let linear = |c: f32| match c {
+            _ if bytes => srgb_decode(f64::from(c) / 255.0) as f32,
+            c if c > 1.0 => srgb_decode(f64::from(c)) as f32,
+            c => c,
+        };
+        colors.par_iter_mut().with_min_len(1 << 12).for_each(|color| {
+            *color = if is_color(color) { color.map(linear) } else { Material::default().color };
+        });
     }
 
     /// Finds indices out of range, and forgets what no face uses.
-    fn check_indices(&mut self, blob: &dyn Blob, context: &Context) {
+    ///
+    /// A corner's normal or texture coordinate that there is not is left out; a position is an
+    /// error, or, if `lenient`, its face is left out.
+    fn check_indices(&mut self, blob: &dyn Blob, context: &Context, lenient: bool) {
         let mesh = &mut self.mesh;
         let counts = [mesh.positions.len(), mesh.uvs.len(), mesh.normals.len()];
         let mut bad = Vec::new();
@@ -215,7 +372,31 @@ impl Assembly {
             let outside =
                 |&index: &u32| index as usize >= counts[kind] && !(optional && index == NO_INDEX);
             let wrong = indices.par_iter().with_min_len(1 << 12).filter(|t| t.iter().any(outside));
-            if wrong.clone().count() > 0 {
+            let count = wrong.clone().count();
+            if count > 0 && optional {
+                let what = KINDS[kind];
+                self.findings.warning(
+                    "kinds of index out of range",
+                    || whole(&context.file),
+                    || format!("triangles that use a {what} out of range: {count}; it is left out"),
+                );
+                let corners = indices.iter_mut().flatten();
+                corners.filter(|index| outside(index)).for_each(|index| *index = NO_INDEX);
+            } else if count > 0 && lenient {
+                let positions = counts[0];
+                let [faces, triangles] =
+                    collapse_faces(indices, &mut self.polygons, |i| i as usize >= positions);
+                self.lost += triangles;
+                self.findings.warning(
+                    "faces out of range",
+                    || whole(&context.file),
+                    || {
+                        format!(
+                            "faces that use a position out of range: {faces}; they are left out"
+                        )
+                    },
+                );
+            } else if count > 0 {
                 // Only a file that is refused pays for walking all its triangles once more.
                 let all = indices.iter().enumerate().filter(|(_, t)| t.iter().any(&outside));
                 bad.extend(all.map(|(triangle, _)| triangle as u32));
@@ -272,7 +453,7 @@ impl Assembly {
 
     /// Gives every triangle its material: those of the file in the order of their first use, from
     /// number 1 on; 0 for faces before any `usemtl`.
-    fn assign_materials(&mut self, known: &BTreeMap<String, Material>) -> Vec<Material> {
+    fn assign_materials(&mut self, libraries: &mut Libraries) -> Vec<Material> {
         let count = self.mesh.indices.len();
         let mut runs = std::mem::take(&mut self.runs);
         runs.retain(|(start, _)| (*start as usize) < count);
@@ -288,7 +469,7 @@ impl Assembly {
                 continue;
             }
             let number = *placed[name as usize].get_or_insert_with(|| {
-                materials.push(self.material(name, known));
+                materials.push(self.material(name, libraries));
                 materials.len() as u32
             });
             faces[start as usize..end].fill(number);
@@ -297,10 +478,10 @@ impl Assembly {
         materials
     }
 
-    fn material(&mut self, name: u32, known: &BTreeMap<String, Material>) -> Material {
+    fn material(&mut self, name: u32, libraries: &mut Libraries) -> Material {
         let Some((name, span)) = self.names.get(name as usize) else { return Material::default() };
-        if let Some(material) = known.get(name) {
-            return material.clone();
+        if let Some(material) = libraries.material(name) {
+            return material;
         }
         let place = span.place.clone();
         self.findings.warning(

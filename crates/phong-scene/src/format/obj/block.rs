@@ -8,16 +8,16 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec2, Vec3};
 
-use crate::color::Rgb;
+use crate::color::{Rgb, srgb_decode};
 use crate::diagnostic::Span;
-use crate::format::text::{Cursor, Findings, Piece, blame, take_digits};
-use crate::mesh::NO_INDEX;
+use crate::format::text::{Cursor, Decimal, Findings, Piece, blame, take_digits};
+use crate::mesh::{FLAT, NO_INDEX};
 
 /// An index that no file can use: out of range, said where it is resolved.
 pub(super) const BAD_INDEX: u32 = NO_INDEX - 1;
 
-/// A vertex without a colour in a file that gives colours: that of the default material.
-pub(super) const NO_COLOR: Rgb = Rgb::grey(0.8);
+/// A vertex without a colour in a file that gives colours.
+pub(super) const NO_COLOR: Rgb = Rgb::grey(f32::NAN);
 
 /// In a corner: there is no such index.
 const NONE: i64 = i64::MAX;
@@ -40,7 +40,7 @@ pub(super) struct Context {
 #[derive(Debug, Default)]
 pub(super) struct Block {
     pub(super) positions: Vec<Vec3>,
-    /// Empty, or one a position.
+    /// Empty, or one a position; channels above 1 are still to be decoded.
     pub(super) colors: Vec<Rgb>,
     /// How many positions have a colour.
     pub(super) colored: u64,
@@ -52,6 +52,12 @@ pub(super) struct Block {
     pub(super) polygons: Vec<[u32; 2]>,
     /// From which triangle on which material is used.
     pub(super) materials: Vec<(u32, String, Span)>,
+    /// From which triangle on which smoothing group the faces are of; 0: none, they are flat.
+    pub(super) smoothing: Vec<(u32, u32)>,
+    /// The positions of point elements, as corners are read.
+    pub(super) points: Vec<i64>,
+    /// Whether there are lines.
+    pub(super) has_lines: bool,
     /// What stands behind `mtllib`.
     pub(super) libraries: Vec<(String, Span)>,
     pub(super) findings: Findings,
@@ -148,11 +154,14 @@ impl Block {
     fn vertex(&mut self, cursor: &mut Cursor<'_>, context: &Context) {
         let mut position = [0.0; 3];
         for (axis, value) in position.iter_mut().enumerate() {
-            let Some(number) = cursor.float(context.origin[axis]) else {
-                self.bad_number(cursor, context, axis, "a position", 3);
-                break;
+            *value = match cursor.float(context.origin[axis]) {
+                Some(number) => number,
+                None if cursor.take_no_number() => f32::NAN,
+                None => {
+                    self.bad_number(cursor, context, axis, "a position", 3);
+                    break;
+                }
             };
-            *value = number;
         }
         if cursor.more() {
             self.vertex_extras(cursor, context);
@@ -164,12 +173,20 @@ impl Block {
 
     /// What follows a position: a weight, which polygons do not use, or a colour.
     fn vertex_extras(&mut self, cursor: &mut Cursor<'_>, context: &Context) {
-        let mut extras = [0.0; 3];
+        let mut extras = [0.0_f64; 3];
         let mut count = 0;
         while cursor.more() {
-            let Some(value) = cursor.float(0.0) else {
-                self.bad_number(cursor, context, count, "what follows a position", 0);
-                break;
+            let start = cursor.clone();
+            let value = match cursor.decimal().map(Decimal::to_f64) {
+                Some(value) if cursor.ends_word(cursor.at()) && (value as f32).is_finite() => value,
+                _ => {
+                    *cursor = start;
+                    if !cursor.take_no_number() {
+                        self.bad_number(cursor, context, count, "what follows a position", 0);
+                        break;
+                    }
+                    f64::NAN
+                }
             };
             if let Some(extra) = extras.get_mut(count) {
                 *extra = value;
@@ -180,7 +197,7 @@ impl Block {
             if self.colors.is_empty() {
                 self.colors = vec![NO_COLOR; self.positions.len()];
             }
-            self.colors.push(Rgb::from(extras));
+            self.colors.push(Rgb::from(extras.map(decoded)));
             self.colored += 1;
         } else if !self.colors.is_empty() {
             self.colors.push(NO_COLOR);
@@ -201,6 +218,7 @@ impl Block {
             match cursor.float(0.0) {
                 Some(number) => *value = number,
                 None if i >= least && !cursor.more() => break,
+                None if cursor.take_no_number() => *value = f32::NAN,
                 None => {
                     self.bad_number(cursor, context, i, what, least);
                     break;
@@ -364,6 +382,29 @@ impl Block {
         cursor.finish_line();
     }
 
+    /// `s off`, `s 0`, `s 3`: what is neither is a name, and as good as any number.
+    fn smoothing(&mut self, cursor: &mut Cursor<'_>) {
+        cursor.more();
+        let word = cursor.word();
+        let group = match str::from_utf8(word).ok().and_then(|word| word.parse().ok()) {
+            Some(number) => number,
+            None if word.is_empty() || word.eq_ignore_ascii_case(b"off") => FLAT,
+            None => 1,
+        };
+        self.smoothing.push((self.indices[0].triangles.len() as u32, group));
+    }
+
+    /// `p v1 v2 …`
+    fn point_element(&mut self, cursor: &mut Cursor<'_>, context: &Context) {
+        let counts = self.counts();
+        while cursor.more() {
+            match corner(cursor, counts) {
+                Some([position, ..]) => self.points.push(position),
+                None => return self.bad_corner(cursor, context),
+            }
+        }
+    }
+
     fn rare_statement(&mut self, cursor: &mut Cursor<'_>, context: &Context) {
         let here = cursor.clone();
         let at = || here.here(&context.file);
@@ -379,15 +420,16 @@ impl Block {
                 let names = String::from_utf8_lossy(cursor.rest_of_line()).into_owned();
                 self.libraries.push((names, at()));
             }
-            // Names, smoothing, levels of detail and display attributes do not change a shape.
-            b"g" | b"o" | b"s" | b"mg" | b"lod" | b"bevel" | b"c_interp" | b"d_interp"
-            | b"usemap" | b"maplib" | b"shadow_obj" | b"trace_obj" => {}
-            b"l" => self
-                .findings
-                .warning("lines, which are not drawn", at, || "lines are not drawn".to_owned()),
-            b"p" => self.findings.warning("point elements, which are not drawn", at, || {
-                "point elements are not drawn".to_owned()
-            }),
+            // Names, levels of detail and display attributes do not change a shape.
+            b"g" | b"o" | b"mg" | b"lod" | b"bevel" | b"c_interp" | b"d_interp" | b"usemap"
+            | b"maplib" | b"shadow_obj" | b"trace_obj" => {}
+            b"s" => self.smoothing(cursor),
+            b"l" => {
+                self.has_lines = true;
+                let tell = || "lines are not drawn".to_owned();
+                self.findings.warning("lines, which are not drawn", at, tell);
+            }
+            b"p" => self.point_element(cursor, context),
             b"vp" | b"cstype" | b"deg" | b"bmat" | b"step" | b"curv" | b"curv2" | b"surf"
             | b"parm" | b"trim" | b"hole" | b"scrv" | b"sp" | b"end" | b"con" | b"ctech"
             | b"stech" | b"bzp" | b"bsp" | b"cdc" | b"cdp" | b"res" => {
@@ -408,6 +450,18 @@ impl Block {
             }
         }
     }
+}
+
+/// A channel of sRGB as a linear value if it is at most 1. What is above is left as it is: whether
+/// it is a byte is only known when all of the file is read.
+fn decoded(channel: f64) -> f32 {
+    (if channel <= 1.0 { srgb_decode(channel.max(0.0)) } else { channel }) as f32
+}
+
+/// What a corner's index means where `before` vertices stand before its block.
+pub(super) fn absolute(index: i64, before: usize) -> u32 {
+    let index = if index >= RELATIVE_LEAST { before as i64 + index - RELATIVE } else { index };
+    u32::try_from(index).unwrap_or(BAD_INDEX).min(BAD_INDEX)
 }
 
 /// Indices that count from the block's first vertex are at least this.

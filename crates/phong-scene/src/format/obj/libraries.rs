@@ -1,62 +1,77 @@
 //! The MTL files that an OBJ file names.
 
-use std::collections::BTreeMap;
-
 use crate::diagnostic::{Diagnostic, Span};
-use crate::format::mtl::read_mtl;
+use crate::format::input::Input;
+use crate::format::mtl::Library;
 use crate::format::text::Findings;
-use crate::limits::Limits;
 use crate::material::Material;
 use crate::source::Source;
 
-/// Reads all files behind `mtllib`; of materials of one name, the first counts.
-///
-/// A name may hold blanks, and one statement may name several files: the whole is tried as one
-/// name, then as names that end in `.mtl`, then as words. Back-slashes are slashes. What is not
-/// found where it is said to be may lie beside the OBJ file: exporters write the paths of the
-/// machine they ran on.
-pub(super) fn read_all(
-    statements: Vec<(String, Span)>,
-    path: &str,
-    source: &dyn Source,
-    limits: &Limits,
-    findings: &mut Findings,
-    told: &mut Vec<Diagnostic>,
-) -> BTreeMap<String, Material> {
-    let mut known = BTreeMap::new();
-    let mut read = Vec::new();
-    for (names, span) in statements {
-        for choice in [vec![names.clone()], split_at_extensions(&names), split_at_blanks(&names)] {
-            let found: Vec<_> = choice.iter().map(|name| locate(name, path, source)).collect();
-            let last_choice = choice == split_at_blanks(&names);
-            if found.iter().any(Option::is_none) && !last_choice {
-                continue;
-            }
-            for (name, at) in choice.iter().zip(found) {
-                match at {
-                    Some(at) if read.contains(&at) => {}
-                    Some(at) => {
-                        for material in read_mtl(&at, source, limits, told) {
-                            known.entry(material.name.clone()).or_insert(material);
+/// The MTL files that are read; of materials of one name, the first counts.
+#[derive(Debug, Default)]
+pub(super) struct Libraries {
+    all: Vec<Library>,
+}
+
+impl Libraries {
+    /// Reads all files behind `mtllib`.
+    ///
+    /// A name may hold blanks, and one statement may name several files: the whole is tried as one
+    /// name, then as names that end in `.mtl`, then as words. Back-slashes are slashes. What is not
+    /// found where it is said to be may lie beside the OBJ file: exporters write the paths of the
+    /// machine they ran on.
+    pub(super) fn read(
+        statements: Vec<(String, Span)>,
+        input: &Input<'_>,
+        findings: &mut Findings,
+        told: &mut Vec<Diagnostic>,
+    ) -> Self {
+        let Input { path, source, limits, .. } = *input;
+        let mut libraries = Self::default();
+        let mut read = Vec::new();
+        for (names, span) in statements {
+            for choice in
+                [vec![names.clone()], split_at_extensions(&names), split_at_blanks(&names)]
+            {
+                let found: Vec<_> = choice.iter().map(|name| locate(name, path, source)).collect();
+                let last_choice = choice == split_at_blanks(&names);
+                if found.iter().any(Option::is_none) && !last_choice {
+                    continue;
+                }
+                for (name, at) in choice.iter().zip(found) {
+                    match at {
+                        Some(at) if read.contains(&at) => {}
+                        Some(at) => {
+                            libraries.all.extend(Library::read(&at, source, limits, told));
+                            read.push(at);
                         }
-                        read.push(at);
-                    }
-                    None => {
-                        // Of a name with blanks, the words say nothing.
-                        let name =
-                            if choice.len() > 1 && !name.contains('.') { &names } else { name };
-                        findings.warning(
-                            "material files that are not there",
-                            || span.clone(),
-                            || format!("there is no material file `{name}`"),
-                        );
+                        None => {
+                            // Of a name with blanks, the words say nothing.
+                            let whole = choice.len() > 1 && !name.contains('.');
+                            let name = if whole { &names } else { name };
+                            findings.warning(
+                                "material files that are not there",
+                                || span.clone(),
+                                || format!("there is no material file `{name}`"),
+                            );
+                        }
                     }
                 }
+                break;
             }
-            break;
         }
+        libraries
     }
-    known
+
+    /// The material of this name; `None`: no file defines it.
+    pub(super) fn material(&mut self, name: &str) -> Option<Material> {
+        self.all.iter_mut().find_map(|library| library.material(name))
+    }
+
+    /// Everything there is to say about the materials that were asked for.
+    pub(super) fn tell(self, out: &mut Vec<Diagnostic>) {
+        self.all.into_iter().for_each(|library| library.tell(out));
+    }
 }
 
 /// Where a file of that name is; `None`: nowhere.

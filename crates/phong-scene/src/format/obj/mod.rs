@@ -32,6 +32,7 @@ use glam::DVec3;
 
 use self::assemble::{Assembly, start_of};
 use self::block::{Block, Context};
+use self::libraries::Libraries;
 use super::input::Input;
 use super::origin::{SAMPLES, origin_of};
 use super::text::{Cursor, Decimal, Lines, Piece, open_text, whole};
@@ -61,9 +62,9 @@ pub(crate) fn read(input: &Input<'_>, out: &mut Vec<Diagnostic>) -> Option<Fragm
         )?;
         let mut told = Vec::new();
         let names = std::mem::take(&mut assembly.libraries);
-        let known =
-            libraries::read_all(names, path, source, limits, &mut assembly.findings, &mut told);
-        let (model, findings) = assembly.finish(blob.as_ref(), &context, &known);
+        let mut libraries = Libraries::read(names, input, &mut assembly.findings, &mut told);
+        let (model, findings) = assembly.finish(blob.as_ref(), &context, &mut libraries, input);
+        libraries.tell(&mut told);
         Ok((model, findings, told))
     };
     match read() {

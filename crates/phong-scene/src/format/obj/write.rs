@@ -4,6 +4,7 @@ use std::io::{self, BufWriter, Write};
 
 use glam::DVec3;
 
+use crate::color::{srgb_decode, srgb_encode};
 use crate::material::Material;
 use crate::mesh::{Mesh, NO_INDEX};
 
@@ -36,6 +37,10 @@ impl Mesh {
         objects: &[(usize, String)],
         to: &mut dyn Write,
     ) -> io::Result<()> {
+        if !self.has_sound_indices() {
+            let message = "an index of the mesh is out of range";
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
+        }
         let to = &mut BufWriter::with_capacity(1 << 16, to);
         for (i, p) in self.positions.iter().enumerate() {
             if self.origin == DVec3::ZERO {
@@ -45,7 +50,10 @@ impl Mesh {
                 write!(to, "v {} {} {}", p.x, p.y, p.z)?;
             }
             match self.colors.get(i) {
-                Some(c) => writeln!(to, " {} {} {}", c.r, c.g, c.b)?,
+                Some(c) => {
+                    let [r, g, b] = c.to_array().map(encoded);
+                    writeln!(to, " {r} {g} {b}")?;
+                }
                 None => writeln!(to)?,
             }
         }
@@ -84,6 +92,18 @@ impl Mesh {
         }
         to.flush()
     }
+}
+
+/// A linear channel as sRGB, in so many digits that it is decoded to the same bits.
+fn encoded(channel: f32) -> String {
+    let exact = srgb_encode(f64::from(channel));
+    let same = |text: &String| {
+        let back = text.parse().map(srgb_decode).map(|c| c as f32);
+        back.is_ok_and(|back| back.to_bits() == channel.to_bits())
+    };
+    let short = std::iter::once((exact as f32).to_string());
+    let longer = (9..18).map(|digits| format!("{exact:.digits$}"));
+    short.chain(longer).find(same).unwrap_or_else(|| exact.to_string())
 }
 
 /// The texture coordinates or normals of corners.
