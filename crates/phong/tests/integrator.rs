@@ -445,5 +445,5 @@ fn a_scene_too_large_for_its_numbers_is_refused() {
     let mut scene = scene();
     scene.objects.push(sphere([1e300, 0.0, 0.0], 1e299));
     let error = View::of(&scene).unwrap_err();
-    assert!(matches!(error, ViewError::Geometry(GeometryError::TooLarge(_))));
+    assert!(matches!(error, ViewError::Geometry(GeometryError::Scene(_))));
 }
