@@ -67,14 +67,14 @@ impl Checkpoint {
     }
 
     /// Writes the checkpoint if it is time.
-    pub(crate) fn keep(&self, film: &Film) {
+    pub(crate) fn keep(&self, film: impl FnOnce() -> Film) {
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         let begun = Instant::now();
         if begun < state.due || state.trouble.is_some() {
             return;
         }
         let written = Output::create(&self.path).and_then(|mut output| {
-            output.write(|mut out| part::write(film, &self.settings, &mut out))?;
+            output.write(|mut out| part::write(film().film_tiles(), &self.settings, &mut out))?;
             Output::commit(vec![output])
         });
         state.trouble = written.err().map(|failure| failure.summary());

@@ -3,6 +3,7 @@
 use std::io;
 use std::path::Path;
 
+use phong::render::OptionsError;
 use phong_scene::{Diagnostic, trouble};
 
 /// Why a command did not do what was asked.
@@ -26,6 +27,12 @@ pub(crate) enum Failure {
     Interrupted,
     /// Whoever read standard output has had enough. Nothing to say; exit code 0.
     ReaderGone,
+}
+
+impl From<OptionsError> for Failure {
+    fn from(error: OptionsError) -> Self {
+        Self::usage(error.to_string())
+    }
 }
 
 impl Failure {

@@ -4,11 +4,12 @@ use std::path::{Path, PathBuf};
 
 use phong::aov::Aov;
 use phong::film::{Film, LayerKind, Window};
+use phong::finish::{Finishing, finish};
 use phong::image::{self, Bits, Content, Encoding, Format};
 use phong::part::{self, Settings};
 use phong::render::RenderOptions;
 use phong::terms::TermSet;
-use phong_scene::Scene;
+use phong_scene::{Image, Scene};
 
 use crate::args::{self, EncodingArgs, ImageArgs, OutputFormat, RenderArgs, ViewArgs};
 use crate::failure::Failure;
@@ -74,7 +75,9 @@ impl Outputs {
     /// Writes everything, under no name yet.
     pub(crate) fn write(&mut self, film: &Film, settings: &Settings) -> Result<(), Failure> {
         match self {
-            Self::Part(output) => output.write(|mut out| part::write(film, settings, &mut out)),
+            Self::Part(output) => {
+                output.write(|mut out| part::write(film.film_tiles(), settings, &mut out))
+            }
             Self::Picture(format, files) => write_files(*format, files, film, settings.encoding),
         }
     }
@@ -95,8 +98,9 @@ fn write_files(
     film: &Film,
     encoding: Encoding,
 ) -> Result<(), Failure> {
+    let picture = finish(film, &Finishing::default());
     files.iter_mut().try_for_each(|(content, output)| {
-        output.write(|mut out| image::write(film, *content, format, &encoding, &mut out))
+        output.write(|mut out| image::write(&picture, *content, format, &encoding, &mut out))
     })
 }
 
@@ -138,13 +142,8 @@ impl Plan {
         if stdout && args.work.resume {
             return Err(Failure::usage("--resume needs a file to keep its checkpoint beside"));
         }
-        let mut aovs = Vec::new();
-        for &aov in &args.aov {
-            if !aovs.contains(&aov) {
-                aovs.push(aov);
-            }
-        }
-        Ok(Self { output, terms: args.terms, aovs, encoding: encoding(&args.encoding), share })
+        let (terms, aovs) = (args.terms, args.aov.clone());
+        Ok(Self { output, terms, aovs, encoding: encoding(&args.encoding), share })
     }
 
     /// Makes ready what may be written: which terms the scene has is not known yet.
@@ -152,9 +151,9 @@ impl Plan {
         if self.share.is_some() {
             return Output::create(&self.output).map(Outputs::Part);
         }
-        let any = RenderOptions::of(&phong_scene::Image::default());
+        let any = RenderOptions::of(&Image::default())?;
         let terms = if self.terms { TermSet::ALL } else { TermSet::NONE };
-        let layers = RenderOptions { terms, aovs: self.aovs.clone(), ..any }.layers();
+        let layers = any.with_terms(terms).with_aovs(&self.aovs).layers();
         Outputs::picture(&self.output, args.encoding.output_format, &layers)
     }
 
@@ -164,13 +163,13 @@ impl Plan {
         args: &RenderArgs,
         input: &mut Input,
     ) -> Result<RenderOptions, Failure> {
-        let mut options = settle(&args.image, &args.view, input)?;
-        options.share = self.share;
-        if self.terms {
-            options.terms = TermSet::of_scene(&input.scene);
-        }
-        options.aovs.clone_from(&self.aovs);
-        Ok(options)
+        let options = settle(&args.image, &args.view, input)?;
+        let terms = if self.terms { TermSet::of_scene(&input.scene) } else { TermSet::NONE };
+        let options = options.with_terms(terms).with_aovs(&self.aovs);
+        Ok(match self.share {
+            Some((index, count)) => options.with_share(index, count)?,
+            None => options,
+        })
     }
 }
 
@@ -189,18 +188,14 @@ pub(crate) fn settle(
     image.seed = seed.unwrap_or(image.seed);
     image.depth = depth.unwrap_or(image.depth);
     image.background = background.unwrap_or(image.background);
-    let mut options = RenderOptions::of(image);
-    if let Some(args::Crop { x0, y0, x1, y1 }) = *crop {
-        options.window = Window { x0, y0, x1, y1 };
-        if !options.window.fits(image.size) {
-            let [width, height] = image.size;
-            return Err(Failure::usage(format!(
-                "--crop {x0},{y0},{x1},{y1} reaches out of the picture, which is {width}x{height}"
-            )));
-        }
-    }
-    options.shadows = !no_shadows;
-    Ok(options)
+    let options = RenderOptions::of(image)?.with_shadows(!no_shadows);
+    let Some(args::Crop { x0, y0, x1, y1 }) = *crop else { return Ok(options) };
+    let [width, height] = image.size;
+    options.with_window(Window { x0, y0, x1, y1 }).map_err(|_outside| {
+        Failure::usage(format!(
+            "--crop {x0},{y0},{x1},{y1} reaches out of the picture, which is {width}x{height}"
+        ))
+    })
 }
 
 /// How the command line wants a picture written.

@@ -212,7 +212,7 @@ fn an_interrupted_render_goes_on_to_the_same_bytes() {
 #[test]
 fn a_damaged_checkpoint_is_refused_and_kept() {
     let folder = balls();
-    fs::write(folder.path("a.png.part"), b"phong part 2\nrubbish\n\n").unwrap();
+    fs::write(folder.path("a.png.part"), b"phong part 3\nrubbish\n\n").unwrap();
     folder.when("render a.toml --resume").is_refused(&["a.png.part", "damaged", "remove it"]);
     assert_eq!(folder.names(), ["a.png.part", "a.toml"]);
 }

@@ -101,7 +101,7 @@ fn values_out_of_range_are_refused_with_the_way_out() {
 fn negative_values_are_told_their_range() {
     let folder = given(&[("a.toml", BALLS)]);
     for (words, told) in [
-        ("--samples -1", "from 1 to 1048576"),
+        ("--samples -1", "from 1 to 1000000"),
         ("--depth -3", "from 0 to 1024"),
         ("--seed -1", "from 0 to 18446744073709551615"),
         ("--threads -2", "from 1 to 4096"),

@@ -20,11 +20,8 @@ fn changed(file: &str, change: fn(&mut Material)) -> (View, RenderOptions) {
     let reading = phong_scene::read(path.to_str().unwrap(), None, &Folder, &Limits::default());
     let mut scene = reading.scene.unwrap_or_else(|| panic!("{file}: {:?}", reading.diagnostics));
     scene.materials.iter_mut().for_each(change);
-    let mut options = RenderOptions::of(&scene.image);
-    options.size = [20, 12];
-    options.window = phong::film::Window::full(options.size);
-    options.samples = 3;
-    options.terms = TermSet::ALL;
+    let options = RenderOptions::of(&scene.image).unwrap().with_size([20, 12]).unwrap();
+    let options = options.with_samples(3).unwrap().with_terms(TermSet::ALL);
     (View::of(&scene).unwrap(), options)
 }
 
@@ -43,7 +40,7 @@ fn numbers_in_json_are_the_very_bits() {
 #[test]
 fn an_explanation_in_words_puts_the_numbers_into_the_equation() {
     let (scene, options) = compiled("two-balls.toml");
-    let told = explain(&scene, &RenderOptions { samples: 1, ..options }, [9, 6]).unwrap();
+    let told = explain(&scene, &options.with_samples(1).unwrap(), [9, 6]).unwrap();
     let text = tell::text(&told, None, true);
     for wanted in ["pixel (9, 6) of 20 × 12", "N·L = ", "diffuse  = k_d (N·L) C_d\n", "bytes"] {
         assert!(text.contains(wanted), "{wanted:?} is not in\n{text}");
@@ -98,7 +95,7 @@ fn what_is_written_as_a_product_multiplies_out_whatever_the_model_and_dialect() 
         ("metals.toml", |_| {}),
     ] {
         let (scene, options) = changed(file, change);
-        let options = RenderOptions { samples: 1, ..options };
+        let options = options.with_samples(1).unwrap();
         for [x, y] in (0..12).flat_map(|y| (0..20).map(move |x| [x, y])) {
             let told = explain(&scene, &options, [x, y]).unwrap();
             let (text, latex) = (tell::text(&told, None, true), tell::latex(&told, 0));

@@ -173,11 +173,11 @@ pub struct Image {
 
 impl Image {
     /// The largest width and height in pixels.
-    pub(crate) const LARGEST: u32 = 1 << 20;
+    pub const LARGEST: u32 = 1 << 20;
     /// The most samples a pixel.
-    pub(crate) const MOST_SAMPLES: u32 = 1_000_000;
+    pub const MOST_SAMPLES: u32 = 1_000_000;
     /// The most bounces.
-    pub(crate) const DEEPEST: u32 = 100;
+    pub const DEEPEST: u32 = 100;
 }
 
 impl Default for Image {

@@ -28,9 +28,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scene = reading.scene.ok_or("the scene has errors")?;
 
     // Compiling: what rays meet. Rendering: on rayon's threads, the same bits on any number.
-    let options = RenderOptions { terms: TermSet::ALL, ..RenderOptions::of(&scene.image) };
+    let options = RenderOptions::of(&scene.image)?.with_terms(TermSet::ALL);
     let compiled = View::of(&scene)?;
-    let film = render(&compiled, &options, &|_, _| {}, &Cancel::new())?.film;
+    let film = render(&compiled, &options, &|_| {}, &Cancel::new()).film;
 
     // A pixel of the film is the sum of its terms; so is its explanation.
     let pixel = film.at(LayerKind::Picture, 38, 25).ok_or("no such pixel")?;

@@ -1,11 +1,16 @@
 //! The film: what has been rendered so far, layer by layer.
 
+mod sums;
 mod values;
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use thiserror::Error;
 
 use crate::aov::Aov;
 use crate::terms::Term;
+pub(crate) use sums::{Sums8, TileSums, coverage, eights_of};
 pub use values::Values;
 
 /// A half-open rectangle of pixels of the full picture: `x0 ≤ x < x1`, `y0 ≤ y < y1`.
@@ -48,6 +53,21 @@ impl Window {
         let x1 = x0 + if edge < right { edge } else { right };
         let y1 = y0 + if edge < lower { edge } else { lower };
         Self { x0, y0, x1, y1 }
+    }
+
+    /// The pixels that are in both; nothing to be counted on where there is none.
+    pub(crate) fn intersection(&self, other: &Self) -> Self {
+        Self {
+            x0: self.x0.max(other.x0),
+            y0: self.y0.max(other.y0),
+            x1: self.x1.min(other.x1),
+            y1: self.y1.min(other.y1),
+        }
+    }
+
+    /// Pixels in it.
+    pub const fn pixels(&self) -> u64 {
+        self.width() as u64 * self.height() as u64
     }
 
     /// Whether it holds at least one pixel and lies within a picture of `size`.
@@ -118,10 +138,23 @@ pub struct Film {
     pub window: Window,
     /// Edge of a tile in pixels.
     pub tile: u32,
-    /// Which tiles are rendered, row by row over the window.
+    /// Which tiles have all their samples, row by row over the window. What a layer holds of the
+    /// others is 0, or what an earlier pass left there.
     pub done: Vec<bool>,
     /// The picture, the alpha, then what else was asked for.
     pub layers: Vec<Layer>,
+    /// Of tiles that have some of their samples: what it takes to go on with them.
+    sums: BTreeMap<usize, Arc<TileSums>>,
+}
+
+/// What a film holds of a tile: all that it takes to go on with it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FilmTile {
+    pub(crate) index: usize,
+    /// For each layer of the film, in order, the tile's own rows.
+    pub(crate) values: Vec<Vec<f32>>,
+    /// Where samples are lacking: what goes on.
+    pub(crate) sums: Option<Arc<TileSums>>,
 }
 
 /// Why two films cannot be one.
@@ -148,6 +181,7 @@ impl Film {
             tile,
             done: vec![false; across as usize * down as usize],
             layers: kinds.iter().map(layer).collect(),
+            sums: BTreeMap::new(),
         }
     }
 
@@ -192,11 +226,39 @@ impl Film {
         self.done.iter().all(|&done| done)
     }
 
+    /// Samples that each pixel of a tile has of so many asked for.
+    pub fn samples_of(&self, index: usize, of: u32) -> u32 {
+        if self.done[index] { of } else { self.sums.get(&index).map_or(0, |sums| sums.samples()) }
+    }
+
     /// Takes a rendered tile: for each layer, in order, the tile's own rows.
     ///
     /// # Panics
     /// If the layers do not have the sizes that [`Film::tile_window`] and the kinds demand.
     pub fn put(&mut self, index: usize, values: &[Vec<f32>]) {
+        self.put_values(index, values);
+        self.done[index] = true;
+        self.sums.remove(&index);
+    }
+
+    /// Takes a tile that lacks samples: its values, and the sums from which it goes on; none
+    /// where it begins anew.
+    pub(crate) fn put_unfinished(
+        &mut self,
+        index: usize,
+        values: &[Vec<f32>],
+        sums: Option<Arc<TileSums>>,
+    ) {
+        self.put_values(index, values);
+        self.sums.extend(sums.map(|sums| (index, sums)));
+    }
+
+    /// What it takes to go on with a tile that has some of its samples.
+    pub(crate) fn sums(&self, index: usize) -> Option<&Arc<TileSums>> {
+        self.sums.get(&index)
+    }
+
+    fn put_values(&mut self, index: usize, values: &[Vec<f32>]) {
         let part = self.tile_window(index);
         assert_eq!(values.len(), self.layers.len(), "a tile has the film's layers");
         for (layer, from) in self.layers.iter_mut().zip(values) {
@@ -208,7 +270,6 @@ impl Film {
                 layer.values[pixel * n..][..row].copy_from_slice(from);
             }
         }
-        self.done[index] = true;
     }
 
     /// Takes the tiles of another film of the same picture.
@@ -238,19 +299,49 @@ impl Film {
 
     /// The values of a tile, for each layer its rows.
     pub fn take(&self, index: usize) -> Vec<Vec<f32>> {
-        let part = self.tile_window(index);
-        let rows = |layer: &Layer| {
-            let n = layer.kind.channels();
-            let row = part.width() as usize * n;
-            let mut out = Vec::with_capacity(row * part.height() as usize);
-            for y in part.y0..part.y1 {
-                let pixel = (y - self.window.y0) as usize * self.window.width() as usize
-                    + (part.x0 - self.window.x0) as usize;
-                out.extend_from_slice(&layer.values[pixel * n..][..row]);
+        self.layers.iter().map(|layer| self.rows(layer, index)).collect()
+    }
+
+    /// The same of the arbitrary output variables alone, put among a tile's values.
+    pub(crate) fn take_variables(&self, index: usize, values: &mut [Vec<f32>]) {
+        for (layer, values) in self.layers.iter().zip(values) {
+            if matches!(layer.kind, LayerKind::Aov(_)) {
+                *values = self.rows(layer, index);
             }
-            out
-        };
-        self.layers.iter().map(rows).collect()
+        }
+    }
+
+    fn rows(&self, layer: &Layer, index: usize) -> Vec<f32> {
+        let part = self.tile_window(index);
+        let n = layer.kind.channels();
+        let row = part.width() as usize * n;
+        let mut out = Vec::with_capacity(row * part.height() as usize);
+        for y in part.y0..part.y1 {
+            let pixel = (y - self.window.y0) as usize * self.window.width() as usize
+                + (part.x0 - self.window.x0) as usize;
+            out.extend_from_slice(&layer.values[pixel * n..][..row]);
+        }
+        out
+    }
+
+    /// All that there is of a tile; `None` if it has no sample of every pixel yet.
+    pub fn film_tile(&self, index: usize) -> Option<FilmTile> {
+        let sums = self.sums.get(&index).cloned();
+        let begun = self.done[index] || sums.is_some();
+        begun.then(|| FilmTile { index, values: self.take(index), sums })
+    }
+
+    /// All that there is of each tile that has something of it, one after another.
+    pub fn film_tiles(&self) -> impl Iterator<Item = FilmTile> {
+        (0..self.tiles()).filter_map(|index| self.film_tile(index))
+    }
+
+    /// Whether it has as many values and tiles as its window asks for.
+    pub(crate) fn is_sound(&self) -> bool {
+        let pixels = self.window.pixels() as usize;
+        let [across, down] = tiles(&self.window, self.tile);
+        let full = |layer: &Layer| layer.values.len() == pixels * layer.kind.channels();
+        self.done.len() == across as usize * down as usize && self.layers.iter().all(full)
     }
 }
 

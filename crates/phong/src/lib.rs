@@ -2,13 +2,15 @@
 //!
 //! Rooms, lowest storey first; a room imports only rooms below it: `math`; `terms`,
 //! `reflectance`, `sampling`, `filter`; `material`, `light`, `camera`; `interaction`, `geometry`,
-//! `look`, `view`; `integrator`, `witness`; `film`, `aov`, `render`; `image`, `part`, `explain`.
+//! `look`, `view`; `integrator`, `witness`; `film`, `aov`, `render`; `finish`, `image`, `part`,
+//! `explain`.
 
 pub mod aov;
 pub mod camera;
 pub mod explain;
 pub mod film;
 pub mod filter;
+pub mod finish;
 pub mod geometry;
 pub mod image;
 pub mod integrator;

@@ -35,12 +35,10 @@ static CASES: LazyLock<Vec<Case>> = LazyLock::new(|| {
                 phong_scene::read("scene.toml", None, &source, &Limits::default());
             assert!(diagnostics.is_empty(), "{name}: {diagnostics:#?}");
             let scene = scene.expect("a scene, for there is no error");
-            let options = RenderOptions {
-                terms: TermSet::ALL,
-                // `cost` alone is exempt.
-                aovs: vec![Aov::Depth, Aov::Normal, Aov::Position, Aov::Object, Aov::Shadow],
-                ..RenderOptions::of(&scene.image)
-            };
+            // `cost` alone is exempt.
+            let aovs = [Aov::Depth, Aov::Normal, Aov::Position, Aov::Object, Aov::Shadow];
+            let options = RenderOptions::of(&scene.image).expect("the scene has been checked");
+            let options = options.with_terms(TermSet::ALL).with_aovs(&aovs);
             let written = scene.clone();
             let scene = View::of(&scene).expect("compiles");
             let film = drawn(&scene, &options, 1);
@@ -102,7 +100,7 @@ fn cloud(n: u32) -> String {
 
 fn drawn(scene: &View, options: &RenderOptions, threads: usize) -> Film {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-    pool.install(|| render(scene, options, &|_, _| {}, &Cancel::new())).expect("not cancelled").film
+    pool.install(|| render(scene, options, &|_| {}, &Cancel::new())).film
 }
 
 /// Every layer, bit for bit.
@@ -142,7 +140,7 @@ fn the_number_of_threads_changes_no_bit() {
 fn the_size_of_a_tile_changes_no_bit() {
     for case in CASES.iter() {
         for tile in [1, 8, 64] {
-            let options = RenderOptions { tile, ..case.options.clone() };
+            let options = case.options.clone().with_tile(tile).expect("not 0");
             assert_same(case.name, &drawn(&case.scene, &options, 2), &case.film);
         }
     }
@@ -152,7 +150,7 @@ fn the_size_of_a_tile_changes_no_bit() {
 fn a_crop_is_a_part_of_the_whole() {
     for case in CASES.iter() {
         let window = Window { x0: 13, y0: 7, x1: 59, y1: 42 };
-        let options = RenderOptions { window, ..case.options.clone() };
+        let options = case.options.clone().with_window(window).expect("within");
         let part = drawn(&case.scene, &options, 2);
         for layer in &part.layers {
             for y in window.y0..window.y1 {
@@ -173,7 +171,7 @@ fn a_crop_is_a_part_of_the_whole() {
 fn shares_put_together_are_the_whole() {
     for case in CASES.iter() {
         let mut parts = (0..3).map(|i| {
-            let options = RenderOptions { share: Some((i, 3)), ..case.options.clone() };
+            let options = case.options.clone().with_share(i, 3).expect("one of 3");
             drawn(&case.scene, &options, 2)
         });
         let mut whole = parts.next().expect("a first share");
@@ -261,16 +259,12 @@ fn every_camera_filter_and_background_is_drawn_as_explained_in_tiles_of_any_size
         let name = format!("{kind:?}, {samples} samples, {filter:?}, {background:?}");
         let scene = few(kind, aperture);
         let size = [21, 13];
-        let options = RenderOptions {
-            terms: TermSet::ALL,
-            samples,
-            filter,
-            background,
-            ..RenderOptions::of(&phong_scene::Image { size, ..phong_scene::Image::default() })
-        };
+        let options = RenderOptions::new(size).expect("a size").with_samples(samples);
+        let options = options.expect("at least one").with_terms(TermSet::ALL);
+        let options = options.with_filter(filter).with_background(background);
         let film = drawn(&scene, &options, 1);
         for tile in [1, 3, 9, 64] {
-            let options = RenderOptions { tile, ..options.clone() };
+            let options = options.clone().with_tile(tile).expect("not 0");
             assert_same(&format!("{name}, tiles of {tile}"), &drawn(&scene, &options, 2), &film);
         }
         for (x, y) in (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y))) {

@@ -21,8 +21,9 @@ proptest! {
         match View::of(&scene) {
             Ok(view) if sound => {
                 let image = phong_scene::Image { size: [8, 8], ..scene.image.clone() };
-                let drawn = render(&view, &RenderOptions::of(&image), &|_, _| {}, &Cancel::new());
-                prop_assert!(drawn.is_ok());
+                let options = RenderOptions::of(&image)?;
+                let outcome = render(&view, &options, &|_| {}, &Cancel::new());
+                prop_assert!(outcome.complete);
             }
             Ok(_) => {} // the picture's own settings are not part of a view
             Err(error) => prop_assert!(!sound, "{error}"),

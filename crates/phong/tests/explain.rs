@@ -14,11 +14,8 @@ fn compiled(file: &str) -> (View, RenderOptions) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(file);
     let reading = phong_scene::read(path.to_str().unwrap(), None, &Folder, &Limits::default());
     let scene = reading.scene.unwrap_or_else(|| panic!("{file}: {:?}", reading.diagnostics));
-    let mut options = RenderOptions::of(&scene.image);
-    options.size = [20, 12];
-    options.window = phong::film::Window::full(options.size);
-    options.samples = 3;
-    options.terms = TermSet::ALL;
+    let options = RenderOptions::of(&scene.image).unwrap().with_size([20, 12]).unwrap();
+    let options = options.with_samples(3).unwrap().with_terms(TermSet::ALL);
     (View::of(&scene).unwrap(), options)
 }
 
@@ -38,12 +35,12 @@ fn gallery() -> Vec<String> {
 #[test]
 fn the_explained_sum_is_the_pixel_of_the_film_in_every_gallery_scene() {
     for file in gallery() {
-        let (scene, mut options) = compiled(&file);
+        let (scene, options) = compiled(&file);
         for filter in [FilterKind::Box, FilterKind::Mitchell] {
-            options.filter = filter;
-            let film = render(&scene, &options, &|_, _| {}, &Cancel::new()).unwrap().film;
-            for y in 0..options.size[1] {
-                for x in 0..options.size[0] {
+            let options = options.clone().with_filter(filter);
+            let film = render(&scene, &options, &|_| {}, &Cancel::new()).film;
+            for y in 0..options.size()[1] {
+                for x in 0..options.size()[0] {
                     let told = explain(&scene, &options, [x, y]).unwrap();
                     let at = |kind| film.at(kind, x, y).unwrap().to_vec();
                     assert_eq!(

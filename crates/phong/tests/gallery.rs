@@ -3,10 +3,10 @@
 use std::fs;
 use std::path::Path;
 
-use phong::film::{LayerKind, Window};
+use phong::film::LayerKind;
 use phong::render::{Cancel, RenderOptions, render};
 use phong::view::View;
-use phong_scene::{Folder, Limits, srgb_encode};
+use phong_scene::{Folder, Image, Limits, srgb_encode};
 
 /// What a small picture is like, as the eye has it: sRGB values.
 struct Look {
@@ -21,15 +21,11 @@ fn look(path: &Path) -> Look {
     assert!(reading.diagnostics.is_empty(), "{:#?}", reading.diagnostics);
     let scene = reading.scene.expect("a scene, for there is no error");
     let size = scene.image.size.map(|side| side.div_ceil(8));
-    let options = RenderOptions {
-        size,
-        window: Window::full(size),
-        samples: 1,
-        ..RenderOptions::of(&scene.image)
-    };
+    let image = Image { size, samples: 1, ..scene.image };
+    let options = RenderOptions::of(&image).expect("the scene has been checked");
     let compiled = View::of(&scene).expect("compiles");
-    let rendered = render(&compiled, &options, &|_, _| {}, &Cancel::new()).expect("not cancelled");
-    let picture = &rendered.film.layer(LayerKind::Picture).expect("a picture").values;
+    let film = render(&compiled, &options, &|_| {}, &Cancel::new()).film;
+    let picture = &film.layer(LayerKind::Picture).expect("a picture").values;
     let n = picture.len() as f64;
     let clamped = picture.iter().map(|v| f64::from(v.clamp(0.0, 1.0)));
     let seen: Vec<f64> = clamped.map(srgb_encode).collect();

@@ -7,6 +7,7 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use phong::film::{Film, LayerKind, Window};
+use phong::finish::{Finishing, finish};
 use phong::image::{self, Bits, Content, Encoding, Format, Picture};
 use phong::render::{Cancel, RenderOptions, render};
 use phong::view::View;
@@ -70,16 +71,16 @@ fn drawn(path: &Path) -> Vec<u8> {
     let reading = phong_scene::read(&path.to_string_lossy(), None, &Folder, &Limits::default());
     // Warnings are welcome: a lamp within a ball is what one of the scenes is about.
     let scene = reading.scene.unwrap_or_else(|| panic!("{:#?}", reading.diagnostics));
-    let options = RenderOptions::of(&scene.image);
+    let options = RenderOptions::of(&scene.image).expect("the scene has been checked");
     let compiled = View::of(&scene).expect("compiles");
-    let rendered = render(&compiled, &options, &|_, _| {}, &Cancel::new()).expect("not cancelled");
-    encoded(&rendered.film, false)
+    encoded(&render(&compiled, &options, &|_| {}, &Cancel::new()).film, false)
 }
 
 fn encoded(film: &Film, linear: bool) -> Vec<u8> {
     let encoding = Encoding { bits: Bits::Sixteen, linear, ..Encoding::default() };
     let mut bytes = Cursor::new(Vec::new());
-    image::write(film, Content::Layer(LayerKind::Picture), Format::Png, &encoding, &mut bytes)
+    let film = finish(film, &Finishing::default());
+    image::write(&film, Content::Layer(LayerKind::Picture), Format::Png, &encoding, &mut bytes)
         .expect("memory takes it");
     bytes.into_inner()
 }

@@ -43,8 +43,8 @@ fn scene() -> Scene {
 }
 
 fn film(view: &View, scene: &Scene) -> Film {
-    let options = RenderOptions { terms: TermSet::ALL, ..RenderOptions::of(&scene.image) };
-    render(view, &options, &|_, _| {}, &Cancel::new()).expect("nobody cancels").film
+    let options = RenderOptions::of(&scene.image).expect("checked").with_terms(TermSet::ALL);
+    render(view, &options, &|_| {}, &Cancel::new()).film
 }
 
 fn bits(film: &Film) -> Vec<Vec<u32>> {

@@ -2,6 +2,9 @@
 
 use std::path::PathBuf;
 
+use phong::render::RenderOptions;
+use phong_scene::Image;
+
 use super::values::{self, Crop, PictureSize, ShareOf};
 use super::{EncodingArgs, InputArgs, ViewArgs};
 
@@ -58,7 +61,7 @@ pub(crate) struct ImageArgs {
     pub(crate) size: Option<PictureSize>,
 
     /// Samples a pixel
-    #[arg(long, value_name = "N", value_parser = values::whole(1_u32, 1 << 20), allow_hyphen_values = true)]
+    #[arg(long, value_name = "N", value_parser = values::whole(1, Image::MOST_SAMPLES), allow_hyphen_values = true)]
     pub(crate) samples: Option<u32>,
 
     /// Seed of the sampling pattern
@@ -66,7 +69,7 @@ pub(crate) struct ImageArgs {
     pub(crate) seed: Option<u64>,
 
     /// Mirror and glass bounces; beyond it a ray brings black
-    #[arg(long, value_name = "N", value_parser = values::whole(0_u32, 1 << 10), allow_hyphen_values = true)]
+    #[arg(long, value_name = "N", value_parser = values::whole(0, RenderOptions::MOST_DEPTH), allow_hyphen_values = true)]
     pub(crate) depth: Option<u32>,
 
     /// Every light reaches everything

@@ -30,7 +30,7 @@ pub(crate) struct ShareOf {
 }
 
 /// The largest side of a picture: what EXR and PNG readers commonly take.
-const MAX_SIDE: u32 = 1 << 20;
+const MAX_SIDE: u32 = phong_scene::Image::LARGEST;
 
 /// The largest magnitude of any number, as in scene text: its square still fits an f32.
 const LARGEST: f64 = 1e18;

@@ -7,6 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use phong::film::{Film, LayerKind, Window};
+use phong::finish::{Finishing, finish};
 use phong::image::{self, Content, Encoding, Format, Picture};
 use phong::render::RenderOptions;
 use phong_lab::compare::{self, Comparison};
@@ -259,6 +260,7 @@ impl Drawing {
         };
         let content = Content::of(&[LayerKind::Picture], self.format)[0];
         let format = self.format;
+        let film = finish(&film, &Finishing::default());
         self.output
             .write(|mut out| image::write(&film, content, format, &Encoding::default(), &mut out))
     }

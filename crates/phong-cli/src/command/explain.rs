@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use phong::explain::{Explanation, explain};
 use phong::film::{LayerKind, Window};
+use phong::finish::{Finishing, finish};
 use phong::image::{self, Content, Encoding, Format};
 use phong::render::{Cancel, RenderOptions, render};
 use phong::view::View;
@@ -86,9 +87,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     keep_inputs_safe(svg.iter().chain(&html), [&args.input.input])?;
     let mut input = input::open(&args.input, false)?;
     keep_inputs_safe(svg.iter().chain(&html), input.files())?;
-    let mut options = plan::settle(&args.image, &args.view, &mut input)?;
-    if let Some(sample) = args.sample.filter(|&sample| sample > options.samples) {
-        let samples = options.samples;
+    let options = plan::settle(&args.image, &args.view, &mut input)?;
+    if let Some(sample) = args.sample.filter(|&sample| sample > options.samples()) {
+        let samples = options.samples();
         return Err(Failure::usage(format!("--sample {sample}: the pixel has {samples} samples")));
     }
     let scene = compile(input.scene, &args.input, 0)?;
@@ -110,7 +111,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         tell(args, &told)?;
     }
     if let (Some(output), Some(path)) = (&mut html, &args.html) {
-        write_page(args, &scene, &mut options, output, path)?;
+        write_page(args, &scene, options, output, path)?;
     }
     Output::commit(svg.into_iter().chain(html).collect())
 }
@@ -145,12 +146,12 @@ fn tell(args: &Args, told: &Explanation) -> Result<(), Failure> {
 fn write_page(
     args: &Args,
     scene: &View,
-    options: &mut RenderOptions,
+    options: RenderOptions,
     output: &mut Output,
     path: &Path,
 ) -> Result<(), Failure> {
-    options.samples = args.image.samples.unwrap_or(1);
-    let [width, height] = options.size;
+    let mut options = options.with_samples(args.image.samples.unwrap_or(1))?;
+    let [width, height] = options.size();
     let pixels = f64::from(width) * f64::from(height);
     if pixels > f64::from(MAX_PIXELS) {
         if args.image.size.is_some() {
@@ -160,20 +161,23 @@ fn write_page(
             .with_help("give a smaller --size"));
         }
         let shrink = (f64::from(MAX_PIXELS) / 2.0 / pixels).sqrt();
-        options.size = [width, height].map(|n| ((f64::from(n) * shrink) as u32).max(1));
+        let size = [width, height].map(|n| ((f64::from(n) * shrink) as u32).max(1));
+        options = options.with_size(size)?;
     }
-    options.window = Window::full(options.size);
+    let size = options.size();
+    let options = options.with_window(Window::full(size))?;
     let cancel = Cancel::new();
     let cancelled = |cancelled: phong::render::Cancelled| Failure::System(cancelled.to_string());
-    let film = render(scene, options, &|_, _| {}, &cancel).map_err(cancelled)?.film;
+    let film = render(scene, &options, &|_| {}, &cancel).film;
     let mut png = Cursor::new(Vec::new());
     let picture = Content::Layer(LayerKind::Picture);
+    let film = finish(&film, &Finishing::default());
     image::write(&film, picture, Format::Png, &Encoding::default(), &mut png)
         .map_err(|error| Failure::System(error.to_string()))?;
     let title = input::stem(&args.input.input);
-    let html = page(scene, options, &title, png.get_ref(), &|_| {}, &cancel).map_err(cancelled)?;
+    let html = page(scene, &options, &title, png.get_ref(), &|_| {}, &cancel).map_err(cancelled)?;
     output.write(|out| io::Write::write_all(out, html.as_bytes()))?;
-    let [width, height] = options.size;
+    let [width, height] = options.size();
     report::say(&format!(
         "{}: {width} × {height} pixels explained in {}",
         path.display(),

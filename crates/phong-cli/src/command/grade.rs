@@ -94,7 +94,7 @@ fn one(scene: &Scene, path: &Path) -> Result<Grade, Failure> {
             GradeError::Size { .. } => {
                 failure.with_help("grade takes pictures of the scene's own size")
             }
-            GradeError::NoColor | GradeError::View(_) => failure,
+            GradeError::NoColor | GradeError::View(_) | GradeError::Options(_) => failure,
         }
     })
 }

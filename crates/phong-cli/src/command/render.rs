@@ -2,9 +2,9 @@
 
 use std::time::Instant;
 
-use phong::film::{Film, LayerKind, Window};
+use phong::film::{LayerKind, Window};
 use phong::part::{Settings, fingerprint};
-use phong::render::{self, Rendered};
+use phong::render::{Event, Outcome, Rendering};
 use phong_lab::measure::memory;
 use serde_json::json;
 
@@ -52,17 +52,23 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         None => None,
     };
     meter.tiles();
-    let watch = |film: &Film, progress| {
-        meter.update(progress);
-        if let Some(checkpoint) = &checkpoint {
-            checkpoint.keep(film);
+    let film = film.unwrap_or_else(|| settings.empty_film());
+    let rendering = Rendering::resume(&scene, &options, film)
+        .map_err(|error| Failure::usage(error.to_string()))?;
+    let listen = |event: Event<'_>| {
+        if let Event::Progress(progress) = event {
+            meter.update(progress);
+            if let Some(checkpoint) = &checkpoint {
+                checkpoint.keep(|| rendering.film());
+            }
         }
     };
-    let film = film.unwrap_or_else(|| settings.empty_film());
-    let rendered =
-        interrupt::heeding(|cancel| render::resume(&scene, &options, film, &watch, cancel));
+    interrupt::heeding(|cancel| rendering.run(&listen, cancel));
     meter.finish();
-    let Rendered { film, rays } = rendered.map_err(|_cancelled| Failure::Interrupted)?;
+    let Outcome { film, complete, rays } = rendering.finish();
+    if !complete {
+        return Err(Failure::Interrupted);
+    }
     clock.lap("trace");
 
     outputs.write(&film, &settings)?;
@@ -76,14 +82,14 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         report::say(&format!("warning: {trouble}"));
     }
     if args.work.json {
-        let Window { x0, y0, x1, y1 } = options.window;
+        let Window { x0, y0, x1, y1 } = options.window();
         let layer =
             |kind: LayerKind| json!({ "name": kind.name(), "averaged": kind.is_averaged() });
         report::json(&json!({
             "output": plan.output.to_string_lossy(),
             "size": [x1 - x0, y1 - y0],
             "layers": options.layers().into_iter().map(layer).collect::<Vec<_>>(),
-            "samples": options.samples,
+            "samples": options.samples(),
             "threads": rayon::current_num_threads(),
             "seconds": clock.json(),
             "rays": {
@@ -95,12 +101,12 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
             "warnings": input.warnings.iter().map(check::json).collect::<Vec<_>>(),
         }))?;
     } else if report::is_watched() && !quiet {
-        let [width, height] = [options.window.width(), options.window.height()];
+        let [width, height] = [options.window().width(), options.window().height()];
         let seconds = clock.seconds("trace");
         report::say(&format!(
             "{}: {width} × {height}, {} samples a pixel, {} rays in {seconds:.2} s ({})",
             plan.output.display(),
-            options.samples,
+            options.samples(),
             short(rays.total() as f64),
             rate(rays.total(), seconds),
         ));

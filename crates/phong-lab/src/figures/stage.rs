@@ -103,16 +103,12 @@ pub(super) fn measured(scene: &Scene) -> Film {
 }
 
 fn film(scene: Scene, aovs: &[Aov]) -> Film {
-    let options = RenderOptions {
-        terms: TermSet::of_scene(&scene),
-        aovs: aovs.to_vec(),
-        ..RenderOptions::of(&scene.image)
-    };
+    let options = RenderOptions::of(&scene.image)
+        .expect("a figure's picture has a size")
+        .with_terms(TermSet::of_scene(&scene))
+        .with_aovs(aovs);
     let scene = View::of(&scene).expect("a scene of a few shapes compiles");
-    let nobody_watches = |_: &Film, _| ();
-    let rendered = render(&scene, &options, &nobody_watches, &Cancel::new())
-        .expect("nothing cancels a figure");
-    rendered.film
+    render(&scene, &options, &|_| {}, &Cancel::new()).film
 }
 
 /// The terms at the point `p` of a scene, seen from the direction `eye`: a picture of one pixel.

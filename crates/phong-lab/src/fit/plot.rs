@@ -5,6 +5,7 @@ use std::io::Cursor;
 
 use glam::{DAffine3, DVec3};
 use phong::film::{Film, LayerKind};
+use phong::finish::{Finishing, finish};
 use phong::image::{Content, Encoding, Format, write};
 use phong::render::{Cancel, RenderOptions, render};
 use phong::view::View;
@@ -147,16 +148,16 @@ fn plot(
 /// it cannot be drawn.
 fn picture(lobe: Lobe) -> Option<String> {
     let scene = ball_on_floor(lobe);
-    let options = RenderOptions { samples: 4, ..RenderOptions::of(&scene.image) };
+    let options = RenderOptions::of(&scene.image).and_then(|of| of.with_samples(4)).ok()?;
     let compiled = View::of(&scene).ok()?;
-    let film = render(&compiled, &options, &|_, _| {}, &Cancel::new()).ok()?.film;
-    png(&film)
+    png(&render(&compiled, &options, &|_| {}, &Cancel::new()).film)
 }
 
 fn png(film: &Film) -> Option<String> {
     let mut bytes = Cursor::new(Vec::new());
     let content = Content::Layer(LayerKind::Picture);
-    write(film, content, Format::Png, &Encoding::default(), &mut bytes).ok()?;
+    let film = finish(film, &Finishing::default());
+    write(&film, content, Format::Png, &Encoding::default(), &mut bytes).ok()?;
     Some(data_url("image/png", &bytes.into_inner()))
 }
 

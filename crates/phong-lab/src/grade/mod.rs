@@ -18,7 +18,7 @@ use thiserror::Error;
 use mistakes::{Curve, Kind, Layout};
 pub use mistakes::{MISTAKES, Mistake};
 use phong::image::Picture;
-use phong::render::RenderOptions;
+use phong::render::{OptionsError, RenderOptions};
 use phong::view::{View, ViewError};
 pub use picture::Residual;
 use picture::{NotNumbers, Theirs, encode};
@@ -80,6 +80,9 @@ pub enum GradeError {
         /// The scene's size.
         ours: [u32; 2],
     },
+    /// The scene asks for a picture that cannot be drawn: the caller's fault.
+    #[error(transparent)]
+    Options(#[from] OptionsError),
     /// It has no colour channels.
     #[error("the picture has no colour channels")]
     NoColor,
@@ -278,11 +281,11 @@ fn pairs(right: &Prepared, theirs: &Theirs, singles: &[Tried]) -> Vec<Tried> {
 
 impl Prepared {
     fn new(scene: Scene) -> Result<Self, GradeError> {
-        let options = RenderOptions::of(&scene.image);
+        let options = RenderOptions::of(&scene.image)?;
         let scene = View::of(&scene)?;
         let points = gather(&scene, &options);
-        let inner = picture::inner(&points, options.size);
-        Ok(Self { scene, size: options.size, points, inner })
+        let inner = picture::inner(&points, options.size());
+        Ok(Self { scene, size: options.size(), points, inner })
     }
 
     /// How far their picture is from ours, drawn with a fault.

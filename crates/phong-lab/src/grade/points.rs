@@ -55,18 +55,19 @@ pub(super) struct LightPoint {
 
 /// The points of a whole picture, row by row.
 pub(super) fn gather(scene: &View, options: &RenderOptions) -> Vec<Point> {
-    let centre = RenderOptions { samples: 1, ..options.clone() };
+    let centre = options.one_sample();
     let integrator = Integrator {
         scene,
-        background: options.background,
-        depth: options.depth,
-        shadows: options.shadows,
+        background: options.background(),
+        depth: options.depth(),
+        shadows: options.shadows(),
+        stop: None,
     };
-    let filter = Filter::new(centre.filter);
-    let [width, height] = options.size;
+    let filter = Filter::new(centre.filter());
+    let [width, height] = options.size();
     let row = |y: u32| {
         (0..width).map(move |x| (x, y)).map(|(x, y)| {
-            let sampler = Sampler::new([x, y], 0, 1, centre.seed);
+            let sampler = Sampler::new([x, y], 0, 1, centre.seed());
             let drawn = camera_ray(&integrator, &centre, &filter, [x, y], sampler);
             let mut listener = Listener { scene, weights: Vec::new(), point: Point::default() };
             if let Some(ray) = drawn.ray {

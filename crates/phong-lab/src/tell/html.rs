@@ -42,7 +42,7 @@ pub fn page(
     watch: &(dyn Fn(u32) + Sync),
     cancel: &Cancel,
 ) -> Result<String, Cancelled> {
-    let [width, height] = options.size;
+    let [width, height] = options.size();
     assert!(u64::from(width) * u64::from(height) <= u64::from(MAX_PIXELS), "too many pixels");
     let shared = Shared { scene };
     let row = |y: u32| {
@@ -56,7 +56,7 @@ pub fn page(
         Ok(deflated(&Value::Array(row).to_string()))
     };
     let rows = (0..height).into_par_iter().map(row).collect::<Result<Vec<String>, Cancelled>>()?;
-    let samples = options.samples;
+    let samples = options.samples();
     let note = format!(
         "{width} × {height}, {samples} {}.",
         if samples == 1 { "sample a pixel" } else { "samples a pixel" }
@@ -65,7 +65,7 @@ pub fn page(
     for (slot, text) in [
         ("{{title}}", escaped(title)),
         ("{{note}}", note),
-        ("{{size}}", json!(options.size).to_string()),
+        ("{{size}}", json!(options.size()).to_string()),
         ("{{shared}}", in_script(&shared.json().to_string())),
         ("{{rows}}", json!(rows).to_string()),
         ("{{picture}}", data_url("image/png", png)),

@@ -76,13 +76,14 @@ fn lamp(position: DVec3) -> Light {
 
 fn compiled(scene: Scene) -> (View, RenderOptions) {
     let aovs = vec![Aov::Normal, Aov::Position];
-    let options = RenderOptions { terms: TermSet::ALL, aovs, ..RenderOptions::of(&scene.image) };
+    let options =
+        RenderOptions::of(&scene.image).unwrap().with_terms(TermSet::ALL).with_aovs(&aovs);
     (View::of(&scene).unwrap(), options)
 }
 
 fn film(scene: Scene) -> Film {
     let (scene, options) = compiled(scene);
-    render(&scene, &options, &|_, _| {}, &Cancel::new()).unwrap().film
+    render(&scene, &options, &|_| {}, &Cancel::new()).film
 }
 
 fn rgb(film: &Film, kind: LayerKind, [x, y]: [u32; 2]) -> Rgb {

@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::Table;
 use crate::limits::Range;
+use crate::scene::Image;
 use crate::wording::list;
 
 /// What may stand as a key's value. No number is ever NaN, infinite or beyond [`LARGEST`].
@@ -92,7 +93,9 @@ impl Kind {
             Self::File => "the path of a file, in quotes".to_owned(),
             Self::Material => "the name of a material, in quotes".to_owned(),
             Self::Group => "the name of a group, in quotes".to_owned(),
-            Self::Size => "`[width, height]`, whole numbers from 1 to 1048576".to_owned(),
+            Self::Size => {
+                format!("`[width, height]`, whole numbers from 1 to {}", Image::LARGEST)
+            }
             Self::Attenuation => "`[c, l, q]`, 0 or above, not all 0".to_owned(),
             Self::Points => "three points, `[[x, y, z], [x, y, z], [x, y, z]]`".to_owned(),
             Self::Directions => "three directions, `[[x, y, z], [x, y, z], [x, y, z]]`".to_owned(),

@@ -10,10 +10,11 @@ use glam::DVec3;
 use phong_scene::{Place, Rgb, srgb_encode};
 use thiserror::Error;
 
+use crate::film::Sums8;
 use crate::filter::Filter;
 use crate::integrator::{Integrator, Radiance8, RayCounts};
 use crate::math::{Dir3, wide};
-use crate::render::{RenderOptions, Sums8, camera_ray};
+use crate::render::{RenderOptions, camera_ray};
 use crate::sampling::Sampler;
 use crate::terms::Terms;
 use crate::view::View;
@@ -218,21 +219,22 @@ pub fn explain(
     options: &RenderOptions,
     pixel: [u32; 2],
 ) -> Result<Explanation, Outside> {
-    let size = options.size;
+    let size = options.size();
     if pixel[0] >= size[0] || pixel[1] >= size[1] {
         return Err(Outside { pixel, size });
     }
     let integrator = Integrator {
         scene,
-        background: options.background,
-        depth: options.depth,
-        shadows: options.shadows,
+        background: options.background(),
+        depth: options.depth(),
+        shadows: options.shadows(),
+        stop: None,
     };
-    let filter = Filter::new(options.filter);
+    let filter = Filter::new(options.filter());
     let mut sums = [Sums8::NONE];
-    let mut samples = Vec::with_capacity(options.samples as usize);
-    for index in 0..options.samples {
-        let sampler = Sampler::new(pixel, index, options.samples, options.seed);
+    let mut samples = Vec::with_capacity(options.samples() as usize);
+    for index in 0..options.samples() {
+        let sampler = Sampler::new(pixel, index, options.samples(), options.seed());
         let drawn = camera_ray(&integrator, options, &filter, pixel, sampler);
         let mut recorder = Recorder::new(scene);
         let brought = drawn.ray.map_or(Radiance8::NONE, |ray| {
@@ -243,7 +245,7 @@ pub fn explain(
         let terms = brought.terms.get(0);
         samples.push(Sample { place, weight: drawn.weight, ray: recorder.finish(), terms });
     }
-    let (terms, alpha) = sums[0].resolve(scene.bvh(), options.samples, options.background);
+    let (terms, alpha) = sums[0].resolve(scene.bvh(), options.samples(), options.background());
     let (terms, alpha) = (terms.get(0), alpha[0]);
     Ok(Explanation { pixel, size, samples, terms, linear: terms.total(), alpha })
 }

@@ -16,7 +16,8 @@ use exr::prelude::{
 use super::WriteError;
 use super::picture::{Picture, Plane, ReadError, Transfer, count};
 use crate::aov::Aov;
-use crate::film::{Film, LayerKind};
+use crate::film::LayerKind;
+use crate::finish::Finished;
 
 /// Rec. 709: the primaries of sRGB, with white D65.
 const REC_709: Chromaticities = Chromaticities {
@@ -63,7 +64,11 @@ impl SamplesWriter for Samples<'_> {
 }
 
 /// Writes all layers: `R G B A`, `diffuse.R`, `normal.X`, `uv.U`, `depth`, … Premultiplied.
-pub(super) fn write(film: &Film, out: &mut (impl Write + Seek)) -> Result<(), WriteError> {
+pub(super) fn write(
+    picture: &Finished<'_>,
+    out: &mut (impl Write + Seek),
+) -> Result<(), WriteError> {
+    let film = picture.film();
     let width = film.width() as usize;
     let channel = |name: String, values, stride, channel| {
         let samples = Samples { values, stride, channel, width };

@@ -1,4 +1,4 @@
-//! Pictures as files: PNG, PFM and OpenEXR, written from a [`Film`] and read back.
+//! Pictures as files: PNG, PFM and OpenEXR, written whole or not at all, and read back.
 //!
 //! | | values | layers | exposure | alpha |
 //! |---|---|---|---|---|
@@ -14,15 +14,18 @@ mod exr;
 mod pfm;
 mod picture;
 mod png;
+mod save;
 
 use std::io::{Seek, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use crate::film::{Film, LayerKind};
+use crate::film::LayerKind;
+use crate::finish::Finished;
 
 pub use picture::{Picture, Plane, ReadError, Transfer};
+pub use save::{Draft, SaveError, WriteSeek, place, remove_abandoned, save};
 
 impl Picture {
     /// Reads a PNG, PFM or EXR file, known by how it begins. 16-bit PNGs keep all their bits.
@@ -130,9 +133,28 @@ impl Content {
             Self::Layer(kind) => Some(kind.name()),
         }
     }
+
+    /// The file that holds it, beside the picture's: `a/b.depth.png` for `a/b.png`.
+    ///
+    /// ```
+    /// use phong::{aov::Aov, film::LayerKind, image::Content};
+    /// let depth = Content::Layer(LayerKind::Aov(Aov::Depth));
+    /// assert_eq!(depth.path("b.c.pfm".as_ref()).to_str(), Some("b.c.depth.pfm"));
+    /// assert_eq!(depth.path("b".as_ref()).to_str(), Some("b.depth"));
+    /// assert_eq!(Content::Film.path("b.exr".as_ref()).to_str(), Some("b.exr"));
+    /// ```
+    pub fn path(self, picture: &Path) -> PathBuf {
+        let Some(word) = self.word() else { return picture.to_owned() };
+        let mut ending = std::ffi::OsString::from(word);
+        if let Some(extension) = picture.extension() {
+            ending.push(".");
+            ending.push(extension);
+        }
+        picture.with_extension(ending)
+    }
 }
 
-/// Why a picture could not be written.
+/// Why a picture could not be encoded.
 #[derive(Debug, Error)]
 pub enum WriteError {
     /// The disc, the pipe.
@@ -143,23 +165,23 @@ pub enum WriteError {
     Unsuitable(String),
 }
 
-/// Writes one file of a film. The writer is left where the file ends, not flushed.
+/// Writes one file of a picture. The writer is left where the file ends, not flushed.
 ///
 /// # Errors
 /// [`WriteError::Io`] as `out` says; [`WriteError::Unsuitable`] where the film lacks the layer, the
 /// format cannot hold the content or the size, or this build is without EXR.
 pub fn write(
-    film: &Film,
+    picture: &Finished<'_>,
     content: Content,
     format: Format,
     encoding: &Encoding,
     out: &mut (impl Write + Seek),
 ) -> Result<(), WriteError> {
     match (format, content) {
-        (Format::Png, Content::Layer(kind)) => png::write(film, kind, encoding, out),
-        (Format::Pfm, Content::Layer(kind)) => pfm::write(film, kind, out),
+        (Format::Png, Content::Layer(kind)) => png::write(picture, kind, encoding, out),
+        (Format::Pfm, Content::Layer(kind)) => pfm::write(picture, kind, out),
         #[cfg(feature = "exr")]
-        (Format::Exr, Content::Film) => exr::write(film, out),
+        (Format::Exr, Content::Film) => exr::write(picture, out),
         #[cfg(not(feature = "exr"))]
         (Format::Exr, Content::Film) => {
             Err(WriteError::Unsuitable("this build is without OpenEXR".to_owned()))
@@ -170,9 +192,9 @@ pub fn write(
     }
 }
 
-fn layer(film: &Film, kind: LayerKind) -> Result<&[f32], WriteError> {
-    film.layer(kind)
-        .map(|layer| &*layer.values)
+fn layer<'a>(picture: &Finished<'a>, kind: LayerKind) -> Result<&'a [f32], WriteError> {
+    picture
+        .values(kind)
         .ok_or_else(|| WriteError::Unsuitable(format!("the film has no layer {}", kind.name())))
 }
 

@@ -4,11 +4,16 @@ use std::io::Write;
 
 use super::picture::{Picture, Plane, ReadError, Transfer, count};
 use super::{WriteError, layer};
-use crate::film::{Film, LayerKind};
+use crate::film::LayerKind;
+use crate::finish::Finished;
 
 /// Writes one layer: `PF` for three values a pixel (two are filled up with 0), `Pf` for one.
-pub(super) fn write(film: &Film, kind: LayerKind, out: &mut impl Write) -> Result<(), WriteError> {
-    let (values, n) = (layer(film, kind)?, kind.channels());
+pub(super) fn write(
+    picture: &Finished<'_>,
+    kind: LayerKind,
+    out: &mut impl Write,
+) -> Result<(), WriteError> {
+    let (values, n, film) = (layer(picture, kind)?, kind.channels(), picture.film());
     let magic = if n == 1 { "Pf" } else { "PF" };
     write!(out, "{magic}\n{} {}\n-1.0\n", film.width(), film.height())?;
     let mut bytes = Vec::with_capacity(film.width() as usize * 12);

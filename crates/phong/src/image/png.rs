@@ -10,7 +10,8 @@ use super::curve::{Curve, linear_level};
 use super::picture::{MAX_VALUES, Picture, Plane, ReadError, Transfer, count};
 use super::{Bits, Encoding, WriteError, layer};
 use crate::aov::Aov;
-use crate::film::{Film, LayerKind};
+use crate::film::LayerKind;
+use crate::finish::Finished;
 
 /// How the values of a layer become levels.
 struct Tone<'a> {
@@ -31,12 +32,12 @@ struct Tone<'a> {
 /// nearest, 0 nothing; `position` runs from 0 to 1 along each side of the box of all positions.
 /// Where the very values matter, EXR and PFM have them.
 pub(super) fn write(
-    film: &Film,
+    picture: &Finished<'_>,
     kind: LayerKind,
     encoding: &Encoding,
     out: &mut impl Write,
 ) -> Result<(), WriteError> {
-    let values = layer(film, kind)?;
+    let (values, film) = (layer(picture, kind)?, picture.film());
     let curve = match (encoding.linear, encoding.bits) {
         (true, _) => None,
         (false, Bits::Eight) => Some(Curve::eight()),
@@ -47,7 +48,7 @@ pub(super) fn write(
     let (values, tone): (Cow<'_, [f32]>, _) = match kind {
         LayerKind::Picture => {
             let gain = libm::exp2(encoding.exposure) as f32;
-            let alpha = layer(film, LayerKind::Alpha).ok();
+            let alpha = layer(picture, LayerKind::Alpha).ok();
             let alpha = alpha.filter(|alpha| alpha.iter().any(|&a| a != 1.0));
             (values.into(), Tone { gain, curve, alpha, ..plain })
         }

@@ -4,7 +4,8 @@ use std::io::Cursor;
 
 use super::*;
 use crate::aov::Aov;
-use crate::film::Window;
+use crate::film::{Film, Window};
+use crate::finish::{Finishing, finish};
 use crate::terms::Term;
 
 const PICTURE: LayerKind = LayerKind::Picture;
@@ -21,7 +22,8 @@ fn film(size: [u32; 2], layers: &[(LayerKind, &[f32])]) -> Film {
 
 fn bytes(film: &Film, content: Content, format: Format, encoding: &Encoding) -> Vec<u8> {
     let mut out = Cursor::new(Vec::new());
-    write(film, content, format, encoding, &mut out).unwrap();
+    let finished = finish(film, &Finishing::default());
+    write(&finished, content, format, encoding, &mut out).unwrap();
     out.into_inner()
 }
 

@@ -15,6 +15,8 @@ mod optics;
 pub(crate) use bundle::Bundle;
 pub use bundle::{CameraRay, Radiance8, RayCounts};
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use phong_bvh::{Ray, Rays8, lanes};
 use phong_scene::{Background, Rgb};
 
@@ -40,6 +42,9 @@ pub struct Integrator<'a> {
     pub depth: u32,
     /// Whether things stand in the way of lights at all.
     pub shadows: bool,
+    /// Once true, whatever is under way ends soon, and what it brought is unspecified. `None`:
+    /// nothing stops it.
+    pub stop: Option<&'a AtomicBool>,
 }
 
 /// Room for the work on a bundle, used again for the next one.
@@ -133,6 +138,10 @@ impl Integrator<'_> {
         witness: &mut W,
     ) {
         let Work { met, lights, out, deeper } = work;
+        if self.is_stopped() {
+            out.resize(rays.len(), Radiance8::NONE);
+            return;
+        }
         met.meet(self, rays, height, out);
         if W::LISTENS {
             for (i, (rays8, out)) in rays.iter().zip(&*out).enumerate() {
@@ -147,6 +156,9 @@ impl Integrator<'_> {
             }
         }
         for light in 0..self.scene.lights().len() {
+            if self.is_stopped() {
+                return;
+            }
             counts.shadow += self.send(light, rays, met, samplers, lights);
             if self.scene.has_ambient_per_light() {
                 self.ambient_of_light(light, met, lights, out);
@@ -181,6 +193,10 @@ impl Integrator<'_> {
                 out[i].brought = out[i].brought.with(term);
             }
         }
+    }
+
+    fn is_stopped(&self) -> bool {
+        self.stop.is_some_and(|stop| stop.load(Ordering::Relaxed))
     }
 
     #[inline]

@@ -2,25 +2,35 @@
 //!
 //! One format serves shares, which are put together ([`Join`]), and checkpoints, from which a
 //! rendering goes on. A text header ([`Settings`], a name and a value a line) ends in a checksum
-//! of itself; then, for each tile that is done, come its number, its layers' values as
-//! little-endian floats, and a checksum of both. A cut file or a flipped bit is an error.
+//! of itself; then comes a record for each tile, and one that says how many there were. A record is
+//! the tile's number, how many samples its pixels have (0: all of them), its layers' values as
+//! little-endian floats, where samples are lacking the sums from which it goes on, and a checksum of
+//! all that. A cut file or a flipped bit is an error.
 
 mod fingerprint;
 mod join;
 mod settings;
 
 use std::io::{self, Read, Write};
+use std::sync::Arc;
 
 use crc32fast::hash as checksum;
 use thiserror::Error;
 
-use crate::film::{Film, Layer};
+use crate::film::{Film, FilmTile, Layer, Sums8, TileSums, eights_of};
 pub use fingerprint::fingerprint;
 pub use join::{Join, JoinError};
 pub use settings::Settings;
 
 /// The first line of every part file: what it is, and the version of its format.
-const MAGIC: &str = "phong part 2\n";
+const MAGIC: &str = "phong part 3\n";
+
+/// The version of the arithmetic. It is raised by every change that moves a bit of any picture, so
+/// that no picture is put together from two of them.
+pub const ARITHMETIC: u32 = 1;
+
+/// What stands for a tile's number after the last one.
+const END: u64 = u64::MAX;
 
 /// The longest header that is read, in bytes.
 const MAX_HEADER: usize = 64 << 10;
@@ -46,6 +56,14 @@ pub enum PartError {
     /// It was made by another version of this program.
     #[error("this part file is of another version of the format")]
     Version,
+    /// Its pixels were computed in another way, and do not go together with ours.
+    #[error(
+        "this part file is of version {theirs} of the arithmetic, this program of {ARITHMETIC}"
+    )]
+    Arithmetic {
+        /// The version of the file.
+        theirs: u32,
+    },
     /// It is cut short or altered.
     #[error("the part file is damaged: {0}")]
     Damaged(String),
@@ -59,29 +77,45 @@ pub enum PartError {
     },
 }
 
-/// Writes the tiles that `film` has. Not flushed.
+/// Writes a part. Not flushed.
+///
+/// `tiles` are those of [`Film::film_tiles`], or, while a rendering is under way, what
+/// [`Rendering::film_tile`](crate::render::Rendering::film_tile) has of each: they are asked for one
+/// after another, so that the rendering is never held up for longer than one takes to copy.
 ///
 /// # Errors
 /// As `out` says.
-pub fn write(film: &Film, settings: &Settings, out: &mut impl Write) -> io::Result<()> {
-    let done: Vec<usize> = (0..film.tiles()).filter(|&tile| film.done[tile]).collect();
-    let header = format!("{MAGIC}{}done {}\n", settings.to_text(), done.len());
+pub fn write(
+    tiles: impl IntoIterator<Item = FilmTile>,
+    settings: &Settings,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    let header = format!("{MAGIC}arithmetic {ARITHMETIC}\n{}", settings.to_text());
     write!(out, "{header}check {:08x}\n\n", checksum(header.as_bytes()))?;
     let mut record = Vec::new();
-    for tile in done {
+    let mut count = 0_u64;
+    for FilmTile { index, values, sums } in tiles {
         record.clear();
-        record.extend_from_slice(&(tile as u32).to_le_bytes());
-        for value in film.take(tile).iter().flatten() {
+        record.extend_from_slice(&(index as u64).to_le_bytes());
+        let samples = sums.as_ref().map_or(0, |sums| sums.samples());
+        record.extend_from_slice(&samples.to_le_bytes());
+        for value in values.iter().flatten() {
+            record.extend_from_slice(&value.to_le_bytes());
+        }
+        for value in sums.iter().flat_map(|sums| sums.eights()).flat_map(Sums8::numbers) {
             record.extend_from_slice(&value.to_le_bytes());
         }
         record.extend_from_slice(&checksum(&record).to_le_bytes());
         out.write_all(&record)?;
+        count += 1;
     }
-    Ok(())
+    let mut end = [END.to_le_bytes(), count.to_le_bytes()].concat();
+    end.extend_from_slice(&checksum(&end).to_le_bytes());
+    out.write_all(&end)
 }
 
 impl Part {
-    /// Reads a part whose film takes at most `max_bytes` of memory. Give it a buffered reader.
+    /// Reads a part that takes at most `max_bytes` of memory. Give it a buffered reader.
     ///
     /// # Errors
     /// [`PartError`].
@@ -91,23 +125,47 @@ impl Part {
         if sum != format!("{:08x}", checksum(header.as_bytes())) {
             return Err(damaged("its header was altered"));
         }
-        let body = &header[MAGIC.len()..];
-        let (settings, done) =
-            Settings::from_text(body).ok_or_else(|| damaged("its header makes no sense"))?;
-        let needed = settings.film_bytes();
-        if needed > max_bytes {
-            return Err(PartError::TooLarge { needed, limit: max_bytes });
+        let senseless = || damaged("its header makes no sense");
+        let body = header[MAGIC.len()..].strip_prefix("arithmetic ").ok_or_else(senseless)?;
+        let (theirs, body) = body.split_once('\n').ok_or_else(senseless)?;
+        let theirs = theirs.parse().map_err(|_| senseless())?;
+        if theirs != ARITHMETIC {
+            return Err(PartError::Arithmetic { theirs });
         }
+        let settings = Settings::from_text(body).ok_or_else(senseless)?;
+        let within = |needed: u64| {
+            if needed > max_bytes {
+                return Err(PartError::TooLarge { needed, limit: max_bytes });
+            }
+            Ok(())
+        };
+        let mut needed = settings.film_bytes();
+        within(needed)?;
         let mut film = settings.empty_film();
-        if done > film.tiles() {
-            return Err(damaged("it claims more tiles than there are"));
+        let mut count = 0_u64;
+        while let Some(tile) = tile(&film, input)? {
+            needed += tile.sums.as_ref().map_or(0, |sums| sums.bytes());
+            within(needed)?;
+            let FilmTile { index, values, sums } = tile;
+            if sums.is_some() {
+                film.put_unfinished(index, &values, sums);
+            } else {
+                film.put(index, &values);
+            }
+            count += 1;
         }
-        for _ in 0..done {
-            tile(&mut film, input)?;
+        let mut end = [0; 8];
+        let mut sum = [0; 4];
+        if !fill(input, &mut end)? || !fill(input, &mut sum)? {
+            return Err(damaged("it ends before its end"));
+        }
+        let whole = [END.to_le_bytes(), end].concat();
+        if u64::from_le_bytes(end) != count || checksum(&whole) != u32::from_le_bytes(sum) {
+            return Err(damaged("its end was altered"));
         }
         match input.read(&mut [0]) {
             Ok(0) => Ok(Self { settings, film }),
-            Ok(_) => Err(damaged("something follows its last tile")),
+            Ok(_) => Err(damaged("something follows its end")),
             Err(error) => Err(error.into()),
         }
     }
@@ -135,35 +193,48 @@ fn header(input: &mut impl Read) -> Result<(String, String), PartError> {
     Ok((header.to_owned(), sum.to_owned()))
 }
 
-fn tile(film: &mut Film, input: &mut impl Read) -> Result<(), PartError> {
+/// The next tile's record; `None` where the last one has been.
+fn tile(film: &Film, input: &mut impl Read) -> Result<Option<FilmTile>, PartError> {
     let cut = || PartError::Damaged("it ends in the middle of a tile".to_owned());
-    let mut number = [0; 4];
+    let mut number = [0; 8];
     if !fill(input, &mut number)? {
         return Err(cut());
     }
-    let index = u32::from_le_bytes(number) as usize;
-    if film.done.get(index) != Some(&false) {
+    if number == END.to_le_bytes() {
+        return Ok(None);
+    }
+    let index = u64::from_le_bytes(number) as usize;
+    if film.done.get(index) != Some(&false) || film.sums(index).is_some() {
         return Err(PartError::Damaged(format!("tile {index} is out of place")));
     }
+    let mut samples = [0; 4];
+    if !fill(input, &mut samples)? {
+        return Err(cut());
+    }
+    let mut record = [&number[..], &samples].concat();
+    let samples = u32::from_le_bytes(samples);
     let window = film.tile_window(index);
-    let pixels = window.width() as usize * window.height() as usize;
-    let values = |layer: &Layer| pixels * layer.kind.channels();
+    let values = |layer: &Layer| window.pixels() as usize * layer.kind.channels();
     let lengths: Vec<usize> = film.layers.iter().map(values).collect();
-    let mut record = number.to_vec();
-    record.resize(4 + 4 * lengths.iter().sum::<usize>(), 0);
+    let begin = record.len();
+    let middle = begin + 4 * lengths.iter().sum::<usize>();
+    let eights = if samples == 0 { 0 } else { eights_of(window) };
+    record.resize(middle + 8 * Sums8::NUMBERS * eights, 0);
     let mut sum = [0; 4];
-    if !fill(input, &mut record[4..])? || !fill(input, &mut sum)? {
+    if !fill(input, &mut record[begin..])? || !fill(input, &mut sum)? {
         return Err(cut());
     }
     if checksum(&record) != u32::from_le_bytes(sum) {
         return Err(PartError::Damaged(format!("tile {index} was altered")));
     }
-    let mut floats =
-        record[4..].chunks_exact(4).map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]]));
-    let layers: Vec<Vec<f32>> =
+    let mut floats = record[begin..middle].as_chunks().0.iter().map(|b| f32::from_le_bytes(*b));
+    let values: Vec<Vec<f32>> =
         lengths.into_iter().map(|length| floats.by_ref().take(length).collect()).collect();
-    film.put(index, &layers);
-    Ok(())
+    let numbers: Vec<f64> =
+        record[middle..].as_chunks().0.iter().map(|b| f64::from_le_bytes(*b)).collect();
+    let sums: Vec<Sums8> = numbers.chunks_exact(Sums8::NUMBERS).map(Sums8::of_numbers).collect();
+    let sums = (samples > 0).then(|| Arc::new(TileSums::new(samples, sums)));
+    Ok(Some(FilmTile { index, values, sums }))
 }
 
 /// Fills the buffer; false where the input ends before.

@@ -30,35 +30,21 @@ pub struct Settings {
 impl Settings {
     /// The settings of a rendering. `scene` is the scene's [`fingerprint`](super::fingerprint()).
     pub fn of(scene: u32, options: &RenderOptions, encoding: Encoding) -> Self {
-        let RenderOptions {
-            size,
-            window,
-            share,
-            samples,
-            seed,
-            depth,
-            shadows,
-            filter,
-            background,
-            tile,
-            terms: _,
-            aovs: _,
-        } = options;
         let picture = [
             ("scene", format!("{scene:08x}")),
-            ("samples", samples.to_string()),
-            ("seed", seed.to_string()),
-            ("depth", depth.to_string()),
-            ("shadows", shadows.to_string()),
-            ("filter", format!("{filter:?}")),
-            ("background", format!("{background:?}")),
+            ("samples", options.samples().to_string()),
+            ("seed", options.seed().to_string()),
+            ("depth", options.depth().to_string()),
+            ("shadows", options.shadows().to_string()),
+            ("filter", format!("{:?}", options.filter())),
+            ("background", format!("{:?}", options.background())),
         ];
         Self {
-            size: *size,
-            window: *window,
-            tile: *tile,
+            size: options.size(),
+            window: options.window(),
+            tile: options.tile(),
             layers: options.layers(),
-            share: *share,
+            share: options.share(),
             encoding,
             picture: picture.map(|(name, value)| (name.to_owned(), value)).to_vec(),
         }
@@ -116,8 +102,8 @@ impl Settings {
         fixed.chain(self.picture.iter().cloned()).collect()
     }
 
-    /// Settings from their text, and the number of tiles that follow; `None` where it is none.
-    pub(super) fn from_text(text: &str) -> Option<(Self, usize)> {
+    /// Settings from their text; `None` where it is none.
+    pub(super) fn from_text(text: &str) -> Option<Self> {
         let mut lines = text.lines().map(|line| line.split_once(' '));
         let mut next = |name: &str| lines.next()?.filter(|(n, _)| *n == name).map(|(_, v)| v);
         let (width, height) = next("size")?.split_once('x')?;
@@ -142,14 +128,12 @@ impl Settings {
         };
         let linear = next("linear")?.parse().ok()?;
         let exposure = next("exposure")?.parse().ok()?;
-        let mut picture: Vec<(String, String)> = lines
+        let picture = lines
             .map(|line| line.map(|(name, value)| (name.to_owned(), value.to_owned())))
             .collect::<Option<_>>()?;
-        let (_, done) = picture.pop().filter(|(name, _)| name == "done")?;
         let encoding = Encoding { bits, linear, exposure };
         let settings = Self { size, window, tile, layers, share, encoding, picture };
-        let fits = window.fits(size);
-        fits.then_some((settings, done.parse().ok()?))
+        window.fits(size).then_some(settings)
     }
 }
 

@@ -11,13 +11,10 @@ const NO_LIMIT: u64 = u64::MAX;
 
 fn settings(share: Option<(u32, u32)>) -> Settings {
     let image = Image { size: [40, 30], ..Image::default() };
-    let options = RenderOptions {
-        window: Window { x0: 1, y0: 2, x1: 40, y1: 30 },
-        share,
-        terms: TermSet::ALL,
-        aovs: vec![Aov::Depth, Aov::Normal],
-        ..RenderOptions::of(&image)
-    };
+    let options = RenderOptions::of(&image).unwrap().with_terms(TermSet::ALL);
+    let options = options.with_window(Window { x0: 1, y0: 2, x1: 40, y1: 30 }).unwrap();
+    let options = options.with_aovs(&[Aov::Depth, Aov::Normal]);
+    let options = share.map_or(options.clone(), |(i, n)| options.with_share(i, n).unwrap());
     let encoding = Encoding { bits: Bits::Sixteen, linear: true, exposure: -0.1 };
     Settings::of(0x1234_abcd, &options, encoding)
 }
@@ -39,7 +36,7 @@ fn part(share: Option<(u32, u32)>) -> Part {
 
 fn bytes(part: &Part) -> Vec<u8> {
     let mut out = Vec::new();
-    write(&part.film, &part.settings, &mut out).unwrap();
+    write(part.film.film_tiles(), &part.settings, &mut out).unwrap();
     out
 }
 
@@ -86,10 +83,60 @@ fn every_flipped_bit_is_noticed() {
 fn other_files_and_other_versions_are_told_apart() {
     assert!(matches!(read(b"\x89PNG\r\n\x1a\n0123456789"), Err(PartError::Unknown)));
     assert!(matches!(read(b""), Err(PartError::Unknown)));
-    for other in ["1", "3"] {
-        let other = String::from_utf8_lossy(MAGIC.as_bytes()).replace('2', other);
-        assert!(matches!(read(other.as_bytes()), Err(PartError::Version)));
+    for version in ["1", "2", "4"] {
+        let other = MAGIC.replace('3', version);
+        assert!(matches!(read(other.as_bytes()), Err(PartError::Version)), "{version}");
     }
+}
+
+#[test]
+fn pixels_of_another_arithmetic_are_refused() {
+    let whole = bytes(&part(None));
+    let (header, _) = header(&mut &*whole).unwrap();
+    let ours = format!("arithmetic {ARITHMETIC}\n");
+    let other = header.replace(&ours, &format!("arithmetic {}\n", ARITHMETIC + 1));
+    let text = format!("{other}check {:08x}\n\n", checksum(other.as_bytes()));
+    let error = read(text.as_bytes()).unwrap_err();
+    assert!(matches!(error, PartError::Arithmetic { theirs } if theirs == ARITHMETIC + 1));
+    assert!(error.to_string().contains("of the arithmetic"), "{error}");
+}
+
+/// The same, of which every other tile has 3 samples a pixel and the sums to go on from.
+fn begun() -> Part {
+    let Part { settings, film } = part(None);
+    let mut begun = settings.empty_film();
+    for tile in 0..film.tiles() {
+        let number = |i: usize| 0.1 * (1 + i + 1000 * tile) as f64;
+        let sums = |k: usize| {
+            let numbers: Vec<f64> = (0..Sums8::NUMBERS).map(|i| number(200 * k + i)).collect();
+            Sums8::of_numbers(&numbers)
+        };
+        let eights = (0..eights_of(film.tile_window(tile))).map(sums).collect();
+        match tile % 2 {
+            0 => begun.put(tile, &film.take(tile)),
+            _ => {
+                let sums = Some(Arc::new(TileSums::new(3, eights)));
+                begun.put_unfinished(tile, &film.take(tile), sums);
+            }
+        }
+    }
+    Part { settings, film: begun }
+}
+
+#[test]
+fn sums_between_passes_are_read_as_they_were_written() {
+    let part = begun();
+    let whole = bytes(&part);
+    assert_eq!(read(&whole).unwrap(), part);
+    for at in (0..whole.len()).step_by(97) {
+        let mut bent = whole.clone();
+        bent[at] ^= 1 << (at % 8);
+        assert!(read(&bent).is_err(), "bit {} of byte {at}", at % 8);
+        assert!(read(&whole[..at]).is_err(), "cut at {at} of {}", whole.len());
+    }
+    let limit = part.settings.film_bytes() + 1000;
+    let result = Part::read(&mut &*whole, limit);
+    assert!(matches!(result, Err(PartError::TooLarge { .. })), "sums take memory too");
 }
 
 #[test]

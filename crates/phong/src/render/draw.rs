@@ -27,7 +27,7 @@ pub(super) struct Pixels8 {
 
 impl Pixels8 {
     pub(super) fn new([x, y]: [u32; 2], len: u32, options: &RenderOptions) -> Self {
-        let sampler = |x: u32| Sampler::new([x, y], 0, options.samples, options.seed);
+        let sampler = |x: u32| Sampler::new([x, y], 0, options.samples(), options.seed());
         let mut samplers = Samplers8::splat(sampler(x));
         (0..len).for_each(|lane| samplers.set(lane as usize, sampler(x + lane)));
         Self { first: [x, y], len, samplers, places: Places8::new(&samplers, Use::Pixel) }
@@ -118,8 +118,8 @@ pub fn camera_ray(
     );
     let camera = integrator.scene.camera();
     let lens = if camera.has_lens() { sampler.pair(Use::Lens) } else { [0.5; 2] };
-    let height = height(place.y, options.size);
-    let ray = camera.ray(place, options.size, lens);
+    let height = height(place.y, options.size());
+    let ray = camera.ray(place, options.size(), lens);
     let ray = ray.map(|ray| CameraRay { ray, sampler, height });
     Drawn { place, weight: drawn.weight, ray }
 }
@@ -145,7 +145,7 @@ impl Kernel for FlatRays<'_> {
         let low: f64x4<S> = [0.0, 1.0, 2.0, 3.0].simd_into(simd);
         let high: f64x4<S> = [4.0, 5.0, 6.0, 7.0].simd_into(simd);
         let lens = camera.has_lens();
-        let gradient = matches!(options.background, Background::Gradient { .. });
+        let gradient = matches!(options.background(), Background::Gradient { .. });
         for index in indices {
             for pixels in pixels {
                 let samplers = soft.then(|| pixels.samplers.at(index));
@@ -156,13 +156,13 @@ impl Kernel for FlatRays<'_> {
                 let x = [low + left + 0.5 + dx.0, high + left + 0.5 + dx.1];
                 let y = [dy.0 + top, dy.1 + top];
                 let lens = lens.then(|| pixels.samplers.at(index).pair(Use::Lens));
-                let mut rays = camera.flat_rays(simd, [x, y], options.size, lens.as_ref());
+                let mut rays = camera.flat_rays(simd, [x, y], options.size(), lens.as_ref());
                 rays.there = (1 << pixels.len) - 1;
                 to.push(&rays, samplers, weights);
                 if gradient {
                     let mut heights = [0.0; 8];
                     for lane in lanes(rays.there) {
-                        heights[lane] = height(y[lane / 4][lane % 4], options.size);
+                        heights[lane] = height(y[lane / 4][lane % 4], options.size());
                     }
                     to.bundle.heights.push(heights);
                 }

@@ -1,4 +1,4 @@
-//! One tile: its samples in index order, and its variables from centre rays.
+//! One tile in one pass: its samples in index order, and its variables from centre rays.
 
 use fearless_simd::Simd;
 use glam::DVec2;
@@ -6,10 +6,9 @@ use phong_bvh::{Hit, Kernel};
 use phong_scene::Rgb;
 
 use super::draw::{Pixels8, Samples};
-use super::sums::{Sums8, coverage};
-use super::{Cancel, Cancelled, RenderOptions};
+use super::{Cancel, Cancelled, Pass, RenderOptions};
 use crate::aov::Aov;
-use crate::film::{LayerKind, Window};
+use crate::film::{LayerKind, Sums8, TileSums, Window, coverage};
 use crate::filter::Filter;
 use crate::integrator::{CameraRay, Integrator, RayCounts, Work};
 use crate::math::lanes::{Lanes3, store3};
@@ -27,10 +26,15 @@ const LOT: usize = SQUARE as usize;
 /// Samples of each pixel in a bundle.
 const LOTS: u32 = 2;
 
+/// The most eights of pixels in a bundle of one sample each, so that a large tile notices in the
+/// middle that it is cancelled.
+const MOST_EIGHTS: usize = 128;
+
 /// Paints tiles.
 pub(super) struct Painter<'a> {
     integrator: Integrator<'a>,
     options: &'a RenderOptions,
+    cancel: &'a Cancel,
     layers: Vec<LayerKind>,
     filter: Filter,
 }
@@ -51,25 +55,34 @@ impl Desk {
     pub(super) fn values(&self) -> &[Vec<f32>] {
         &self.values
     }
+
+    pub(super) fn values_mut(&mut self) -> &mut [Vec<f32>] {
+        &mut self.values
+    }
 }
 
 impl<'a> Painter<'a> {
-    pub(super) fn new(integrator: Integrator<'a>, options: &'a RenderOptions) -> Self {
-        Self { integrator, options, layers: options.layers(), filter: Filter::new(options.filter) }
+    pub(super) fn new(
+        integrator: Integrator<'a>,
+        options: &'a RenderOptions,
+        cancel: &'a Cancel,
+    ) -> Self {
+        let filter = Filter::new(options.filter());
+        Self { integrator, options, cancel, layers: options.layers(), filter }
     }
 
-    /// Paints a tile.
+    /// Paints a tile; the sums from which a later pass goes on, unless this is the last one.
     pub(super) fn paint(
         &self,
         window: Window,
+        pass: Pass,
+        earlier: Option<&TileSums>,
         desk: &mut Desk,
         counts: &mut RayCounts,
-        cancel: &Cancel,
-    ) -> Result<(), Cancelled> {
-        let Desk { pixels, drawn, work, sums, values } = desk;
-        cut(window, self.options, pixels);
+    ) -> Result<Option<TileSums>, Cancelled> {
+        let values = &mut desk.values;
         values.resize_with(self.layers.len(), Vec::new);
-        for (kind, values) in self.layers.iter().zip(&mut *values) {
+        for (kind, values) in self.layers.iter().zip(values) {
             if matches!(kind, LayerKind::Aov(_)) {
                 // A variable is put where there is something to say.
                 values.clear();
@@ -77,47 +90,140 @@ impl<'a> Painter<'a> {
             let len = window.width() as usize * window.height() as usize;
             values.resize(len * kind.channels(), 0.0);
         }
-        let (samples, background) = (self.options.samples, self.options.background);
-        let (integrator, filter) = (&self.integrator, &self.filter);
-        let bvh = integrator.scene.bvh();
-        if samples == 1 {
-            if cancel.is_cancelled() {
-                return Err(Cancelled);
+        let samples = match pass {
+            Pass::Coarse => return self.coarse(window, desk, counts).map(|()| None),
+            Pass::UpTo(samples) => samples,
+        };
+        cut(window, self.options, &mut desk.pixels);
+        let kept = if self.options.samples() == 1 {
+            self.one_sample(window, desk, counts)?;
+            None
+        } else {
+            self.samples(window, samples, earlier, desk, counts)?
+        };
+        // Variables are of the centre ray, and do not change from pass to pass.
+        if earlier.is_none() && !self.options.aovs().is_empty() {
+            for y in window.y0..window.y1 {
+                for x in window.x0..window.x1 {
+                    self.heed()?;
+                    self.variables([x, y], of_window(window, [x, y]), &mut desk.values);
+                }
             }
-            drawn.draw(integrator, self.options, filter, pixels, 0..1);
+        }
+        Ok(kept)
+    }
+
+    fn heed(&self) -> Result<(), Cancelled> {
+        if self.cancel.is_cancelled() { Err(Cancelled) } else { Ok(()) }
+    }
+
+    /// A picture of one sample a pixel.
+    fn one_sample(
+        &self,
+        window: Window,
+        Desk { pixels, drawn, work, values, .. }: &mut Desk,
+        counts: &mut RayCounts,
+    ) -> Result<(), Cancelled> {
+        let (integrator, background) = (&self.integrator, self.options.background());
+        for pixels in pixels.chunks(MOST_EIGHTS) {
+            drawn.draw(integrator, self.options, &self.filter, pixels, 0..1);
             let brought = integrator.trace(&drawn.bundle, work, counts, &mut ());
+            // What was cut short is not to be seen.
+            self.heed()?;
             // One sample, which weighs 1, is its pixel: nothing to sum.
             let one = brought.iter().map(|sample| {
                 let covered = |lane| coverage((sample.met >> lane & 1) as f32, background);
                 (&sample.terms, std::array::from_fn(covered))
             });
-            let layers = &self.layers;
-            bvh.run(Put { window, layers, resolved: pixels.iter().zip(one), values });
-        } else {
-            for pixels in pixels.chunks(LOT) {
-                sums.clear();
-                sums.resize(pixels.len(), Sums8::NONE);
-                for from in (0..samples).step_by(LOTS as usize) {
-                    if cancel.is_cancelled() {
-                        return Err(Cancelled);
-                    }
-                    let indices = from..samples.min(from + LOTS);
-                    drawn.draw(integrator, self.options, filter, pixels, indices);
-                    let brought = integrator.trace(&drawn.bundle, work, counts, &mut ());
-                    Sums8::add(bvh, sums, brought, &drawn.weights);
+            let (resolved, layers) = (pixels.iter().zip(one), &self.layers);
+            integrator.scene.bvh().run(Put { window, layers, resolved, values });
+        }
+        Ok(())
+    }
+
+    /// Each pixel's samples up to `to`, those of earlier passes included.
+    fn samples(
+        &self,
+        window: Window,
+        to: u32,
+        earlier: Option<&TileSums>,
+        Desk { pixels, drawn, work, sums, values }: &mut Desk,
+        counts: &mut RayCounts,
+    ) -> Result<Option<TileSums>, Cancelled> {
+        let (integrator, background) = (&self.integrator, self.options.background());
+        let bvh = integrator.scene.bvh();
+        let begin = earlier.map_or(0, TileSums::samples);
+        let mut kept = (to < self.options.samples()).then(|| Vec::with_capacity(pixels.len()));
+        for (lot, pixels) in pixels.chunks(LOT).enumerate() {
+            sums.clear();
+            match earlier {
+                Some(earlier) => {
+                    sums.extend_from_slice(&earlier.eights()[lot * LOT..][..pixels.len()]);
                 }
-                for (pixels, sums) in pixels.iter().zip(&*sums) {
-                    let (terms, alpha) = sums.resolve(bvh, samples, background);
-                    let resolved = std::iter::once((pixels, (&terms, alpha)));
-                    let layers = &self.layers;
-                    bvh.run(Put { window, layers, resolved, values });
-                }
+                None => sums.resize(pixels.len(), Sums8::NONE),
+            }
+            for from in (begin..to).step_by(LOTS as usize) {
+                let indices = from..to.min(from + LOTS);
+                drawn.draw(integrator, self.options, &self.filter, pixels, indices);
+                let brought = integrator.trace(&drawn.bundle, work, counts, &mut ());
+                self.heed()?;
+                Sums8::add(bvh, sums, brought, &drawn.weights);
+            }
+            for (pixels, sums) in pixels.iter().zip(&*sums) {
+                let (terms, alpha) = sums.resolve(bvh, to, background);
+                let resolved = std::iter::once((pixels, (&terms, alpha)));
+                bvh.run(Put { window, layers: &self.layers, resolved, values });
+            }
+            if let Some(kept) = &mut kept {
+                kept.extend_from_slice(sums);
             }
         }
-        if !self.options.aovs.is_empty() {
-            for y in window.y0..window.y1 {
-                for x in window.x0..window.x1 {
-                    self.variables([x, y], of_window(window, [x, y]), values);
+        Ok(kept.map(|eights| TileSums::new(to, eights)))
+    }
+
+    /// What the centre of each coarse square's middle pixel brings, all over the square.
+    fn coarse(
+        &self,
+        window: Window,
+        desk: &mut Desk,
+        counts: &mut RayCounts,
+    ) -> Result<(), Cancelled> {
+        let centres = self.options.one_sample();
+        let middle = |square: &Window| middle_of(*square, self.options.size());
+        let Desk { pixels, drawn, work, values, .. } = desk;
+        for squares in coarse_squares(window).chunks(MOST_EIGHTS) {
+            pixels.clear();
+            pixels.extend(squares.iter().map(|square| Pixels8::new(middle(square), 1, &centres)));
+            drawn.draw(&self.integrator, &centres, &self.filter, pixels, 0..1);
+            let brought = self.integrator.trace(&drawn.bundle, work, counts, &mut ());
+            self.heed()?;
+            for (square, sample) in squares.iter().zip(brought) {
+                let terms = sample.terms.get(0);
+                let alpha = coverage((sample.met & 1) as f32, self.options.background());
+                // First the square's first pixel in this tile, then all the others.
+                let part = square.intersection(&window);
+                let place = of_window(window, [part.x0, part.y0]);
+                for (kind, values) in self.layers.iter().zip(&mut *values) {
+                    match kind {
+                        LayerKind::Picture => put(values, place, terms.total().to_array()),
+                        LayerKind::Alpha => values[place] = alpha,
+                        LayerKind::Term(term) => {
+                            put(values, place, terms[*term].to_array());
+                        }
+                        LayerKind::Aov(_) => {}
+                    }
+                }
+                if !self.options.aovs().is_empty() {
+                    self.variables(middle(square), place, values);
+                }
+                for (kind, values) in self.layers.iter().zip(&mut *values) {
+                    let n = kind.channels();
+                    for y in part.y0..part.y1 {
+                        for x in part.x0..part.x1 {
+                            let to = of_window(window, [x, y]) * n;
+                            values.copy_within(place * n..(place + 1) * n, to);
+                        }
+                    }
                 }
             }
         }
@@ -127,7 +233,7 @@ impl<'a> Painter<'a> {
     /// The variables of a pixel, from the ray through its centre.
     fn variables(&self, [x, y]: [u32; 2], place: usize, out: &mut [Vec<f32>]) {
         let scene = self.integrator.scene;
-        let size = self.options.size;
+        let size = self.options.size();
         let centre = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
         let ray = scene.camera().ray(centre, size, [0.5; 2]);
         let (hit, cost) = ray.map_or((Hit::NONE, 0), |ray| {
@@ -157,7 +263,7 @@ impl<'a> Painter<'a> {
                 (Aov::Material, Some(at)) => values[place] = (at.material + 1) as f32,
                 (Aov::Shadow, Some(_)) => {
                     let mut seen = LightsSeen::default();
-                    let sampler = Sampler::new([x, y], 0, 1, self.options.seed);
+                    let sampler = Sampler::new([x, y], 0, 1, self.options.seed());
                     let first_hit = Integrator { depth: 0, ..self.integrator };
                     if let Some(ray) = ray {
                         let ray = CameraRay { ray, sampler, height: 0.0 };
@@ -193,6 +299,25 @@ impl Witness for LightsSeen {
     fn entered(&mut self, _: Branch, _: Rgb, _: Option<f32>, _: &phong_bvh::Ray) {}
     fn left(&mut self, _: Branch, _: Rgb) {}
     fn cut(&mut self, _: Branch, _: Rgb, _: Option<f32>) {}
+}
+
+/// The coarse squares that have a pixel in the window, whole.
+fn coarse_squares(window: Window) -> Vec<Window> {
+    let edge = Pass::COARSE;
+    let [first_x, first_y] = [window.x0, window.y0].map(|from| from / edge * edge);
+    let mut squares = Vec::new();
+    for y0 in (first_y..window.y1).step_by(edge as usize) {
+        for x0 in (first_x..window.x1).step_by(edge as usize) {
+            squares.push(Window { x0, y0, x1: x0 + edge, y1: y0 + edge });
+        }
+    }
+    squares
+}
+
+/// The pixel in the middle of a coarse square, of which a part may lie outside the picture.
+fn middle_of(square: Window, [width, height]: [u32; 2]) -> [u32; 2] {
+    let half = Pass::COARSE / 2;
+    [(square.x0 + half).min(width - 1), (square.y0 + half).min(height - 1)]
 }
 
 /// Cuts a tile into squares, so that a bundle's neighbours are neighbours.

@@ -74,13 +74,13 @@ pub(super) fn render(
     let mut films = Vec::with_capacity(2);
     let mut told = ([0, 0], 1, [0, 0]);
     for (k, mut input) in [a, b].into_iter().enumerate() {
-        let options =
-            RenderOptions { terms, ..plan::settle(&alike, &ViewArgs::default(), &mut input)? };
+        let options = plan::settle(&alike, &ViewArgs::default(), &mut input)?.with_terms(terms);
         if let Some(target) = models[k] {
             sides[k].model = Some(target);
             sides[k].changed = remodelled(&mut input, target);
         }
-        told = (options.size, options.samples, [options.window.x0, options.window.y0]);
+        let corner = [options.window().x0, options.window().y0];
+        told = (options.size(), options.samples(), corner);
         films.push(draw(input.scene, &inputs[k], &options)?);
     }
     let terms = between(&films[0], &films[1]).map_err(|e| Failure::System(e.to_string()))?;
@@ -95,13 +95,11 @@ fn remodelled(input: &mut Input, target: Target) -> Vec<(String, Remodelled)> {
 }
 
 fn draw(scene: Scene, args: &InputArgs, options: &RenderOptions) -> Result<Film, Failure> {
-    let window = &options.window;
-    let pixels = u64::from(window.width()) * u64::from(window.height());
+    let pixels = options.window().pixels();
     // Two films with their terms, the pictures made of them, and their differences.
     let beside = pixels * 4 * (2 * 25 + 2 * 4 + 8);
     let scene = compile(scene, args, beside)?;
-    let cancelled = |cancelled: phong::render::Cancelled| Failure::System(cancelled.to_string());
-    Ok(trace(&scene, options, &|_, _| {}, &Cancel::new()).map_err(cancelled)?.film)
+    Ok(trace(&scene, options, &|_| {}, &Cancel::new()).film)
 }
 
 impl Scenes {

@@ -4,11 +4,12 @@ use fearless_simd::{Simd, f32x8, f64x4, mask32x8, prelude::*};
 use phong_bvh::{Bvh, Kernel};
 use phong_scene::Background;
 
+use super::Window;
 use crate::integrator::Radiance8;
 use crate::terms::{PerTerm, Term, TermSet, Terms8};
 
 /// The sums of eight pixels.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(align(32))]
 pub(crate) struct Sums8 {
     /// Of each term red, green and blue.
@@ -28,6 +29,28 @@ impl Sums8 {
         weight: [0.0; 8],
     };
 
+    /// How many numbers there are in it.
+    pub(crate) const NUMBERS: usize = (3 * Term::ALL.len() + 2) * 8;
+
+    /// All its numbers, as they stand in a file.
+    pub(crate) fn numbers(&self) -> impl Iterator<Item = f64> {
+        let Self { terms, brought: _, alpha, weight } = self;
+        let terms = Term::ALL.iter().flat_map(|term| &terms[*term]);
+        terms.chain([alpha, weight]).flatten().copied()
+    }
+
+    /// The sums of [`NUMBERS`](Self::NUMBERS) numbers.
+    pub(crate) fn of_numbers(numbers: &[f64]) -> Self {
+        let mut eights = numbers.as_chunks().0.iter().copied();
+        let mut next = || eights.next().unwrap_or_default();
+        let mut sums = Self { brought: TermSet::ALL, ..Self::NONE };
+        for term in Term::ALL {
+            sums.terms[term] = std::array::from_fn(|_| next());
+        }
+        (sums.alpha, sums.weight) = (next(), next());
+        sums
+    }
+
     /// Adds samples to sums: one to each eight pixels, then the next to each, and so on. One that
     /// brought nothing, outside a fisheye's image circle, still has its weight.
     pub(crate) fn add(bvh: &Bvh, sums: &mut [Self], samples: &[Radiance8], weights: &[[f32; 8]]) {
@@ -42,6 +65,40 @@ impl Sums8 {
         background: Background,
     ) -> (Terms8, [f32; 8]) {
         bvh.run(Resolve { sums: self, samples, background })
+    }
+}
+
+/// The rows of eight pixels, or fewer, that a tile is worked on in: as many sums as it has.
+pub(crate) fn eights_of(tile: Window) -> usize {
+    tile.width().div_ceil(8) as usize * tile.height() as usize
+}
+
+/// The sums of a tile's pixels between two passes.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct TileSums {
+    samples: u32,
+    eights: Vec<Sums8>,
+}
+
+impl TileSums {
+    /// The sums of so many samples of each pixel, eight pixels for eight.
+    pub(crate) fn new(samples: u32, eights: Vec<Sums8>) -> Self {
+        Self { samples, eights }
+    }
+
+    /// Samples that each pixel has, ≥ 1.
+    pub(crate) fn samples(&self) -> u32 {
+        self.samples
+    }
+
+    /// The sums, eight pixels for eight.
+    pub(crate) fn eights(&self) -> &[Sums8] {
+        &self.eights
+    }
+
+    /// Bytes that it takes.
+    pub(crate) fn bytes(&self) -> u64 {
+        size_of_val(&self.eights[..]) as u64
     }
 }
 
@@ -138,7 +195,7 @@ impl Kernel for Resolve<'_> {
 }
 
 /// The alpha of a pixel of which surfaces cover `share`.
-pub(super) fn coverage(share: f32, background: Background) -> f32 {
+pub(crate) fn coverage(share: f32, background: Background) -> f32 {
     match background {
         Background::Transparent => share,
         Background::Color(_) | Background::Gradient { .. } => 1.0,

@@ -1,0 +1,52 @@
+//! What finishes a picture after its film, and before it is written.
+//!
+//! Nothing does so far: the finished picture is the film's. What belongs here is drawn onto a
+//! picture (outlines, labels, tone) and is no term: the film is always the sum of its terms.
+
+use crate::film::{Film, LayerKind};
+
+/// How a picture is to be finished. The default leaves it as its film has it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Finishing {}
+
+/// A film, and the picture that it is finished to.
+#[derive(Clone, Copy, Debug)]
+pub struct Finished<'a> {
+    film: &'a Film,
+}
+
+/// Finishes a film's picture.
+pub fn finish<'a>(film: &'a Film, finishing: &Finishing) -> Finished<'a> {
+    let Finishing {} = finishing;
+    Finished { film }
+}
+
+impl<'a> Finished<'a> {
+    /// The film, as it was rendered.
+    pub fn film(&self) -> &'a Film {
+        self.film
+    }
+
+    /// The values of a layer as they are to be seen; `None` if the film has no such layer.
+    pub fn values(&self, kind: LayerKind) -> Option<&'a [f32]> {
+        self.film.layer(kind).map(|layer| &*layer.values)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::film::Window;
+
+    #[test]
+    fn a_picture_that_nothing_finishes_is_its_film() {
+        let size = [3, 2];
+        let mut film = Film::new(size, Window::full(size), 16, &[LayerKind::Picture]);
+        film.layers[0].values[4] = 0.25;
+        let finished = finish(&film, &Finishing::default());
+        assert_eq!(finished.film(), &film);
+        assert_eq!(finished.values(LayerKind::Picture), Some(&*film.layers[0].values));
+        assert_eq!(finished.values(LayerKind::Alpha), None);
+    }
+}

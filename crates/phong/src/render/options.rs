@@ -1,0 +1,405 @@
+//! What to render: options that are valid from the moment they exist.
+
+use phong_scene::{Background, FilterKind, Image};
+use thiserror::Error;
+
+use super::Passes;
+use crate::aov::Aov;
+use crate::film::{LayerKind, Sums8, Window};
+use crate::terms::TermSet;
+
+/// What to render. Every value of this type can be rendered: what is out of range is refused where
+/// it is given, with an [`OptionsError`].
+///
+/// ```
+/// use phong::render::{OptionsError, RenderOptions};
+/// use phong::terms::TermSet;
+///
+/// let options = RenderOptions::new([320, 180])?.with_samples(4)?.with_terms(TermSet::ALL);
+/// assert_eq!((options.size(), options.samples()), ([320, 180], 4));
+/// assert_eq!(options.with_samples(0), Err(OptionsError::Samples(0)));
+/// # Ok::<(), OptionsError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct RenderOptions {
+    size: [u32; 2],
+    window: Window,
+    share: Option<(u32, u32)>,
+    samples: u32,
+    seed: u64,
+    depth: u32,
+    shadows: bool,
+    filter: FilterKind,
+    background: Background,
+    tile: u32,
+    terms: TermSet,
+    aovs: Vec<Aov>,
+    passes: Passes,
+}
+
+/// Why there are no such options: in every case the caller's fault.
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+pub enum OptionsError {
+    /// A picture's side has no pixel, or too many.
+    #[error("a picture of {} × {} pixels: a side has 1 to {most}", .0[0], .0[1], most = Image::LARGEST)]
+    Size([u32; 2]),
+    /// The window holds no pixel, or reaches out of the picture.
+    #[error(
+        "the window from ({}, {}) to ({}, {}) holds no pixel or reaches out of the picture of {} × {}",
+        window.x0, window.y0, window.x1, window.y1, size[0], size[1]
+    )]
+    Window {
+        /// The window asked for.
+        window: Window,
+        /// The picture's size.
+        size: [u32; 2],
+    },
+    /// The share is none of so many; they count from 0.
+    #[error(
+        "share {index} of {count}: shares count from 0, and the last is one less than their number"
+    )]
+    Share {
+        /// The share asked for.
+        index: u32,
+        /// How many there are.
+        count: u32,
+    },
+    /// There are too few or too many samples.
+    #[error("{0} samples a pixel: there are 1 to {most}", most = Image::MOST_SAMPLES)]
+    Samples(u32),
+    /// Rays would bounce too often.
+    #[error("{0} bounces: there are at most {most}", most = RenderOptions::MOST_DEPTH)]
+    Depth(u32),
+    /// A tile would hold no pixel.
+    #[error("a tile of 0 pixels")]
+    Tile,
+}
+
+impl RenderOptions {
+    /// The tile size used unless another is asked for: a few hundred rays are a good bundle.
+    pub const TILE: u32 = 16;
+
+    /// The most mirror and glass bounces.
+    pub const MOST_DEPTH: u32 = 1024;
+
+    /// All of a picture of `size` (width, height), all else as a scene that says nothing has it.
+    ///
+    /// # Errors
+    /// [`OptionsError::Size`] unless each side is from 1 to [`Image::LARGEST`].
+    pub fn new(size: [u32; 2]) -> Result<Self, OptionsError> {
+        Self::of(&Image { size, ..Image::default() })
+    }
+
+    /// All of a picture as its scene has it.
+    ///
+    /// # Errors
+    /// As of [`new`](Self::new), [`with_samples`](Self::with_samples) and
+    /// [`with_depth`](Self::with_depth): never for an image that the scene's check has passed.
+    pub fn of(image: &Image) -> Result<Self, OptionsError> {
+        let Image { size, samples, background, filter, seed, depth } = *image;
+        let valid = Self {
+            size: [1, 1],
+            window: Window::full([1, 1]),
+            share: None,
+            samples: 1,
+            seed,
+            depth: 0,
+            shadows: true,
+            filter,
+            background,
+            tile: Self::TILE,
+            terms: TermSet::NONE,
+            aovs: Vec::new(),
+            passes: Passes::default(),
+        };
+        valid.with_size(size)?.with_samples(samples)?.with_depth(depth)
+    }
+
+    /// Renders all of a picture of another size (width, height).
+    ///
+    /// # Errors
+    /// [`OptionsError::Size`] unless each side is from 1 to [`Image::LARGEST`].
+    pub fn with_size(self, size: [u32; 2]) -> Result<Self, OptionsError> {
+        if size.iter().all(|side| (1..=Image::LARGEST).contains(side)) {
+            Ok(Self { size, window: Window::full(size), ..self })
+        } else {
+            Err(OptionsError::Size(size))
+        }
+    }
+
+    /// Renders only a part of the picture.
+    ///
+    /// # Errors
+    /// [`OptionsError::Window`] if it holds no pixel or reaches out of the picture.
+    pub fn with_window(self, window: Window) -> Result<Self, OptionsError> {
+        if window.fits(self.size) {
+            Ok(Self { window, ..self })
+        } else {
+            Err(OptionsError::Window { window, size: self.size })
+        }
+    }
+
+    /// Renders only every `count`th tile of the window, from the one with number `index` on.
+    ///
+    /// # Errors
+    /// [`OptionsError::Share`] unless `index < count`.
+    pub fn with_share(self, index: u32, count: u32) -> Result<Self, OptionsError> {
+        if index < count {
+            Ok(Self { share: Some((index, count)), ..self })
+        } else {
+            Err(OptionsError::Share { index, count })
+        }
+    }
+
+    /// Draws so many samples a pixel.
+    ///
+    /// # Errors
+    /// [`OptionsError::Samples`] unless from 1 to [`Image::MOST_SAMPLES`].
+    pub fn with_samples(self, samples: u32) -> Result<Self, OptionsError> {
+        if (1..=Image::MOST_SAMPLES).contains(&samples) {
+            Ok(Self { samples, ..self })
+        } else {
+            Err(OptionsError::Samples(samples))
+        }
+    }
+
+    /// Follows mirror and glass rays over so many bounces; beyond them a ray brings black.
+    ///
+    /// # Errors
+    /// [`OptionsError::Depth`] beyond [`RenderOptions::MOST_DEPTH`].
+    pub fn with_depth(self, depth: u32) -> Result<Self, OptionsError> {
+        if depth <= Self::MOST_DEPTH {
+            Ok(Self { depth, ..self })
+        } else {
+            Err(OptionsError::Depth(depth))
+        }
+    }
+
+    /// Works in tiles of this edge in pixels; it changes no bit of the picture.
+    ///
+    /// # Errors
+    /// [`OptionsError::Tile`] for 0.
+    pub fn with_tile(self, tile: u32) -> Result<Self, OptionsError> {
+        if tile > 0 { Ok(Self { tile, ..self }) } else { Err(OptionsError::Tile) }
+    }
+
+    /// Draws the samples from another pattern.
+    #[must_use]
+    pub fn with_seed(self, seed: u64) -> Self {
+        Self { seed, ..self }
+    }
+
+    /// Whether things stand in the way of lights at all; they do by default.
+    #[must_use]
+    pub fn with_shadows(self, shadows: bool) -> Self {
+        Self { shadows, ..self }
+    }
+
+    /// Weights samples into a pixel by this filter.
+    #[must_use]
+    pub fn with_filter(self, filter: FilterKind) -> Self {
+        Self { filter, ..self }
+    }
+
+    /// Lets rays see this that hit nothing.
+    #[must_use]
+    pub fn with_background(self, background: Background) -> Self {
+        Self { background, ..self }
+    }
+
+    /// Keeps a layer for each of these terms; there is none by default.
+    #[must_use]
+    pub fn with_terms(self, terms: TermSet) -> Self {
+        Self { terms, ..self }
+    }
+
+    /// Keeps these variables, each once, in the order of their first mention.
+    #[must_use]
+    pub fn with_aovs(self, aovs: &[Aov]) -> Self {
+        let mut each: Vec<Aov> = Vec::with_capacity(aovs.len());
+        for aov in aovs {
+            if !each.contains(aov) {
+                each.push(*aov);
+            }
+        }
+        Self { aovs: each, ..self }
+    }
+
+    /// Renders all samples at once, or from coarse to fine; it changes no bit of the last picture.
+    #[must_use]
+    pub fn with_passes(self, passes: Passes) -> Self {
+        Self { passes, ..self }
+    }
+
+    /// Width and height of the full picture, pixels.
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// The part of it to render.
+    pub fn window(&self) -> Window {
+        self.window
+    }
+
+    /// `(i, n)`: only every nth tile of the window, from the ith on; `i < n`. `None`: all.
+    pub fn share(&self) -> Option<(u32, u32)> {
+        self.share
+    }
+
+    /// Samples a pixel, ≥ 1.
+    pub fn samples(&self) -> u32 {
+        self.samples
+    }
+
+    /// Seed of the sampling pattern.
+    pub fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// Mirror and glass bounces.
+    pub fn depth(&self) -> u32 {
+        self.depth
+    }
+
+    /// Whether things stand in the way of lights at all.
+    pub fn shadows(&self) -> bool {
+        self.shadows
+    }
+
+    /// How samples are weighted into a pixel.
+    pub fn filter(&self) -> FilterKind {
+        self.filter
+    }
+
+    /// What rays see that hit nothing.
+    pub fn background(&self) -> Background {
+        self.background
+    }
+
+    /// Edge of a tile in pixels, ≥ 1.
+    pub fn tile(&self) -> u32 {
+        self.tile
+    }
+
+    /// Which terms a layer is kept for.
+    pub fn terms(&self) -> TermSet {
+        self.terms
+    }
+
+    /// Which other variables are kept.
+    pub fn aovs(&self) -> &[Aov] {
+        &self.aovs
+    }
+
+    /// Whether all samples are drawn at once, or from coarse to fine.
+    pub fn passes(&self) -> Passes {
+        self.passes
+    }
+
+    /// The same picture with one sample a pixel, at its centre.
+    #[must_use]
+    pub fn one_sample(&self) -> Self {
+        Self { samples: 1, ..self.clone() }
+    }
+
+    /// Bytes of memory that a rendering keeps: its film, and between passes the pixels' sums.
+    pub fn film_bytes(&self) -> u64 {
+        let values: usize = self.layers().iter().map(|kind| kind.channels()).sum();
+        let film = self.window.pixels().saturating_mul(4 * values as u64);
+        let between = match self.passes {
+            Passes::One => 0,
+            Passes::CoarseToFine => {
+                let across = self.window.width().div_ceil(self.tile);
+                let eights =
+                    u64::from(across) * u64::from(self.tile.min(self.window.width()).div_ceil(8));
+                let rows = eights * u64::from(self.window.height());
+                rows.saturating_mul(size_of::<Sums8>() as u64)
+            }
+        };
+        film.saturating_add(between)
+    }
+
+    /// The layers of the film: the picture, its alpha, the terms and variables asked for.
+    pub fn layers(&self) -> Vec<LayerKind> {
+        let mut kinds = vec![LayerKind::Picture, LayerKind::Alpha];
+        kinds.extend(self.terms.iter().map(LayerKind::Term));
+        kinds.extend(self.aovs.iter().copied().map(LayerKind::Aov));
+        kinds
+    }
+
+    /// Whether a tile is in the share asked for.
+    pub fn has_tile(&self, tile: usize) -> bool {
+        self.share.is_none_or(|(i, n)| tile as u64 % u64::from(n) == u64::from(i))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn options() -> RenderOptions {
+        RenderOptions::new([40, 30]).unwrap()
+    }
+
+    #[test]
+    fn a_side_has_from_one_pixel_to_the_largest_number() {
+        for size in [[0, 5], [5, 0], [Image::LARGEST + 1, 1]] {
+            assert_eq!(RenderOptions::new(size), Err(OptionsError::Size(size)));
+        }
+        assert!(RenderOptions::new([1, Image::LARGEST]).is_ok());
+    }
+
+    #[test]
+    fn a_window_holds_a_pixel_and_lies_within() {
+        for (x0, y0, x1, y1) in [(0, 0, 41, 30), (0, 0, 40, 31), (5, 5, 5, 9), (9, 5, 5, 9)] {
+            let window = Window { x0, y0, x1, y1 };
+            let error = OptionsError::Window { window, size: [40, 30] };
+            assert_eq!(options().with_window(window), Err(error));
+        }
+    }
+
+    #[test]
+    fn a_share_is_one_of_so_many() {
+        for (index, count) in [(2, 2), (0, 0), (7, 3)] {
+            let error = OptionsError::Share { index, count };
+            assert_eq!(options().with_share(index, count), Err(error));
+        }
+        assert_eq!(options().with_share(1, 2).unwrap().share(), Some((1, 2)));
+    }
+
+    #[test]
+    fn samples_bounces_and_tiles_have_their_ranges() {
+        for samples in [0, Image::MOST_SAMPLES + 1, u32::MAX] {
+            assert_eq!(options().with_samples(samples), Err(OptionsError::Samples(samples)));
+        }
+        assert!(options().with_samples(Image::MOST_SAMPLES).is_ok());
+        assert_eq!(options().with_depth(1025), Err(OptionsError::Depth(1025)));
+        assert_eq!(options().with_tile(0), Err(OptionsError::Tile));
+    }
+
+    #[test]
+    fn an_image_made_in_memory_is_held_to_the_same_ranges() {
+        let image = Image { samples: 0, ..Image::default() };
+        assert_eq!(RenderOptions::of(&image), Err(OptionsError::Samples(0)));
+        let image = Image { depth: u32::MAX, ..Image::default() };
+        assert_eq!(RenderOptions::of(&image), Err(OptionsError::Depth(u32::MAX)));
+        assert!(RenderOptions::of(&Image::default()).is_ok());
+    }
+
+    #[test]
+    fn an_error_says_what_was_asked_for_and_what_there_is() {
+        let window = Window { x0: 1, y0: 2, x1: 50, y1: 30 };
+        let error = options().with_window(window).unwrap_err().to_string();
+        assert!(
+            error.contains("(1, 2)") && error.contains("(50, 30)") && error.contains("40 × 30")
+        );
+        let error = options().with_samples(0).unwrap_err().to_string();
+        assert_eq!(error, "0 samples a pixel: there are 1 to 1000000");
+    }
+
+    #[test]
+    fn a_variable_named_twice_is_kept_once() {
+        let options = options().with_aovs(&[Aov::Uv, Aov::Depth, Aov::Uv]);
+        assert_eq!(options.aovs(), [Aov::Uv, Aov::Depth]);
+    }
+}
