@@ -11,6 +11,7 @@ mod build;
 mod bvh;
 mod eights;
 mod geometry;
+pub mod lanes;
 mod level;
 mod node8;
 mod primitives;
@@ -21,13 +22,12 @@ mod surface;
 mod traverse;
 #[cfg(test)]
 mod validate;
-mod wide;
 
 pub use aabb::Aabb;
 pub use bvh::{BuildError, BuildOptions, Bvh, Cost, Preset, Stats};
 pub use eights::{Hits8, Rays8, lanes};
 pub use geometry::{Canonical, Plane, Primitives, Solid, Sphere};
+pub use lanes::Lanes;
 pub use level::{Kernel, Level};
 pub use ray::{Coordinates, Hit, Ray, Surface};
 pub use surface::{Surfaces8, offset_origin};
-pub use wide::Wide;

@@ -2,7 +2,8 @@
 
 use fearless_simd::{Simd, f32x8, f64x4, prelude::*};
 use glam::{DVec2, DVec3, Vec3};
-use phong_bvh::{Ray, Rays8, Wide};
+use phong_bvh::lanes::splat3;
+use phong_bvh::{Lanes, Ray, Rays8};
 use phong_scene::CameraKind;
 
 use crate::math::{Dir3, wide};
@@ -126,7 +127,12 @@ impl Camera {
     /// the unit disc; the ray starts there on the lens, and meets the plane of focus where it would
     /// have from the middle.
     #[inline(always)]
-    fn flat<F: Wide>(&self, place: [F; 2], size: [u32; 2], lens: Option<[F; 2]>) -> [[F; 3]; 2] {
+    fn flat<F: Lanes<Scalar = f64>>(
+        &self,
+        place: [F; 2],
+        size: [u32; 2],
+        lens: Option<[F; 2]>,
+    ) -> [[F; 3]; 2] {
         let Self { eye, right, up, forward, half, aperture, focus, .. } = *self;
         let [x, y] = from_the_middle(place, f64::from(size[0]), f64::from(size[1]));
         let off = [
@@ -134,7 +140,7 @@ impl Camera {
             (x * right.y + y * up.y) * half,
             (x * right.z + y * up.z) * half,
         ];
-        let like = |v: DVec3| [x.like(v.x), x.like(v.y), x.like(v.z)];
+        let like = |v: DVec3| splat3(x, v.to_array());
         let moved = |by: DVec3| [off[0] + by.x, off[1] + by.y, off[2] + by.z];
         let (mut origin, mut dir) = match self.kind {
             CameraKind::Orthographic { .. } => (moved(eye), like(forward)),
@@ -150,7 +156,7 @@ impl Camera {
             dir = [dir[0] * focus - shift[0], dir[1] * focus - shift[1], dir[2] * focus - shift[2]];
         }
         let [x, y, z] = dir;
-        let inverse = x.like(1.0) / (x * x + y * y + z * z).root();
+        let inverse = x.splat(1.0) / (x * x + y * y + z * z).sqrt();
         [origin, [x * inverse, y * inverse, z * inverse]]
     }
 
@@ -176,22 +182,22 @@ impl Camera {
 
 /// A place from the picture's middle, in half heights; y up.
 #[inline(always)]
-fn from_the_middle<F: Wide>([x, y]: [F; 2], width: f64, height: f64) -> [F; 2] {
+fn from_the_middle<F: Lanes<Scalar = f64>>([x, y]: [F; 2], width: f64, height: f64) -> [F; 2] {
     [(x * 2.0 + -width) / height, (y * -2.0 + height) / height]
 }
 
 /// A point of the unit disc from one of the unit square, areas kept (Shirley and Chiu 1997).
 /// (½, ½) is the middle.
 #[inline(always)]
-pub(crate) fn disc<F: Wide>([u, v]: [F; 2]) -> [F; 2] {
+pub(crate) fn disc<F: Lanes<Scalar = f64>>([u, v]: [F; 2]) -> [F; 2] {
     let (a, b) = (u * 2.0 + -1.0, v * 2.0 + -1.0);
-    let (x, y) = (a.size(), b.size());
+    let across = a.abs().gt(b.abs());
     // In the quarters above and below, x and y change their parts.
-    let (r, other) = (x.above(y, a, b), x.above(y, b, a));
-    let zero = r.like(0.0);
-    let turn = r.size().above(zero, other / r, zero) * std::f64::consts::FRAC_PI_4;
+    let (r, other) = (F::select(across, a, b), F::select(across, b, a));
+    let zero = r.splat(0.0);
+    let turn = F::select(r.abs().gt(zero), other / r, zero) * std::f64::consts::FRAC_PI_4;
     let (sin, cos) = wide::sin_cos_of_eighth(turn);
-    [r * x.above(y, cos, sin), r * x.above(y, sin, cos)]
+    [r * F::select(across, cos, sin), r * F::select(across, sin, cos)]
 }
 
 /// [`disc`] of eight points, four by four.

@@ -2,10 +2,11 @@
 
 use fearless_simd::{Simd, f32x8, prelude::*};
 use glam::{DVec3, Vec3};
+use phong_bvh::Lanes;
 use phong_scene::{LightKind, Rgb};
 
 use crate::camera::{disc, disc4};
-use crate::math::lanes::{Real, add, dot, times};
+use crate::math::lanes::{add, dot, normalize, scale, select3, splat3};
 use crate::math::{Dir3, wide};
 
 /// A light in the compiled scene's space.
@@ -128,14 +129,14 @@ impl Light {
     /// How it reaches one point, or eight; `l` is 0 where the light is. `place`: of a soft light, a
     /// point of the unit disc.
     #[inline(always)]
-    fn arrive<F: Real>(&self, p: [F; 3], place: Option<[F; 2]>) -> Reach<[F; 3], F> {
-        let like = |v: f32| p[0].like(v);
-        let all = |v: [f32; 3]| [p[0].like(v[0]), p[0].like(v[1]), p[0].like(v[2])];
+    fn arrive<F: Lanes<Scalar = f32>>(&self, p: [F; 3], place: Option<[F; 2]>) -> Reach<[F; 3], F> {
+        let like = |v: f32| p[0].splat(v);
+        let all = |v: [f32; 3]| splat3(p[0], v);
         match &self.kind {
             Kind::Distant { to_light, half_angle_tan } => {
                 let mut l = all(to_light.to_array());
                 if let Some(place) = place {
-                    l = F::unit(add(l, across(like(*half_angle_tan), l, place)));
+                    l = normalize(add(l, across(like(*half_angle_tan), l, place)));
                 }
                 Reach { l, distance: like(f32::INFINITY), share: like(1.0) }
             }
@@ -143,17 +144,17 @@ impl Light {
                 let [x, y, z] = all(position.to_array());
                 let mut toward = [x - p[0], y - p[1], z - p[2]];
                 if let Some(place) = place {
-                    let axis = F::unit(toward);
+                    let axis = normalize(toward);
                     let aside = across(like(*radius), axis, place);
                     // Where the light is there is no way aside.
                     let (zero, length) = (like(0.0), dot(axis, axis));
-                    let aside = aside.map(|v| zero.below(length, v, zero));
+                    let aside = select3(zero.lt(length), aside, [zero; 3]);
                     toward = add(toward, aside);
                 }
                 let Reach { l, distance, mut share } = arrival(toward, *attenuation);
                 if let Some(cone) = cone {
                     let along = dot(all(cone.axis.to_array()), l);
-                    share = share * along.each(|cos| cone.share(-cos));
+                    share = share * along.map(|cos| cone.share(-cos));
                 }
                 Reach { l, distance, share }
             }
@@ -174,10 +175,10 @@ impl Light {
 /// The direction of `toward`, which is 0 where there is none; its length; and the share of light
 /// left at that distance: `1 / (c + k d + q d²)`.
 #[inline(always)]
-fn arrival<F: Real>(toward: [F; 3], [c, k, q]: [f32; 3]) -> Reach<[F; 3], F> {
-    let l = F::unit(toward);
+fn arrival<F: Lanes<Scalar = f32>>(toward: [F; 3], [c, k, q]: [f32; 3]) -> Reach<[F; 3], F> {
+    let l = normalize(toward);
     let distance = dot(toward, l);
-    let share = distance.like(1.0) / (distance * k + c + distance * q * distance);
+    let share = distance.splat(1.0) / (distance * k + c + distance * q * distance);
     Reach { l, distance, share }
 }
 
@@ -209,14 +210,14 @@ fn point(position: DVec3, attenuation: [f64; 3], radius: f64, cone: Option<Cone>
 /// seen from there is a disc. (The frame is that of Duff and others, *Building an orthonormal basis,
 /// revisited*, 2017.)
 #[inline(always)]
-fn across<F: Real>(radius: F, [x, y, z]: [F; 3], [u, v]: [F; 2]) -> [F; 3] {
-    let (zero, one) = (x.like(0.0), x.like(1.0));
-    let sign = z.below(zero, zero - one, one);
+fn across<F: Lanes<Scalar = f32>>(radius: F, [x, y, z]: [F; 3], [u, v]: [F; 2]) -> [F; 3] {
+    let (zero, one) = (x.splat(0.0), x.splat(1.0));
+    let sign = F::select(z.lt(zero), zero - one, one);
     let a = (zero - one) / (sign + z);
     let b = x * y * a;
     let first = [one + sign * x * x * a, sign * b, zero - sign * x];
     let second = [b, sign + y * y * a, zero - y];
-    times(radius, add(times(u, first), times(v, second)))
+    scale(radius, add(scale(u, first), scale(v, second)))
 }
 
 #[cfg(test)]

@@ -1,11 +1,12 @@
 //! A material ready for light: the reflectance, and the colours that go with it.
 
-use fearless_simd::{Simd, f32x8};
+use glam::Vec3;
+use phong_bvh::Lanes;
 use phong_scene::{self as scene, AmbientRule, Model, Rgb, Tint, Viewer};
 
 use crate::light::LightSample;
 use crate::math::Dir3;
-use crate::math::lanes::Real;
+use crate::math::lanes::splat3;
 use crate::reflectance::{
     BlinnPhong, Distribution, Falloff, Incident, Lambert, Microfacet, OrenNayar, OrenNayarForm,
     Phong, Reflectance, Switches, Ward, fresnel,
@@ -69,8 +70,8 @@ impl Material {
 
     /// [`Material::ambient`] of one surface, or of eight.
     #[inline(always)]
-    pub(crate) fn ambient_of<F: Real>(&self, color: [F; 3], ambient: Rgb) -> [F; 3] {
-        let like = |c: Rgb| [color[0].like(c.r), color[0].like(c.g), color[0].like(c.b)];
+    pub(crate) fn ambient_of<F: Lanes<Scalar = f32>>(&self, color: [F; 3], ambient: Rgb) -> [F; 3] {
+        let like = |c: Rgb| splat3(color[0], c.to_array());
         match self.ambient_rule {
             AmbientRule::Once | AmbientRule::Both => {
                 let [r, g, b] = self.ambient_color.map_or(color, like);
@@ -89,8 +90,8 @@ impl Material {
 
     /// `k_e C_e` where the surface's colour is `color`, of one surface or of eight.
     #[inline(always)]
-    pub(crate) fn emission_of<F: Real>(&self, color: [F; 3]) -> [F; 3] {
-        let own = |c: Rgb| [color[0].like(c.r), color[0].like(c.g), color[0].like(c.b)];
+    pub(crate) fn emission_of<F: Lanes<Scalar = f32>>(&self, color: [F; 3]) -> [F; 3] {
+        let own = |c: Rgb| splat3(color[0], c.to_array());
         self.emission_color.map_or(color, own).map(|channel| channel * self.k_e)
     }
 
@@ -120,64 +121,54 @@ impl Material {
     /// E as highlights are seen, for rays whose E is `e`: that, unless the viewer is distant.
     #[inline]
     pub fn eye(&self, e: Dir3) -> Dir3 {
-        self.distant_eye.unwrap_or(e)
+        Dir3::from_unit(Vec3::from(self.eye_of(e.to_array())))
     }
 
-    /// [`Material::eye`] for eight rays.
+    /// [`Material::eye`] of one ray, or of eight.
     #[inline(always)]
-    pub(crate) fn eye8<S: Simd>(&self, e: [f32x8<S>; 3]) -> [f32x8<S>; 3] {
-        self.distant_eye.map_or(e, |eye| {
-            let [x, y, z] = eye.to_array();
-            [e[0].like(x), e[0].like(y), e[0].like(z)]
-        })
+    pub(crate) fn eye_of<F: Lanes<Scalar = f32>>(&self, e: [F; 3]) -> [F; 3] {
+        match self.distant_eye {
+            Some(eye) => splat3(e[0], eye.to_array()),
+            None => e,
+        }
     }
 
     /// The light tinted by the material: `C_{m,d}` and `C_{m,s}`, where the normal is `n`.
     #[inline]
     pub fn incident(&self, n: Dir3, color: Rgb, light: &LightSample) -> Incident {
-        let specular = self.specular_color.unwrap_or(color);
-        Incident {
-            l: light.l,
-            c_d: light.color * color,
-            c_s: match self.tint {
-                Tint::Light => light.specular_color * specular,
-                Tint::Object => color,
-                Tint::Metallic => {
-                    let share = 1.0 - fresnel::pov_ray(n.cos(light.l));
-                    let metal = Rgb::WHITE + share * (color - Rgb::WHITE);
-                    light.specular_color * specular * metal
-                }
-            },
-            color,
-        }
+        let LightSample { l, color: diffuse, specular_color: specular, .. } = *light;
+        let arriving = [diffuse.to_array(), specular.to_array()];
+        let [c_d, c_s] = self.tint(n.dot(l), color.to_array(), arriving);
+        Incident { l, c_d: Rgb::from(c_d), c_s: Rgb::from(c_s), color }
     }
 
-    /// [`Material::incident`] of eight surfaces of colour `color`, to which the `share` of the light's
-    /// colours is left at cosine `n_dot_l`: `C_{m,d}` and `C_{m,s}`.
+    /// `C_{m,d}` and `C_{m,s}` of one surface of colour `color`, or of eight, that light of these diffuse
+    /// and specular colours meets at cosine `n_dot_l`.
     #[inline(always)]
-    pub(crate) fn incident8<S: Simd>(
+    pub(crate) fn tint<F: Lanes<Scalar = f32>>(
         &self,
-        n_dot_l: f32x8<S>,
-        color: [f32x8<S>; 3],
-        [diffuse, specular]: [Rgb; 2],
-        share: f32x8<S>,
-    ) -> [[f32x8<S>; 3]; 2] {
-        let times = |light: Rgb, color: [f32x8<S>; 3]| {
-            [share * light.r * color[0], share * light.g * color[1], share * light.b * color[2]]
+        n_dot_l: F,
+        color: [F; 3],
+        [diffuse, specular]: [[F; 3]; 2],
+    ) -> [[F; 3]; 2] {
+        let own = match self.specular_color {
+            Some(own) => splat3(n_dot_l, own.to_array()),
+            None => color,
         };
-        let own = |c: Rgb| [share.like(c.r), share.like(c.g), share.like(c.b)];
-        let own = self.specular_color.map_or(color, own);
         let c_s = match self.tint {
-            Tint::Light => times(specular, own),
+            Tint::Light => product(specular, own),
             Tint::Object => color,
             Tint::Metallic => {
-                let [r, g, b] = times(specular, own);
-                let share = n_dot_l.each(|cos| 1.0 - fresnel::pov_ray(cos.max(0.0)));
-                let metal = |color: f32x8<S>| share * (color - 1.0) + 1.0;
-                [r * metal(color[0]), g * metal(color[1]), b * metal(color[2])]
+                let share = n_dot_l.map(|cos| 1.0 - fresnel::pov_ray(cos.max(0.0)));
+                let metal = [
+                    share * (color[0] - 1.0) + 1.0,
+                    share * (color[1] - 1.0) + 1.0,
+                    share * (color[2] - 1.0) + 1.0,
+                ];
+                product(product(specular, own), metal)
             }
         };
-        [times(diffuse, color), c_s]
+        [product(diffuse, color), c_s]
     }
 
     /// What one light adds to the diffuse and specular terms where nothing stands between.
@@ -192,6 +183,12 @@ impl Material {
     ) -> Terms {
         self.reflectance.shade_light(n, tangent, self.eye(e), self.incident(n, color, light))
     }
+}
+
+/// The product of two colours.
+#[inline(always)]
+fn product<F: Lanes>(a: [F; 3], b: [F; 3]) -> [F; 3] {
+    [a[0] * b[0], a[1] * b[1], a[2] * b[2]]
 }
 
 fn reflectance(material: &phong_scene::Material) -> Reflectance {

@@ -220,11 +220,20 @@ impl Kernel for Shade<'_> {
                 left &= !same;
                 let material = &integrator.scene.materials()[number];
                 let (n, l) = (load3(simd, &dressed.n), load3(simd, &ways.dir));
-                let e = material.eye8(to_eye(simd, &rays[i]));
-                if let Some([diffuse, specular]) = material.reflectance.weights8(n, e, l) {
+                let e = material.eye_of(to_eye(simd, &rays[i]));
+                if let Some([diffuse, specular]) = material.reflectance.weights(n, e, l) {
                     let color = load3(simd, &dressed.color);
                     let share = f32x8::load_array(simd, sent.share);
-                    let [c_d, c_s] = material.incident8(dot(n, l), color, light.colors(), share);
+                    let [diffuse_color, specular_color] = light.colors();
+                    let arriving = [
+                        [share * diffuse_color.r, share * diffuse_color.g, share * diffuse_color.b],
+                        [
+                            share * specular_color.r,
+                            share * specular_color.g,
+                            share * specular_color.b,
+                        ],
+                    ];
+                    let [c_d, c_s] = material.tint(dot(n, l), color, arriving);
                     let same = mask32x8::from_bitmask(simd, same.into());
                     let terms = &mut out.terms;
                     add(simd, &mut terms[Term::Diffuse], same, diffuse, c_d);

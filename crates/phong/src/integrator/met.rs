@@ -103,8 +103,8 @@ impl Kernel for Begin<'_> {
                 match background {
                     Background::Color(color) => {
                         let missed = mask32x8::from_bitmask(simd, missed.into());
-                        let color = splat3(simd, color.to_array());
-                        *to = store3(select3(missed, color, load3(simd, to)));
+                        let old = load3(simd, to);
+                        *to = store3(select3(missed, splat3(old[0], color.to_array()), old));
                     }
                     Background::Gradient { top, bottom } => {
                         for lane in lanes(missed) {

@@ -1,12 +1,14 @@
 //! Where mirror and glass rays go, and what they weigh, eight at a time.
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
-use phong_bvh::{Kernel, Ray, Rays8};
+use phong_bvh::{Kernel, Lanes, Ray, Rays8};
 use phong_scene::Rgb;
 
 use super::met::{Met, origins, same_material, to_eye};
 use crate::material::Material;
-use crate::math::lanes::{Lanes3, Real, dot, get, load3, mirror, select3, splat3, store3, times};
+use crate::math::lanes::{
+    Lanes3, dot, get, load3, mirror, neg, normalize, scale, select3, splat3, store3,
+};
 use crate::reflectance::fresnel;
 use crate::view::View;
 use crate::witness::Branch;
@@ -81,7 +83,7 @@ impl Kernel for Part<'_> {
                     Branch::Reflection => at.mirrored(material),
                     Branch::Transmission => at.refracted(material),
                 };
-                let zero = f32x8::splat(simd, 0.0);
+                let zero = weight[0].splat(0.0);
                 let black =
                     weight[0].simd_eq(zero) & weight[1].simd_eq(zero) & weight[2].simd_eq(zero);
                 to.goes |= same & !(black.to_bitmask() as u32);
@@ -97,10 +99,10 @@ impl Kernel for Part<'_> {
     }
 }
 
-/// Where a ray goes on, its weight, and F, not a number where it was not asked for.
+/// Where a ray goes on, its weight, and F, which is NaN where it was not asked for.
 type Parted<F> = ([F; 3], [F; 3], F);
 
-/// Eight surfaces from the side that their rays came from.
+/// A surface, or eight, from the side that the rays came from.
 struct Side<F> {
     n: [F; 3],
     e: [F; 3],
@@ -110,67 +112,66 @@ struct Side<F> {
     eta: F,
 }
 
-impl<S: Simd> Side<f32x8<S>> {
+impl<F: Lanes<Scalar = f32>> Side<F> {
     #[inline(always)]
-    fn new(material: &Material, n: [f32x8<S>; 3], ng: [f32x8<S>; 3], e: [f32x8<S>; 3]) -> Self {
+    fn new(material: &Material, n: [F; 3], ng: [F; 3], e: [F; 3]) -> Self {
         let cos = dot(ng, e);
-        let inside = cos.simd_lt(cos.like(0.0));
-        let facing = select3(inside, [-ng[0], -ng[1], -ng[2]], ng);
-        let eta = inside.select(cos.like(1.0 / material.ior), cos.like(material.ior));
+        let inside = cos.lt(cos.splat(0.0));
+        let facing = select3(inside, neg(ng), ng);
+        let eta = F::select(inside, cos.splat(1.0 / material.ior), cos.splat(material.ior));
         Self { n, e, facing, eta }
     }
 
     /// The exact reflectance.
     #[inline(always)]
-    fn dielectric(&self) -> f32x8<S> {
-        fresnel::boundary(dot(self.n, self.e).positive(), self.eta)
+    fn dielectric(&self) -> F {
+        fresnel::boundary(dot(self.n, self.e).at_least(0.0), self.eta)
     }
 
-    /// The mirror rays.
+    /// The mirror ray.
     #[inline(always)]
-    fn mirrored(&self, material: &Material) -> Parted<f32x8<S>> {
+    fn mirrored(&self, material: &Material) -> Parted<F> {
         let Self { n, e, facing, eta } = *self;
-        let simd = eta.token();
         let dir = mirror(n, e);
         // A shading normal can send the mirror ray into the surface: the real normal does not.
-        let out = dot(dir, facing).simd_gt(eta.like(0.0));
+        let out = dot(dir, facing).gt(eta.splat(0.0));
         let dir = select3(out, dir, mirror(facing, e));
-        let weight = splat3(simd, material.reflection.to_array());
+        let weight = splat3(eta, material.reflection.to_array());
         if material.fresnel {
             let f = self.dielectric();
-            return (dir, times(f, weight), f);
+            return (dir, scale(f, weight), f);
         }
-        let not_asked = eta.like(f32::NAN);
+        let not_asked = eta.splat(f32::NAN);
         if material.transmission.is_black() {
             return (dir, weight, not_asked);
         }
         // Under total reflection the mirror ray has the refracted one's weight as well.
-        let both = splat3(simd, (material.reflection + material.transmission).to_array());
+        let both = splat3(eta, (material.reflection + material.transmission).to_array());
         (dir, select3(self.refract().1, weight, both), not_asked)
     }
 
-    /// The refracted rays; without weight under total internal reflection.
+    /// The refracted ray; without weight under total internal reflection.
     #[inline(always)]
-    fn refracted(&self, material: &Material) -> Parted<f32x8<S>> {
+    fn refracted(&self, material: &Material) -> Parted<F> {
         let (dir, passes) = self.refract();
-        let (simd, zero) = (self.eta.token(), self.eta.like(0.0));
-        let weight = splat3(simd, material.transmission.to_array());
+        let zero = self.eta.splat(0.0);
+        let weight = splat3(zero, material.transmission.to_array());
         let (weight, f) = if material.fresnel {
             let f = self.dielectric();
-            (times(f.like(1.0) - f, weight), f)
+            (scale(f.splat(1.0) - f, weight), f)
         } else {
-            (weight, zero.like(f32::NAN))
+            (weight, zero.splat(f32::NAN))
         };
         (dir, select3(passes, weight, [zero; 3]), f)
     }
 
     /// Where light goes beyond the surface, and where it does.
     #[inline(always)]
-    fn refract(&self) -> ([f32x8<S>; 3], mask32x8<S>) {
+    fn refract(&self) -> ([F; 3], F::Mask) {
         let Self { n, e, facing, eta } = *self;
         let (dir, passes) = refract(n, e, eta);
         // A shading normal can keep the ray on this side: the real normal does not.
-        let in_there = dot(dir, facing).simd_lt(eta.like(0.0));
+        let in_there = dot(dir, facing).lt(eta.splat(0.0));
         let (again, passes_again) = refract(facing, e, eta);
         (select3(in_there, dir, again), passes & (in_there | passes_again))
     }
@@ -180,22 +181,18 @@ impl<S: Simd> Side<f32x8<S>> {
 /// and `n` on the near side. The direction, and where there is one: not under total internal
 /// reflection.
 #[inline(always)]
-fn refract<S: Simd>(
-    n: [f32x8<S>; 3],
-    e: [f32x8<S>; 3],
-    eta: f32x8<S>,
-) -> ([f32x8<S>; 3], mask32x8<S>) {
-    let one = eta.like(1.0);
+fn refract<F: Lanes<Scalar = f32>>(n: [F; 3], e: [F; 3], eta: F) -> ([F; 3], F::Mask) {
+    let one = eta.splat(1.0);
     let cos_i = dot(n, e);
-    let sin2_t = (one - cos_i * cos_i).positive() / (eta * eta);
-    let cos_t = (one - sin2_t).root();
+    let sin2_t = (one - cos_i * cos_i).at_least(0.0) / (eta * eta);
+    let cos_t = (one - sin2_t).at_least(0.0).sqrt();
     let along = cos_i / eta - cos_t;
-    let dir = f32x8::unit([
+    let dir = normalize([
         along * n[0] - e[0] / eta,
         along * n[1] - e[1] / eta,
         along * n[2] - e[2] / eta,
     ]);
-    (dir, sin2_t.simd_lt(one))
+    (dir, sin2_t.lt(one))
 }
 
 #[cfg(test)]

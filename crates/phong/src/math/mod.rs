@@ -13,4 +13,5 @@ pub mod wide;
 pub use dir::{Dir3, reflect};
 pub use elementary::{acos, asin, atan2, cos, erfc, exp, ln, sin, sin_cos, tan};
 pub use frame::Frame;
+pub(crate) use pow::Lobe;
 pub use pow::{lobe, pow};

@@ -7,8 +7,7 @@
 use std::f64::consts::{LN_2, LOG2_E};
 
 use fearless_simd::{Simd, f32x8, f64x4, prelude::*, u32x8};
-
-use super::lanes::Real;
+use phong_bvh::lanes;
 
 /// `x^y`, for bases that are lengths or cosines.
 ///
@@ -54,14 +53,35 @@ pub fn lobe(x: f32, alpha: f32) -> f32 {
     }
 }
 
-/// [`lobe`] of eight cosines: the same bits.
+/// [`lobe`] at every width.
+pub(crate) trait Lobe: lanes::Lanes<Scalar = f32> {
+    /// [`lobe`] of each lane: the same bits.
+    #[must_use]
+    fn lobe(self, alpha: f32) -> Self;
+}
+
+impl Lobe for f32 {
+    #[inline(always)]
+    fn lobe(self, alpha: f32) -> Self {
+        lobe(self, alpha)
+    }
+}
+
+impl<S: Simd> Lobe for f32x8<S> {
+    #[inline(always)]
+    fn lobe(self, alpha: f32) -> Self {
+        lobe8(self.token(), self, alpha)
+    }
+}
+
+/// [`lobe`] of eight cosines.
 #[inline(always)]
-pub(crate) fn lobe8<S: Simd>(simd: S, x: f32x8<S>, alpha: f32) -> f32x8<S> {
+fn lobe8<S: Simd>(simd: S, x: f32x8<S>, alpha: f32) -> f32x8<S> {
     let (zero, one) = (f32x8::splat(simd, 0.0), f32x8::splat(simd, 1.0));
     // Subnormal bases have another exponent as f32 than as f64.
     let normal = x.simd_ge(f32x8::splat(simd, f32::MIN_POSITIVE)) & x.simd_lt(one);
     if !(normal | x.simd_le(zero) | x.simd_ge(one)).all_true() || !alpha.is_finite() {
-        return x.each(|x| lobe(x, alpha));
+        return lanes::Lanes::map(x, |x| lobe(x, alpha));
     }
     if !normal.any_true() {
         return x.simd_ge(one).select(one, zero);

@@ -1,7 +1,7 @@
 //! The same functions in f64, for what is set up once: cameras, lights, filters, bounds;
 //! and for drawings.
 
-use phong_bvh::Wide;
+use phong_bvh::Lanes;
 
 /// Sine and cosine of `x` radians.
 pub fn sin_cos(x: f64) -> (f64, f64) {
@@ -11,7 +11,7 @@ pub fn sin_cos(x: f64) -> (f64, f64) {
 /// Sine and cosine of up to an eighth of a turn, `|x| ≤ π/4`, of one number or of four: their series,
 /// whose first term left out is below 1e-17 of them.
 #[inline(always)]
-pub(crate) fn sin_cos_of_eighth<F: Wide>(x: F) -> (F, F) {
+pub(crate) fn sin_cos_of_eighth<F: Lanes<Scalar = f64>>(x: F) -> (F, F) {
     const FACTORIAL: [f64; 18] = {
         let mut all = [1.0; 18];
         let mut i = 1;
@@ -22,7 +22,7 @@ pub(crate) fn sin_cos_of_eighth<F: Wide>(x: F) -> (F, F) {
         all
     };
     let square = x * x;
-    let (mut sin, mut cos) = (x.like(1.0 / FACTORIAL[17]), x.like(1.0 / FACTORIAL[16]));
+    let (mut sin, mut cos) = (x.splat(1.0 / FACTORIAL[17]), x.splat(1.0 / FACTORIAL[16]));
     for k in (0..8).rev() {
         let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
         sin = sin * square + sign / FACTORIAL[2 * k + 1];

@@ -4,8 +4,8 @@ use std::f32::consts::SQRT_2;
 
 use super::Incident;
 use super::scale::{Scale, Switches};
-use crate::math::lanes::{Real, add, dot};
-use crate::math::{Dir3, pow};
+use crate::math::lanes::{add, dot, normalize};
+use crate::math::{Dir3, Lobe, pow};
 use crate::terms::Terms;
 
 /// `k_d (L·N) C_d + k_s (N·H)^α C_s`, with `H = (L+E)/‖L+E‖`.
@@ -55,13 +55,13 @@ impl BlinnPhong {
 
     /// `k_d (L·N)` and `k_s (N·H)^α`, for one light or eight.
     #[inline(always)]
-    pub(super) fn weights<F: Real>(self, n: [F; 3], e: [F; 3], l: [F; 3]) -> [F; 2] {
+    pub(super) fn weights<F: Lobe>(self, n: [F; 3], e: [F; 3], l: [F; 3]) -> [F; 2] {
         let Self { k_d, k_s, alpha, falloff, scale } = self;
-        let n_dot_l = dot(n, l).positive();
-        let n_dot_h = dot(n, F::unit(add(l, e))).positive();
+        let n_dot_l = dot(n, l).at_least(0.0);
+        let n_dot_h = dot(n, normalize(add(l, e))).at_least(0.0);
         let lobe = match falloff {
             Falloff::Power => n_dot_h.lobe(alpha),
-            Falloff::Rational => n_dot_h.each(|x| rational_lobe(x, alpha)),
+            Falloff::Rational => n_dot_h.map(|x| rational_lobe(x, alpha)),
         };
         [n_dot_l * k_d, scale.at(n_dot_l) * k_s * lobe]
     }

@@ -2,10 +2,10 @@
 
 use std::f32::consts::FRAC_2_PI;
 
+use phong_bvh::Lanes;
 use phong_scene::{Fresnel, Rgb};
 
 use crate::math::acos;
-use crate::math::lanes::Real;
 
 /// The share of light that facets of this kind mirror, per channel, in [0, 1], at the angle of
 /// incidence whose cosine is `cos`.
@@ -49,14 +49,14 @@ pub fn dielectric(cos: f32, eta: f32) -> f32 {
 
 /// [`dielectric`] of one ray, or of eight.
 #[inline(always)]
-pub(crate) fn boundary<F: Real>(cos: F, eta: F) -> F {
-    let one = cos.like(1.0);
+pub(crate) fn boundary<F: Lanes<Scalar = f32>>(cos: F, eta: F) -> F {
+    let one = cos.splat(1.0);
     let sin2_t = (one - cos) * (one + cos) / (eta * eta);
-    let cos_t = (one - sin2_t).root();
+    let cos_t = (one - sin2_t).at_least(0.0).sqrt();
     let parallel = (eta * cos - cos_t) / (eta * cos + cos_t);
     let perpendicular = (cos - eta * cos_t) / (cos + eta * cos_t);
     let share = (parallel * parallel + perpendicular * perpendicular) * 0.5;
-    sin2_t.below(one, share, one)
+    F::select(sin2_t.lt(one), share, one)
 }
 
 /// The exact reflectance of a conductor whose index, relative to the outside, is `η + i k`.

@@ -1,8 +1,10 @@
 //! Lambert's cosine law: rough surfaces that look equally bright from everywhere.
 
+use phong_bvh::Lanes;
+
 use super::Incident;
 use crate::math::Dir3;
-use crate::math::lanes::{Real, dot};
+use crate::math::lanes::dot;
 use crate::terms::Terms;
 
 /// `k_d (L·N) C_d`.
@@ -23,8 +25,8 @@ impl Lambert {
 
     /// `k_d (L·N)`, for one light or eight.
     #[inline(always)]
-    pub(super) fn weight<F: Real>(self, n: [F; 3], l: [F; 3]) -> F {
-        dot(n, l).positive() * self.k_d
+    pub(super) fn weight<F: Lanes<Scalar = f32>>(self, n: [F; 3], l: [F; 3]) -> F {
+        dot(n, l).at_least(0.0) * self.k_d
     }
 }
 

@@ -25,11 +25,9 @@ pub use ward::Ward;
 
 pub use phong_scene::{Fresnel, Shadowing, WardForm};
 
-use fearless_simd::{Simd, f32x8};
 use phong_scene::Rgb;
 
-use crate::math::Dir3;
-use crate::math::lanes::Real;
+use crate::math::{Dir3, Lobe};
 use crate::terms::Terms;
 
 /// Cosines up to this are 0 but for rounding; what is divided by them would be noise, or ∞.
@@ -76,19 +74,14 @@ impl Reflectance {
         matches!(self, Self::Ward(_))
     }
 
-    /// What stands before `C_{m,d}` and `C_{m,s}` for eight lights above the horizon; `None` for the
+    /// What stands before `C_{m,d}` and `C_{m,s}` for one light or eight, above the horizon; `None` for the
     /// models that are worked out one light at a time.
     #[inline(always)]
-    pub(crate) fn weights8<S: Simd>(
-        &self,
-        n: [f32x8<S>; 3],
-        e: [f32x8<S>; 3],
-        l: [f32x8<S>; 3],
-    ) -> Option<[f32x8<S>; 2]> {
+    pub(crate) fn weights<F: Lobe>(&self, n: [F; 3], e: [F; 3], l: [F; 3]) -> Option<[F; 2]> {
         match self {
             Self::Lambert(model) => {
                 let diffuse = model.weight(n, l);
-                Some([diffuse, diffuse.like(0.0)])
+                Some([diffuse, diffuse.splat(0.0)])
             }
             Self::Phong(model) => Some(model.weights(n, e, l)),
             Self::BlinnPhong(model) => Some(model.weights(n, e, l)),
@@ -192,7 +185,7 @@ mod tests {
                 };
                 let [n8, e8, l8] = [lanes(&|i| n[i]), lanes(&|_| e), lanes(&|i| l[i])]
                     .map(|lanes| load3(simd, &lanes));
-                let [diffuse, specular] = model.weights8(n8, e8, l8).unwrap();
+                let [diffuse, specular] = model.weights(n8, e8, l8).unwrap();
                 for i in (0..8).filter(|&i| l[i].dot(n[i]) > 0.0) {
                     let terms = model.shade_light(n[i], Dir3::X, e, white(l[i]));
                     assert_eq!([diffuse[i], specular[i]], [terms.diffuse.r, terms.specular.r]);

@@ -2,8 +2,8 @@
 
 use super::Incident;
 use super::scale::{Scale, Switches};
-use crate::math::Dir3;
-use crate::math::lanes::{Real, dot, mirror};
+use crate::math::lanes::{dot, mirror};
+use crate::math::{Dir3, Lobe};
 use crate::terms::Terms;
 
 /// `k_d (L·N) C_d + k_s (R·E)^α C_s`, with `R = 2(L·N)N − L`.
@@ -34,10 +34,10 @@ impl Phong {
 
     /// `k_d (L·N)` and `k_s (R·E)^α`, for one light or eight.
     #[inline(always)]
-    pub(super) fn weights<F: Real>(self, n: [F; 3], e: [F; 3], l: [F; 3]) -> [F; 2] {
+    pub(super) fn weights<F: Lobe>(self, n: [F; 3], e: [F; 3], l: [F; 3]) -> [F; 2] {
         let Self { k_d, k_s, alpha, scale } = self;
-        let n_dot_l = dot(n, l).positive();
-        let r_dot_e = dot(mirror(n, l), e).positive();
+        let n_dot_l = dot(n, l).at_least(0.0);
+        let r_dot_e = dot(mirror(n, l), e).at_least(0.0);
         [n_dot_l * k_d, scale.at(n_dot_l) * k_s * r_dot_e.lobe(alpha)]
     }
 }

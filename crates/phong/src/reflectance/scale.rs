@@ -1,6 +1,6 @@
 //! What programs that say "Phong" multiply the lobe by, beside `k_s`.
 
-use crate::math::lanes::Real;
+use phong_bvh::Lanes;
 
 /// The two of the four dialect switches that concern the lobe. The lecture: both off.
 ///
@@ -30,7 +30,7 @@ impl Scale {
 
     /// The scale under light that falls in at cosine `n_dot_l`.
     #[inline(always)]
-    pub(super) fn at<F: Real>(self, n_dot_l: F) -> F {
-        if self.times_cosine { n_dot_l * self.factor } else { n_dot_l.like(self.factor) }
+    pub(super) fn at<F: Lanes<Scalar = f32>>(self, n_dot_l: F) -> F {
+        if self.times_cosine { n_dot_l * self.factor } else { n_dot_l.splat(self.factor) }
     }
 }

@@ -75,7 +75,7 @@ impl View {
             let same = left & (from & below).to_bitmask() as u32;
             left &= !same;
             if let (Some(number), true) = (batch.only_material(), batch.is_plain()) {
-                let own = splat3(simd, self.materials[number as usize].color.to_array());
+                let own = splat3(zero, self.materials[number as usize].color.to_array());
                 // What is in lanes without a hit is unspecified.
                 let lanes = if same == hits.met { 0xff } else { same };
                 let lanes = mask32x8::from_bitmask(simd, lanes.into());
