@@ -6,6 +6,7 @@
 use crate::camera::Camera;
 use crate::light::Light;
 use crate::material::{Material, MaterialId};
+use crate::mesh::Shared;
 use crate::scene::{Group, Object};
 use crate::shape::Shape;
 
@@ -52,7 +53,7 @@ impl Object {
     pub(crate) fn make_of(&mut self, material: MaterialId) {
         self.material = material;
         if let Shape::Mesh(mesh) = &mut self.shape {
-            mesh.face_materials = Vec::new();
+            mesh.face_materials = Shared::default();
         }
     }
 

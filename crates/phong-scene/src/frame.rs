@@ -352,9 +352,9 @@ mod tests {
     #[test]
     fn a_bare_mesh_becomes_a_smooth_object_with_its_materials_behind_the_default() {
         let mesh = Mesh {
-            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
-            indices: vec![[0, 1, 2]],
-            face_materials: vec![1],
+            positions: [Vec3::ZERO, Vec3::X, Vec3::Y].into(),
+            indices: [[0, 1, 2]].into(),
+            face_materials: [1].into(),
             ..Mesh::default()
         };
         let red = Material { name: "red".to_owned(), ..Material::default() };

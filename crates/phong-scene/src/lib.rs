@@ -40,7 +40,7 @@ pub use material::{
     AmbientRule, Dialect, Distribution, Fresnel, Material, MaterialId, Model, Shadowing, Tint,
     Viewer, WardForm,
 };
-pub use mesh::{Mesh, NO_INDEX, Points};
+pub use mesh::{Mesh, NO_INDEX, Points, Shared};
 pub use scene::{Background, FilterKind, Group, Image, Object, Reading, Scene};
 pub use shape::{GroupId, Shape};
 pub use source::{Blob, Folder, Memory, Source, trouble};

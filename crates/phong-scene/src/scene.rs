@@ -101,8 +101,8 @@ use crate::shape::Shape;
 /// ```
 /// use phong_scene::{Light, Mesh, Object, Scene};
 /// # use glam::Vec3;
-/// let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y];
-/// let mesh = Mesh { positions, indices: vec![[0, 1, 2]], ..Mesh::default() };
+/// let positions = [Vec3::ZERO, Vec3::X, Vec3::Y].into();
+/// let mesh = Mesh { positions, indices: [[0, 1, 2]].into(), ..Mesh::default() };
 /// let scene = Scene {
 ///     lights: vec![Light::default()],
 ///     objects: vec![Object::from(mesh)],

@@ -24,8 +24,8 @@ fn lit(objects: Vec<Object>) -> Scene {
 }
 
 fn triangle() -> Mesh {
-    let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y];
-    Mesh { positions, indices: vec![[0, 1, 2]], ..Mesh::default() }
+    let positions = [Vec3::ZERO, Vec3::X, Vec3::Y].into();
+    Mesh { positions, indices: [[0, 1, 2]].into(), ..Mesh::default() }
 }
 
 #[track_caller]
@@ -69,29 +69,29 @@ fn a_picture_of_no_pixels_or_no_samples_is_told() {
 #[test]
 fn arrays_that_do_not_fit_are_told_with_the_number_and_the_value() {
     assert_mesh(
-        |m| m.indices = vec![[0, 1, 2], [0, 7, 2], [3, 1, 0]],
+        |m| m.indices = [[0, 1, 2], [0, 7, 2], [3, 1, 0]].into(),
         "`indices` 1 holds the index 7, but there are 3, and 1 more",
     );
     assert_mesh(|m| m.positions[1].y = f32::NAN, "`positions` 1 is NaN, not a number");
     assert_mesh(
-        |m| m.normals = vec![Vec3::Z],
+        |m| m.normals = [Vec3::Z].into(),
         "`normals` holds 1 for 3 positions; without `normal_indices` it is one each",
     );
     assert_mesh(
-        |m| (m.normals, m.normal_indices) = (vec![Vec3::Z], vec![[0, NO_INDEX, 5]]),
+        |m| (m.normals, m.normal_indices) = ([Vec3::Z].into(), [[0, NO_INDEX, 5]].into()),
         "`normal_indices` 0 holds the index 5, but there are 1",
     );
     assert_mesh(
-        |m| m.normals = vec![Vec3::Z, Vec3::ZERO, Vec3::Z],
+        |m| m.normals = [Vec3::Z, Vec3::ZERO, Vec3::Z].into(),
         "`indices` 0 uses the normal 1, which is [0, 0, 0] and has no direction",
     );
-    assert_mesh(|m| m.colors = vec![Rgb::WHITE], "`colors` holds 1 for 3 positions");
+    assert_mesh(|m| m.colors = [Rgb::WHITE].into(), "`colors` holds 1 for 3 positions");
     assert_mesh(
-        |m| m.face_materials = vec![3],
+        |m| m.face_materials = [3].into(),
         "`face_materials` 0 is 3, but there are 1 materials",
     );
     assert_mesh(|m| m.indices.clear(), "`indices` is empty");
-    let points = Points { spheres: vec![[0.0, 0.0, 0.0, 0.0]], ..Points::default() };
+    let points = Points { spheres: [[0.0, 0.0, 0.0, 0.0]].into(), ..Points::default() };
     assert_only(
         &lit(vec![points.into()]),
         "objects[0] `points`: `spheres` 0 has the radius 0; it must be above 0",

@@ -278,13 +278,14 @@ fn an_object_tint_takes_the_object_colour_and_not_the_light() {
 fn mesh(origin: DVec3) -> Mesh {
     Mesh {
         origin,
-        positions: vec![
+        positions: [
             Vec3::new(-2.0, -2.0, 0.0),
             Vec3::new(2.0, -2.0, 0.0),
             Vec3::new(0.0, 3.0, 0.0),
-        ],
-        indices: vec![[0, 1, 2]],
-        colors: vec![Rgb::new(1.0, 0.0, 0.0); 3],
+        ]
+        .into(),
+        indices: [[0, 1, 2]].into(),
+        colors: [Rgb::new(1.0, 0.0, 0.0); 3].into(),
         ..Mesh::default()
     }
 }
@@ -297,8 +298,8 @@ fn vertex_and_point_colours_replace_the_material_colour() {
     let red = terms(scene.clone()).diffuse;
     assert!((red.r - 0.7).abs() < 1e-6 && red.g == 0.0);
     scene.objects[0] = object(Shape::Points(Box::new(Points {
-        spheres: vec![[5.0, 0.0, 0.0, 1.0], [0.0, 0.0, 0.0, 1.0]],
-        colors: vec![Rgb::BLACK, Rgb::new(0.0, 1.0, 0.0)],
+        spheres: [[5.0, 0.0, 0.0, 1.0], [0.0, 0.0, 0.0, 1.0]].into(),
+        colors: [Rgb::BLACK, Rgb::new(0.0, 1.0, 0.0)].into(),
         ..Points::default()
     })));
     let green = terms(scene).diffuse;
@@ -421,7 +422,7 @@ fn a_background_runs_from_top_to_bottom_of_the_picture() {
 #[test]
 fn a_scene_over_the_memory_limit_is_refused_before_it_is_built() {
     let mut scene = scene();
-    let spheres = vec![[0.0, 0.0, 0.0, 1.0]; 1000];
+    let spheres = vec![[0.0, 0.0, 0.0, 1.0]; 1000].into();
     scene.objects.push(object(Shape::Points(Box::new(Points { spheres, ..Points::default() }))));
     let options = GeometryOptions { max_bytes: Some(10_000), ..GeometryOptions::default() };
     let error = Geometry::new(&scene, options).unwrap_err();

@@ -163,6 +163,7 @@ mod tests {
     use glam::DQuat;
 
     use super::*;
+
     use crate::shape::GroupId;
 
     fn object(shape: Shape, transform: DAffine3) -> Object {
@@ -256,8 +257,8 @@ mod tests {
             DVec3::X,
             DVec3::new(1.0, 1.0, 0.0).normalize_or(DVec3::X),
         ));
-        let positions = vec![Vec3::X, Vec3::Y, -Vec3::X, -Vec3::Y, Vec3::splat(9.0)];
-        let indices = vec![[0, 1, 2], [0, 2, 3]];
+        let positions = [Vec3::X, Vec3::Y, -Vec3::X, -Vec3::Y, Vec3::splat(9.0)].into();
+        let indices = [[0, 1, 2], [0, 2, 3]].into();
         let square = Shape::Mesh(Box::new(Mesh { positions, indices, ..Mesh::default() }));
         let half = 0.5_f64.sqrt();
         close(bounds(square, eighth), [-half, -half, 0.0], [half, half, 0.0]);
@@ -266,13 +267,14 @@ mod tests {
     #[test]
     fn the_origin_of_bulk_data_is_added_in_f64() {
         let origin = DVec3::new(1e9, 0.0, 0.0);
-        let points = Points { origin, spheres: vec![[0.25, 0.0, 0.0, 0.125]], ..Points::default() };
+        let points =
+            Points { origin, spheres: [[0.25, 0.0, 0.0, 0.125]].into(), ..Points::default() };
         close(points.bounds(), [1e9 + 0.125, -0.125, -0.125], [1e9 + 0.375, 0.125, 0.125]);
         let stray = Vec3::splat(1e6);
         let mesh = Mesh {
             origin,
-            positions: vec![Vec3::ZERO, stray, Vec3::X, Vec3::Y],
-            indices: vec![[0, 2, 3]],
+            positions: [Vec3::ZERO, stray, Vec3::X, Vec3::Y].into(),
+            indices: [[0, 2, 3]].into(),
             ..Mesh::default()
         };
         close(mesh.bounds(), [1e9, 0.0, 0.0], [1e9 + 1.0, 1.0, 0.0]);

@@ -49,8 +49,8 @@ impl Mesh {
             // One that no corner uses says that the mesh is flat, and not that it has no normals.
             normals.push(Vec3::Z);
         }
-        self.normals = normals;
-        self.normal_indices = indices;
+        self.normals = normals.into();
+        self.normal_indices = indices.into();
     }
 }
 
@@ -61,8 +61,8 @@ mod tests {
     /// Two faces of a roof at a right angle.
     fn roof() -> Mesh {
         Mesh {
-            positions: vec![Vec3::Y, Vec3::Y + Vec3::Z, Vec3::X, -Vec3::X],
-            indices: vec![[0, 1, 2], [1, 0, 3]],
+            positions: [Vec3::Y, Vec3::Y + Vec3::Z, Vec3::X, -Vec3::X].into(),
+            indices: [[0, 1, 2], [1, 0, 3]].into(),
             ..Mesh::default()
         }
     }

@@ -1,16 +1,19 @@
 //! Bulk geometry in flat arrays: indexed triangles, and spheres at points.
 //!
-//! The renderer takes these arrays by value; nothing copies them.
+//! The arrays are [`Shared`]: a clone of a mesh refers to the same ones, and so do the trees that
+//! the renderer builds. Nothing copies them.
 
 mod groups;
 mod part;
 mod polygon;
+mod shared;
 mod smooth;
 mod spacing;
 mod tidy;
 
 pub(crate) use groups::FLAT;
 pub(crate) use polygon::cut_polygons;
+pub use shared::Shared;
 pub(crate) use tidy::collapse_faces;
 
 use glam::{DVec3, Vec2, Vec3};
@@ -26,21 +29,21 @@ pub struct Mesh {
     /// Added, in f64, to every position: data far from the origin keep their detail.
     pub origin: DVec3,
     /// Positions relative to `origin`, in scene units.
-    pub positions: Vec<Vec3>,
+    pub positions: Shared<Vec3>,
     /// Three positions a triangle, counter-clockwise seen from outside.
-    pub indices: Vec<[u32; 3]>,
+    pub indices: Shared<[u32; 3]>,
     /// Shading normals, any length but 0; empty: the geometric normal everywhere.
-    pub normals: Vec<Vec3>,
+    pub normals: Shared<Vec3>,
     /// Three normals a triangle, or [`NO_INDEX`]; empty: the same as `indices`.
-    pub normal_indices: Vec<[u32; 3]>,
+    pub normal_indices: Shared<[u32; 3]>,
     /// Texture coordinates; empty: none.
-    pub uvs: Vec<Vec2>,
+    pub uvs: Shared<Vec2>,
     /// Three texture coordinates a triangle, or [`NO_INDEX`]; empty: the same as `indices`.
-    pub uv_indices: Vec<[u32; 3]>,
+    pub uv_indices: Shared<[u32; 3]>,
     /// A linear colour a position, which replaces the material's; empty: none.
-    pub colors: Vec<Rgb>,
+    pub colors: Shared<Rgb>,
     /// A material a triangle (an index into the scene's); empty: the object's for all.
-    pub face_materials: Vec<u32>,
+    pub face_materials: Shared<u32>,
 }
 
 /// A sphere at every point. Radii > 0, every number finite.
@@ -49,9 +52,9 @@ pub struct Points {
     /// Added, in f64, to every centre.
     pub origin: DVec3,
     /// `[x, y, z, radius]` each, centres relative to `origin`.
-    pub spheres: Vec<[f32; 4]>,
+    pub spheres: Shared<[f32; 4]>,
     /// A linear colour a point, which replaces the material's; empty: none.
-    pub colors: Vec<Rgb>,
+    pub colors: Shared<Rgb>,
     /// The radius of all, if nobody gave one and the reader guessed it: a picture that cannot show
     /// spheres so small may draw larger ones. `None`: the radii are as they were meant.
     pub guessed: Option<f32>,

@@ -33,13 +33,13 @@ impl Mesh {
             faces.iter().filter_map(|&face| self.face_materials.get(face).copied()).collect();
         Self {
             origin: self.origin,
-            positions: pick(&self.positions, &used),
-            indices,
-            normals,
-            normal_indices,
-            uvs,
-            uv_indices,
-            colors: pick(&self.colors, &used),
+            positions: pick(&self.positions, &used).into(),
+            indices: indices.into(),
+            normals: normals.into(),
+            normal_indices: normal_indices.into(),
+            uvs: uvs.into(),
+            uv_indices: uv_indices.into(),
+            colors: pick(&self.colors, &used).into(),
             face_materials,
         }
     }
@@ -81,19 +81,21 @@ mod tests {
     fn a_part_keeps_its_corners_and_nothing_else() {
         let mesh = Mesh {
             positions: (0..6).map(|i| Vec3::splat(i as f32)).collect(),
-            indices: vec![[0, 1, 2], [5, 4, 3]],
-            normals: vec![Vec3::X, Vec3::Y],
-            normal_indices: vec![[0, 0, 0], [1, NO_INDEX, 1]],
+            indices: [[0, 1, 2], [5, 4, 3]].into(),
+            normals: [Vec3::X, Vec3::Y].into(),
+            normal_indices: [[0, 0, 0], [1, NO_INDEX, 1]].into(),
             uvs: (0..6).map(|i| Vec2::splat(i as f32)).collect(),
             colors: (0..6).map(|i| Rgb::grey(i as f32)).collect(),
-            face_materials: vec![7, 8],
+            face_materials: [7, 8].into(),
             ..Mesh::default()
         };
         let part = mesh.part(|face| face == 1);
         assert_eq!(part.positions, [3.0, 4.0, 5.0].map(Vec3::splat));
         assert_eq!(part.indices, [[2, 1, 0]]);
-        assert_eq!((part.normals, part.normal_indices), (vec![Vec3::Y], vec![[0, NO_INDEX, 0]]));
-        assert_eq!((part.uvs, part.uv_indices), ([3.0, 4.0, 5.0].map(Vec2::splat).into(), vec![]));
+        assert_eq!(part.normals, [Vec3::Y]);
+        assert_eq!(part.normal_indices, [[0, NO_INDEX, 0]]);
+        assert_eq!(part.uvs, [3.0, 4.0, 5.0].map(Vec2::splat));
+        assert!(part.uv_indices.is_empty());
         assert_eq!(part.colors, [3.0, 4.0, 5.0].map(Rgb::grey));
         assert_eq!(part.face_materials, [8]);
     }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use super::{Mesh, NO_INDEX};
+use super::{Mesh, NO_INDEX, Shared};
 
 /// Vertices that one task smooths.
 const GROUP: usize = 1 << 12;
@@ -30,8 +30,8 @@ impl Mesh {
     /// # use glam::Vec3;
     /// // Two faces of a roof whose normals differ by 90°.
     /// let mut roof = Mesh {
-    ///     positions: vec![Vec3::Y, Vec3::Y + Vec3::Z, Vec3::X, -Vec3::X],
-    ///     indices: vec![[0, 1, 2], [1, 0, 3]],
+    ///     positions: [Vec3::Y, Vec3::Y + Vec3::Z, Vec3::X, -Vec3::X].into(),
+    ///     indices: [[0, 1, 2], [1, 0, 3]].into(),
     ///     ..Mesh::default()
     /// };
     /// roof.smooth(60.0);
@@ -40,8 +40,8 @@ impl Mesh {
     /// assert_eq!(roof.normals[0], Vec3::Y); // the ridge is round
     /// ```
     pub fn smooth(&mut self, crease_degrees: f64) {
-        self.normals = Vec::new();
-        self.normal_indices = Vec::new();
+        self.normals = Shared::default();
+        self.normal_indices = Shared::default();
         if self.indices.len() > (u32::MAX / 3) as usize || !self.has_sound_indices() {
             return;
         }
@@ -61,7 +61,7 @@ impl Mesh {
         let starts = ends;
         let mut next = starts.clone();
         let mut faces = vec![0_u32; 3 * self.indices.len()];
-        let mut slots = self.indices.clone();
+        let mut slots = self.indices.to_vec();
         for (face, corners) in slots.iter_mut().enumerate() {
             for corner in corners {
                 let slot = &mut next[place(*corner)];
@@ -104,7 +104,7 @@ impl Mesh {
         self.normals.reserve_exact(total);
         self.normals.extend(groups.iter().flatten());
         drop(groups);
-        slots.par_iter_mut().zip(&self.indices).with_min_len(1 << 12).for_each(
+        slots.par_iter_mut().zip(self.indices.par_iter()).with_min_len(1 << 12).for_each(
             |(slots, corners)| {
                 for (slot, &corner) in slots.iter_mut().zip(corners) {
                     let number = faces[*slot as usize];
@@ -113,8 +113,8 @@ impl Mesh {
                 }
             },
         );
-        if self.normals.len() != self.positions.len() || slots != self.indices {
-            self.normal_indices = slots;
+        if self.normals.len() != self.positions.len() || self.indices != slots {
+            self.normal_indices = slots.into();
         }
     }
 

@@ -154,9 +154,9 @@ mod tests {
     #[test]
     fn normals_without_a_direction_leave_the_geometric_one() {
         let mut mesh = Mesh {
-            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
-            indices: vec![[0, 1, 2]],
-            normals: vec![Vec3::ZERO, Vec3::Z * 1e-30, Vec3::Z * 1e30],
+            positions: [Vec3::ZERO, Vec3::X, Vec3::Y].into(),
+            indices: [[0, 1, 2]].into(),
+            normals: [Vec3::ZERO, Vec3::Z * 1e-30, Vec3::Z * 1e30].into(),
             ..Mesh::default()
         };
         assert_eq!(mesh.mend_normals(), 1);
@@ -168,7 +168,7 @@ mod tests {
     fn a_mesh_is_flat_if_all_corners_of_every_triangle_lie_on_a_line() {
         let mut mesh = Mesh {
             positions: [0.0, 0.1, 0.3, 0.1].map(|x| Vec3::new(1.0, 2.0, 3.3) * x).into(),
-            indices: vec![[0, 1, 2], [0, 1, 3]],
+            indices: [[0, 1, 2], [0, 1, 3]].into(),
             ..Mesh::default()
         };
         assert!(mesh.is_flat());
@@ -181,10 +181,10 @@ mod tests {
     #[test]
     fn collapsed_triangles_go_with_all_that_belongs_to_them() {
         let mut mesh = Mesh {
-            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
-            indices: vec![[0, 1, 1], [0, 1, 2], [2, 1, 2]],
-            uv_indices: vec![[7; 3], [8; 3], [9; 3]],
-            face_materials: vec![1, 2, 3],
+            positions: [Vec3::ZERO, Vec3::X, Vec3::Y].into(),
+            indices: [[0, 1, 1], [0, 1, 2], [2, 1, 2]].into(),
+            uv_indices: [[7; 3], [8; 3], [9; 3]].into(),
+            face_materials: [1, 2, 3].into(),
             ..Mesh::default()
         };
         assert_eq!(mesh.drop_collapsed(), 2);

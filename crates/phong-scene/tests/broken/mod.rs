@@ -62,21 +62,24 @@ pub(crate) fn mesh() -> impl Strategy<Value = Mesh> {
             // Most arrays fit: cut to the lengths that others have.
             Mesh {
                 origin,
-                positions,
-                indices,
-                normals,
-                normal_indices,
-                uvs,
-                uv_indices,
-                colors,
-                face_materials,
+                positions: positions.into(),
+                indices: indices.into(),
+                normals: normals.into(),
+                normal_indices: normal_indices.into(),
+                uvs: uvs.into(),
+                uv_indices: uv_indices.into(),
+                colors: colors.into(),
+                face_materials: face_materials.into(),
             }
         })
 }
 
 fn shape() -> impl Strategy<Value = Shape> {
     let points = (vector(), list(prop::array::uniform4(single())), list(color())).prop_map(
-        |(origin, spheres, colors)| Points { origin, spheres, colors, guessed: None }.into(),
+        |(origin, spheres, colors)| {
+            let (spheres, colors) = (spheres.into(), colors.into());
+            Points { origin, spheres, colors, guessed: None }.into()
+        },
     );
     let capped = any::<bool>;
     prop_oneof![

@@ -329,7 +329,7 @@ impl Make {
                 mesh.normal_indices.clear();
             }
             _ => {
-                mesh.normals = vec![Vec3::X, Vec3::new(0.1, 0.2, 0.3), -Vec3::Y];
+                mesh.normals = [Vec3::X, Vec3::new(0.1, 0.2, 0.3), -Vec3::Y].into();
                 mesh.normal_indices[0][1] = NO_INDEX;
             }
         }

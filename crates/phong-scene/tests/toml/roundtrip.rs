@@ -61,7 +61,7 @@ fn plain(object: &mut Object) {
 
 /// The mesh with every corner a vertex of its own.
 fn corners(mesh: &Mesh) -> Mesh {
-    let of = |own: &[[u32; 3]]| if own.is_empty() { mesh.indices.clone() } else { own.to_vec() };
+    let of = |own: &[[u32; 3]]| if own.is_empty() { mesh.indices.to_vec() } else { own.to_vec() };
     let normal = |i: u32| mesh.normals.get(i as usize).copied().unwrap_or(Vec3::ZERO);
     let uv = |i: u32| mesh.uvs.get(i as usize).copied().unwrap_or(Vec2::ZERO);
     let at = |i: u32| mesh.positions[i as usize];

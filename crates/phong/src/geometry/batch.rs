@@ -2,7 +2,7 @@
 
 use glam::{DMat3, Vec2, Vec3};
 use phong_bvh::Hit;
-use phong_scene::{NO_INDEX, Rgb};
+use phong_scene::{NO_INDEX, Rgb, Shared};
 
 use crate::math::Dir3;
 
@@ -13,7 +13,7 @@ pub(crate) struct Batch {
     pub(super) materials: MaterialNumbers,
     pub(super) mesh: Option<Box<MeshAttributes>>,
     /// A colour a sphere; empty: the material's.
-    pub(super) colors: Vec<Rgb>,
+    pub(super) colors: Shared<Rgb>,
     /// The spheres that are turned, in order of their number, and the rotation of each.
     pub(super) rotations: Vec<(u32, DMat3)>,
 }
@@ -31,17 +31,17 @@ pub(super) enum Objects {
 #[derive(Debug)]
 pub(super) enum MaterialNumbers {
     One(u32),
-    OneEach(Vec<u32>),
+    OneEach(Shared<u32>),
 }
 
 /// What a mesh has besides its triangles.
 #[derive(Debug, Default)]
 pub(super) struct MeshAttributes {
-    pub(super) normals: Vec<Vec3>,
-    pub(super) normal_indices: Vec<[u32; 3]>,
-    pub(super) uvs: Vec<Vec2>,
-    pub(super) uv_indices: Vec<[u32; 3]>,
-    pub(super) colors: Vec<Rgb>,
+    pub(super) normals: Shared<Vec3>,
+    pub(super) normal_indices: Shared<[u32; 3]>,
+    pub(super) uvs: Shared<Vec2>,
+    pub(super) uv_indices: Shared<[u32; 3]>,
+    pub(super) colors: Shared<Rgb>,
 }
 
 impl Batch {
@@ -51,7 +51,7 @@ impl Batch {
             objects,
             materials: MaterialNumbers::One(material),
             mesh: None,
-            colors: Vec::new(),
+            colors: Shared::default(),
             rotations: Vec::new(),
         }
     }

@@ -91,7 +91,7 @@ impl Built {
             batch.materials = MaterialNumbers::OneEach(face_materials);
         }
         batch.mesh = Some(Box::new(attributes));
-        self.push(Primitives::triangles(positions, indices), batch);
+        self.push(Primitives::triangles(positions.to_arc(), indices.to_arc()), batch);
     }
 
     fn points(&mut self, points: Points, to_world: DAffine3, object: u32, material: u32) {
@@ -100,10 +100,10 @@ impl Built {
         let batch = |colors| Batch { colors, ..Batch::new(Objects::One(object), material) };
         let Some(scale) = even_scale(move_by.matrix3) else {
             // Ellipsoids: one batch each.
-            for (i, [x, y, z, radius]) in spheres.into_iter().enumerate() {
+            for (i, &[x, y, z, radius]) in spheres.iter().enumerate() {
                 let center = DVec3::new(x.into(), y.into(), z.into());
                 let solid = solid::sphere(center, radius.into(), move_by);
-                let colors = colors.get(i).map(|&c| vec![c]).unwrap_or_default();
+                let colors = colors.get(i).map(|&c| [c].into()).unwrap_or_default();
                 self.push(Primitives::Solid(solid), batch(colors));
             }
             return;
@@ -112,8 +112,7 @@ impl Built {
             center: move_by.transform_point3(DVec3::new(x.into(), y.into(), z.into())).as_vec3(),
             radius: (f64::from(radius) * scale) as f32,
         };
-        // The same size and alignment: the collection happens in place.
-        let spheres: Vec<_> = spheres.into_iter().map(place).collect();
+        let spheres: Vec<_> = spheres.iter().copied().map(place).collect();
         self.push(Primitives::spheres(spheres), batch(colors));
     }
 
@@ -145,8 +144,8 @@ impl Built {
                 let normal_matrix = cofactor(to_world.matrix3);
                 let normal = |n: DVec3| to_f32((normal_matrix * n).normalize_or_zero());
                 let attributes = MeshAttributes {
-                    normals: normals.map(|n| n.map(normal).to_vec()).unwrap_or_default(),
-                    uvs: uv.map(|uv| uv.map(narrow2).to_vec()).unwrap_or_default(),
+                    normals: normals.map(|n| n.map(normal).into()).unwrap_or_default(),
+                    uvs: uv.map(|uv| uv.map(narrow2).into()).unwrap_or_default(),
                     ..MeshAttributes::default()
                 };
                 let batch = Batch { mesh: Some(Box::new(attributes)), ..batch };
@@ -177,7 +176,7 @@ impl Built {
             return;
         }
         let mut batch = Batch::new(Objects::OneEach(object), material);
-        batch.materials = MaterialNumbers::OneEach(vec![material]);
+        batch.materials = MaterialNumbers::OneEach([material].into());
         batch.rotations.extend(rotation.map(|rotation| (0, rotation)));
         self.push(Primitives::spheres(vec![sphere]), batch);
     }

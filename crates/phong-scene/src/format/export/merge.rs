@@ -251,7 +251,7 @@ fn single(points: [DVec3; 3], normals: Option<[DVec3; 3]>, uv: Option<[DVec2; 3]
     Mesh {
         origin,
         positions: points.map(|p| (p - origin).as_vec3()).into(),
-        indices: vec![[0, 1, 2]],
+        indices: [[0, 1, 2]].into(),
         normals: normals.iter().flatten().map(|n| n.normalize_or_zero().as_vec3()).collect(),
         uvs: uv.iter().flatten().map(|uv| uv.as_vec2()).collect(),
         ..Mesh::default()
@@ -273,7 +273,7 @@ pub(crate) fn spheres(scene: &Scene, colors: bool, uneven: &mut BTreeMap<String,
             Shape::Sphere { center, radius } => {
                 one = Points {
                     origin: *center,
-                    spheres: vec![[0.0, 0.0, 0.0, *radius as f32]],
+                    spheres: [[0.0, 0.0, 0.0, *radius as f32]].into(),
                     ..Points::default()
                 };
                 &one

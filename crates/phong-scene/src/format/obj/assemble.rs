@@ -15,7 +15,7 @@ use crate::format::text::{Cursor, Findings, Piece, TOLD, whole};
 use crate::fragment::{Fragment, flat};
 use crate::limits::Limits;
 use crate::material::Material;
-use crate::mesh::{FLAT, Mesh, NO_INDEX, Points, collapse_faces, cut_polygons};
+use crate::mesh::{FLAT, Mesh, NO_INDEX, Points, Shared, collapse_faces, cut_polygons};
 use crate::scene::Object;
 use crate::shape::Shape;
 use crate::source::Blob;
@@ -78,10 +78,10 @@ impl Assembly {
             .max(counts[1] + block.uvs.len())
             .max(counts[2] + block.normals.len()) as u64;
         let new = Mesh {
-            positions: block.positions,
-            colors: block.colors,
-            uvs: block.uvs,
-            normals: block.normals,
+            positions: block.positions.into(),
+            colors: block.colors.into(),
+            uvs: block.uvs.into(),
+            normals: block.normals.into(),
             ..Mesh::default()
         };
         let indices: usize = block.indices.iter().map(|i| i.triangles.len()).sum();
@@ -107,14 +107,14 @@ impl Assembly {
         self.blocks.push(Start { triangle: triangles as u32, counts, ..start });
         if !new.colors.is_empty() {
             mesh.colors.resize(counts[0], NO_COLOR);
-            mesh.colors.extend(new.colors);
+            mesh.colors.extend(&new.colors);
         } else if !mesh.colors.is_empty() {
             mesh.colors.resize(counts[0] + new.positions.len(), NO_COLOR);
         }
         self.colored += block.colored;
-        mesh.positions.extend(new.positions);
-        mesh.uvs.extend(new.uvs);
-        mesh.normals.extend(new.normals);
+        mesh.positions.extend(&new.positions);
+        mesh.uvs.extend(&new.uvs);
+        mesh.normals.extend(&new.normals);
         let [positions, uvs, normals] = block.indices;
         append(&mut mesh.indices, positions, counts[0], [triangles, total as usize]);
         append(&mut mesh.uv_indices, uvs, counts[1], [triangles, total as usize]);
@@ -231,10 +231,10 @@ impl Assembly {
             });
         }
         if mesh.normals.len() == mesh.positions.len() && mesh.normal_indices == mesh.indices {
-            mesh.normal_indices = Vec::new();
+            mesh.normal_indices = Shared::default();
         }
         if mesh.uvs.len() == mesh.positions.len() && mesh.uv_indices == mesh.indices {
-            mesh.uv_indices = Vec::new();
+            mesh.uv_indices = Shared::default();
         }
         let zeros = mesh.mend_normals();
         if zeros > 0 {
@@ -366,7 +366,7 @@ impl Assembly {
                     || whole(&context.file),
                     || format!("faces refer to {what}s, of which the file has none"),
                 );
-                *indices = Vec::new();
+                *indices = Shared::default();
             }
             let optional = kind > 0;
             let outside =
@@ -403,10 +403,10 @@ impl Assembly {
             }
         }
         if mesh.uv_indices.is_empty() {
-            mesh.uvs = Vec::new();
+            mesh.uvs = Shared::default();
         }
         if mesh.normal_indices.is_empty() {
-            mesh.normals = Vec::new();
+            mesh.normals = Shared::default();
         }
         bad.sort_unstable();
         bad.dedup();
@@ -474,7 +474,7 @@ impl Assembly {
             });
             faces[start as usize..end].fill(number);
         }
-        self.mesh.face_materials = faces;
+        self.mesh.face_materials = faces.into();
         materials
     }
 

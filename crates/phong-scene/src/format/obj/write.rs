@@ -19,8 +19,8 @@ impl Mesh {
     /// ```
     /// use glam::Vec3;
     /// use phong_scene::Mesh;
-    /// let positions = vec![Vec3::ZERO, Vec3::X, 0.1 * Vec3::Y];
-    /// let triangle = Mesh { positions, indices: vec![[0, 1, 2]], ..Mesh::default() };
+    /// let positions = [Vec3::ZERO, Vec3::X, 0.1 * Vec3::Y].into();
+    /// let triangle = Mesh { positions, indices: [[0, 1, 2]].into(), ..Mesh::default() };
     /// let mut file = Vec::new();
     /// triangle.write_obj(&[], &mut file)?;
     /// assert_eq!(file, b"v 0 0 0\nv 1 0 0\nv 0 0.1 0\nf 1 2 3\n");

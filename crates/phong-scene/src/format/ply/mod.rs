@@ -146,7 +146,7 @@ impl Body<'_> {
             return Some(points.into());
         }
         let mut mesh = vertices.into_mesh(&self.plan);
-        mesh.indices = faces.indices;
+        mesh.indices = faces.indices.into();
         let tangled =
             cut_polygons(&mesh.positions, &faces.polygons, &mut mesh.indices, [&mut [], &mut []]);
         if tangled > 0 {

@@ -232,8 +232,8 @@ proptest! {
     #[test]
     fn a_file_cut_anywhere_is_an_error(cut in 0.0..1.0_f64, wide: bool, which in 0..2_usize) {
         let original = Mesh {
-            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z],
-            indices: vec![[0, 1, 2], [2, 1, 3]],
+            positions: [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z].into(),
+            indices: [[0, 1, 2], [2, 1, 3]].into(),
             ..Mesh::default()
         };
         let whole = write([LITTLE, "binary_big_endian"][which], &original, wide);
@@ -247,11 +247,11 @@ proptest! {
 fn what_is_written_reads_back_to_the_bit() {
     let mesh = Mesh {
         origin: glam::DVec3::new(5e6, 0.0, 0.0),
-        positions: vec![Vec3::ZERO, Vec3::X, Vec3::new(0.1, 1e-7, 0.0), Vec3::Z],
-        indices: vec![[0, 1, 2], [0, 2, 3]],
-        normals: vec![Vec3::Z, Vec3::X],
-        normal_indices: vec![[0, 0, 0], [1, 0, crate::mesh::NO_INDEX]],
-        colors: [0.1, 0.5, 2.0, 0.0].map(Rgb::grey).to_vec(),
+        positions: [Vec3::ZERO, Vec3::X, Vec3::new(0.1, 1e-7, 0.0), Vec3::Z].into(),
+        indices: [[0, 1, 2], [0, 2, 3]].into(),
+        normals: [Vec3::Z, Vec3::X].into(),
+        normal_indices: [[0, 0, 0], [1, 0, crate::mesh::NO_INDEX]].into(),
+        colors: [0.1, 0.5, 2.0, 0.0].map(Rgb::grey).into(),
         ..Mesh::default()
     };
     let corner = |m: &Mesh, face: usize, corner: usize| {
@@ -271,8 +271,8 @@ fn what_is_written_reads_back_to_the_bit() {
         }
         let cloud = Points {
             origin: glam::DVec3::ZERO,
-            spheres: vec![[0.1, -2.0, 3e9, 0.5], [1.0, 2.0, 3.0, 1e-9]],
-            colors: vec![Rgb::new(0.25, 1.0, 7.5), Rgb::BLACK],
+            spheres: [[0.1, -2.0, 3e9, 0.5], [1.0, 2.0, 3.0, 1e-9]].into(),
+            colors: [Rgb::new(0.25, 1.0, 7.5), Rgb::BLACK].into(),
             guessed: None,
         };
         let mut file = Vec::new();

@@ -237,14 +237,21 @@ impl Vertices {
 
     pub(super) fn into_mesh(self, plan: &Plan) -> Mesh {
         let Self { positions, normals, colors, uvs, .. } = self;
-        Mesh { origin: plan.origin, positions, normals, colors, uvs, ..Mesh::default() }
+        Mesh {
+            origin: plan.origin,
+            positions: positions.into(),
+            normals: normals.into(),
+            colors: colors.into(),
+            uvs: uvs.into(),
+            ..Mesh::default()
+        }
     }
 
     pub(super) fn into_points(self, plan: &Plan) -> Points {
         Points {
             origin: plan.origin,
-            spheres: self.spheres,
-            colors: self.colors,
+            spheres: self.spheres.into(),
+            colors: self.colors.into(),
             ..Points::default()
         }
     }

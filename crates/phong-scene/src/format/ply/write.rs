@@ -23,8 +23,8 @@ impl Mesh {
     /// ```
     /// use glam::Vec3;
     /// use phong_scene::{Mesh, PlyEncoding};
-    /// let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y];
-    /// let triangle = Mesh { positions, indices: vec![[0, 1, 2]], ..Mesh::default() };
+    /// let positions = [Vec3::ZERO, Vec3::X, Vec3::Y].into();
+    /// let triangle = Mesh { positions, indices: [[0, 1, 2]].into(), ..Mesh::default() };
     /// let mut file = Vec::new();
     /// triangle.write_ply(PlyEncoding::Ascii, &mut file)?;
     /// assert!(file.ends_with(b"0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"));
@@ -75,7 +75,7 @@ impl Mesh {
     fn single_vertices(&self) -> (Vec<[u32; 3]>, Vec<[u32; 3]>) {
         if self.normal_indices.is_empty() && self.uv_indices.is_empty() {
             let vertices = (0..self.positions.len() as u32).map(|i| [i; 3]).collect();
-            return (vertices, self.indices.clone());
+            return (vertices, self.indices.to_vec());
         }
         let mut numbers = HashMap::new();
         let mut vertices = Vec::new();

@@ -7,7 +7,7 @@ use super::table::Values;
 use super::text::{self, Text};
 use crate::format::input::{Input, Named, ReadModel};
 use crate::fragment::Fragment;
-use crate::mesh::{Mesh, Points};
+use crate::mesh::{Mesh, Points, Shared};
 use crate::scene::Object;
 use crate::shape::{GroupId, Shape};
 use crate::source::trouble;
@@ -93,13 +93,11 @@ impl Reader<'_> {
         let Some((file, fragment, number)) = self.fragment(v, path, None) else {
             return Vec::new();
         };
-        let smooth = |mesh: &mut Mesh| match (v.flag("smooth"), v.number("smooth")) {
+        let mut read = std::mem::take(&mut self.read);
+        let mut smooth = |mesh: &mut Mesh| match (v.flag("smooth"), v.number("smooth")) {
             (Some(false), _) => drop_normals(mesh),
-            (_, Some(degrees)) => {
-                drop_normals(mesh);
-                mesh.smooth(degrees);
-            }
-            _ if mesh.normals.is_empty() => mesh.smooth(60.0),
+            (_, Some(degrees)) => read.smooth(mesh, degrees),
+            _ if mesh.normals.is_empty() => read.smooth(mesh, 60.0),
             _ => {}
         };
         let mut others = false;
@@ -111,6 +109,7 @@ impl Reader<'_> {
             }
             (!others).then_some(shape)
         });
+        self.read = read;
         if others {
             let help = "write `[[points]]` to draw a sphere at each";
             let message = format!("{} holds points without faces", wording::path(&file));
@@ -219,13 +218,29 @@ impl Reader<'_> {
         read: ReadModel,
         radius: Option<f32>,
     ) -> Option<(String, Fragment, usize)> {
+        let mut fragment = match self.read.find(&normal(&file), radius) {
+            Some(fragment) => fragment,
+            None => self.read_file(v, &file, read, radius)?,
+        };
+        let own = if v.has("material") { Vec::new() } else { fragment.materials.split_off(1) };
+        self.fragments.push(own);
+        Some((file, fragment, self.fragments.len() - 1))
+    }
+
+    fn read_file(
+        &mut self,
+        v: &Values,
+        file: &str,
+        read: ReadModel,
+        radius: Option<f32>,
+    ) -> Option<Fragment> {
         let spot = v.spot_of("file");
-        if let Err(e) = self.source.open(&file) {
-            let message = format!("{} cannot be read: {}", wording::path(&file), trouble(&e));
+        if let Err(e) = self.source.open(file) {
+            let message = format!("{} cannot be read: {}", wording::path(file), trouble(&e));
             self.notes.error(spot, message);
             return None;
         }
-        let input = Input { radius, ..Input::new(&file, self.source, self.limits) };
+        let input = Input { radius, ..Input::new(file, self.source, self.limits) };
         let mut said = Vec::new();
         let fragment = read(&input, &mut said);
         for diagnostic in said {
@@ -237,17 +252,16 @@ impl Reader<'_> {
             };
             self.notes.say(spot, diagnostic);
         }
-        let mut fragment = fragment?;
-        let own = if v.has("material") { Vec::new() } else { fragment.materials.split_off(1) };
-        self.fragments.push(own);
-        Some((file, fragment, self.fragments.len() - 1))
+        let fragment = fragment?;
+        self.read.keep(normal(file), radius, &fragment);
+        Some(fragment)
     }
 }
 
 /// Flat triangles.
 fn drop_normals(mesh: &mut Mesh) {
-    mesh.normals = Vec::new();
-    mesh.normal_indices = Vec::new();
+    mesh.normals = Shared::default();
+    mesh.normal_indices = Shared::default();
 }
 
 /// A sphere at every vertex.

@@ -16,6 +16,7 @@ mod notes;
 mod path;
 mod reader;
 mod resolve;
+mod reuse;
 mod settings;
 mod shape;
 mod syntax;

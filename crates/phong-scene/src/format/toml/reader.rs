@@ -12,7 +12,7 @@ use super::notes::Notes;
 use super::path::normal;
 use super::table::{Values, say_unknown};
 use super::text::{Spot, Text};
-use super::{light, material, settings, shape, syntax};
+use super::{light, material, reuse, settings, shape, syntax};
 use crate::camera::Camera;
 use crate::color::Rgb;
 use crate::diagnostic::Diagnostic;
@@ -42,6 +42,8 @@ pub(super) struct Reader<'a> {
     pub(super) material_names: Vec<(String, Spot)>,
     /// The materials of fragments but for their number 0, a list a fragment.
     pub(super) fragments: Vec<Vec<Material>>,
+    /// The models that were read.
+    pub(super) read: reuse::Models,
     pub(super) groups: Named<Vec<Draft>>,
     pub(super) drafts: Vec<Draft>,
     /// How many shapes of each kind there were so far.
@@ -77,6 +79,7 @@ impl<'a> Reader<'a> {
             materials: Named::new(),
             material_names: Vec::new(),
             fragments: Vec::new(),
+            read: reuse::Models::default(),
             groups: Named::new(),
             drafts: Vec::new(),
             counts: BTreeMap::new(),
