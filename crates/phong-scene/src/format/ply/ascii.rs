@@ -7,8 +7,9 @@ use glam::DVec3;
 
 use super::body::{Body, Contents, FaceList, ORIGIN_SAMPLES, face_list};
 use super::header::Element;
-use super::vertices::{Plan, Row, tell};
-use crate::diagnostic::Span;
+use super::names::{Row, WIDTH};
+use super::vertices::{Plan, tell};
+use crate::diagnostic::{Severity, Span};
 use crate::format::origin::origin_of;
 use crate::format::text::{Cursor, Decimal, Findings, Lines, Piece, blame};
 
@@ -154,7 +155,7 @@ impl Layout<'_> {
 
     fn vertex(&self, cursor: &mut Cursor<'_>, element: &Element, number: u64, block: &mut Block) {
         let start = cursor.clone();
-        let mut row: Row = [0.0; 12];
+        let mut row: Row = [0.0; WIDTH];
         for (i, property) in element.properties.iter().enumerate() {
             let place = self.places[i];
             let read = match (property.list, place) {
@@ -180,25 +181,23 @@ impl Layout<'_> {
                 (None, None) => skip(cursor),
             };
             if read.is_none() {
+                if let (None, Some(place)) = (property.list, place)
+                    && cursor.take_no_number()
+                {
+                    row[place] = f64::NAN;
+                    continue;
+                }
                 let (span, fault) = self.blame(cursor, i, element);
-                let plural = "vertices that cannot be read";
-                tell(&mut block.findings, plural, || span, "vertex", number, &fault);
+                tell(&mut block.findings, Severity::Error, || span, "vertex", number, &fault);
                 cursor.finish_line();
                 // The others keep their numbers.
-                block.contents.vertices.push(self.plan, &[0.0; 12]);
+                block.contents.vertices.push(self.plan, &[0.0; WIDTH]);
                 return;
             }
         }
         if let Some(fault) = self.plan.blame(&row) {
             let span = || start.here(self.file);
-            tell(
-                &mut block.findings,
-                "vertices that cannot be drawn",
-                span,
-                "vertex",
-                number,
-                &fault,
-            );
+            tell(&mut block.findings, Severity::Warning, span, "vertex", number, &fault);
         }
         block.contents.vertices.push(self.plan, &row);
     }
@@ -223,8 +222,7 @@ impl Layout<'_> {
             };
             if read.is_none() {
                 let (span, fault) = self.blame(cursor, i, element);
-                let plural = "faces that cannot be read";
-                tell(&mut block.findings, plural, || span, "face", number, &fault);
+                tell(&mut block.findings, Severity::Error, || span, "face", number, &fault);
                 cursor.finish_line();
                 return;
             }
@@ -232,7 +230,8 @@ impl Layout<'_> {
         let faces = &mut block.contents.faces;
         if let Err(fault) = faces.add(list.kind, numbers, self.vertex_count, scratch) {
             let span = || start.here(self.file);
-            tell(&mut block.findings, "faces that cannot be drawn", span, "face", number, &fault);
+            let severity = self.plan.damage();
+            tell(&mut block.findings, severity, span, "face", number, &fault);
         }
     }
 

@@ -12,7 +12,9 @@ use rayon::prelude::*;
 use super::body::{Body, Contents, FaceList, ORIGIN_SAMPLES, face_list};
 use super::faces::{Faces, Kind, out_of_range};
 use super::header::{Element, Encoding, Type};
-use super::vertices::{Columns, Row, Vertices, tell};
+use super::names::{Row, WIDTH};
+use super::vertices::{Columns, Vertices, tell};
+use crate::diagnostic::Severity;
 use crate::format::origin::origin_of;
 use crate::format::text::Findings;
 use crate::source::Blob;
@@ -34,6 +36,10 @@ impl Body<'_> {
                     if size > there {
                         let whole = if stride == 0 { 0 } else { there / stride as u64 };
                         self.tell_truncated(element, whole);
+                        if self.plan.lenient && element.name == "vertex" {
+                            let there = Element { count: whole, ..element.clone() };
+                            self.vertices(&there, offset, stride, &mut contents.vertices)?;
+                        }
                         return Ok(());
                     }
                     if element.name == "vertex" {
@@ -121,8 +127,9 @@ impl Body<'_> {
                 if !part.fill(plan, &Rows { bytes, make: &make }) {
                     for (number, row) in (first..).zip(bytes.chunks_exact(stride)) {
                         if let Some(fault) = plan.blame(&make.row(row, &plan.columns)) {
-                            let plural = "vertices that cannot be drawn";
-                            tell(&mut findings, plural, || self.whole(), "vertex", number, &fault);
+                            let span = || self.whole();
+                            let severity = Severity::Warning;
+                            tell(&mut findings, severity, span, "vertex", number, &fault);
                         }
                     }
                 }
@@ -205,12 +212,10 @@ impl Body<'_> {
                 values.push(value);
             }
             let row = self.plan.columns.map(|column| column.map_or(0.0, |c| values[c]));
-            match self.plan.blame(&row) {
-                None => vertices.push(&self.plan, &row),
-                Some(fault) => {
-                    let plural = "vertices that cannot be drawn";
-                    tell(&mut findings, plural, || self.whole(), "vertex", number, &fault);
-                }
+            vertices.push(&self.plan, &row);
+            if let Some(fault) = self.plan.blame(&row) {
+                let span = || self.whole();
+                tell(&mut findings, Severity::Warning, span, "vertex", number, &fault);
             }
         }
         self.findings.append(findings);
@@ -246,8 +251,8 @@ impl Body<'_> {
             }
             let Some(FaceList { kind, .. }) = list else { continue };
             if let Err(fault) = faces.add(kind, &numbers, self.vertex_count, &mut scratch) {
-                let plural = "faces that cannot be drawn";
-                tell(&mut findings, plural, || self.whole(), "face", number, &fault);
+                let span = || self.whole();
+                tell(&mut findings, self.plan.damage(), span, "face", number, &fault);
             }
             // Asked now and then: a row adds little.
             if number % 1024 == 0 && !self.has_room(faces.indices.len() as u64, faces.bytes()) {
@@ -358,9 +363,10 @@ impl Layout {
                 let mut numbers = numbers.map(|n| load(n, self.kind, self.big) as i64);
                 let bad = numbers.find(|n| *n < 0 || *n as u64 >= body.vertex_count);
                 if let Some(bad) = bad {
-                    let (plural, number) = ("faces that cannot be drawn", first + i as u64);
+                    let number = first + i as u64;
                     let fault = out_of_range(bad, body.vertex_count);
-                    tell(&mut findings, plural, || body.whole(), "face", number, &fault);
+                    let span = || body.whole();
+                    tell(&mut findings, body.plan.damage(), span, "face", number, &fault);
                 }
             }
         }
@@ -389,7 +395,7 @@ impl Make {
     }
 
     /// What of a row is used.
-    fn row(&self, bytes: &[u8], columns: &[Option<usize>; 12]) -> Row {
+    fn row(&self, bytes: &[u8], columns: &[Option<usize>; WIDTH]) -> Row {
         let value = |c: usize| load(&bytes[self.places[c].clone()], self.kinds[c], self.big);
         columns.map(|column| column.map_or(0.0, value))
     }

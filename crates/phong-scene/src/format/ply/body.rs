@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::faces::{Faces, Kind};
 use super::header::{Element, Header};
 use super::vertices::{Plan, Vertices};
-use crate::diagnostic::Span;
+use crate::diagnostic::{Diagnostic, Span};
 use crate::format::text::{Findings, whole};
 use crate::limits::Limits;
 use crate::source::Blob;
@@ -120,11 +120,13 @@ impl Body<'_> {
 
     pub(super) fn tell_truncated(&mut self, element: &Element, there: u64) {
         let (name, count, span) = (&element.name, element.count, self.whole());
-        self.findings.error(
-            "truncated bodies",
-            || span,
-            || format!("the file ends after {there} of {count} rows of the element `{name}`"),
-        );
+        let severity = self.plan.damage();
+        self.findings.add(severity, "truncated bodies", || Diagnostic {
+            severity,
+            message: format!("the file ends after {there} of {count} rows of the element `{name}`"),
+            span: Some(span),
+            ..Diagnostic::default()
+        });
     }
 
     pub(super) fn warn(&mut self, plural: &'static str, tell: impl FnOnce() -> String) {

@@ -3,6 +3,7 @@
 use std::io;
 use std::sync::Arc;
 
+use super::names::is_used;
 use crate::diagnostic::Span;
 use crate::format::text::{Cursor, Decimal, Findings, Piece, whole};
 use crate::source::Blob;
@@ -297,7 +298,7 @@ impl Parser<'_> {
         };
         if name.is_empty() {
             self.error(&here, |_| "the property has no name".to_owned());
-        } else if element.properties.iter().any(|p| p.name == name) {
+        } else if is_used(&name) && element.properties.iter().any(|p| p.name == name) {
             self.error(&here, |word| format!("there is a property `{word}` already"));
         } else {
             element.properties.push(Property { name, list, kind, span });

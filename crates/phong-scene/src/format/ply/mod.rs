@@ -7,7 +7,7 @@
 //! |---|---|
 //! | `vertex` `x y z` | positions; those of `double`, of large integers and of ASCII files far from the origin are kept relative to [`Mesh::origin`](crate::Mesh::origin) |
 //! | `nx ny nz` | normals of a mesh |
-//! | `red green blue` (or `r g b`, `diffuse_red` …) | colours: integers are sRGB (0–255, `ushort` 0–65535) and decoded, floats are linear; alpha is not used |
+//! | `red green blue` (or `r g b`, `diffuse_red` …) | colours: integers are sRGB (0–255, `ushort` 0–65535) and decoded, floats are linear; an `alpha` below 1 is a warning |
 //! | `s t` or `u v` | texture coordinates |
 //! | `radius` | the radius of a point's sphere |
 //! | `face` `vertex_indices` (or `vertex_index`) | polygons; concave ones are cut by clipping ears |
@@ -16,6 +16,9 @@
 //! A file without faces is a cloud of points, each drawn as a sphere: of its own `radius`, else of
 //! the radius that the scene gives, else of half the median distance between a point and its
 //! nearest neighbour, so that neighbours just touch.
+//!
+//! A vertex without a place or radius is left out with the faces that use it, one without a colour
+//! is grey, one without a normal has the geometric one: each is counted in a warning.
 //!
 //! A count beyond the file's length is refused before anything is allocated, and a body that ends
 //! early is an error that says how much of it was there. Gaussian splats, which have no surface
@@ -29,6 +32,7 @@ mod body;
 pub(crate) mod export;
 mod faces;
 mod header;
+mod names;
 mod vertices;
 mod write;
 
@@ -37,15 +41,18 @@ mod tests;
 
 use std::io;
 use std::sync::Arc;
+use std::sync::atomic::Ordering;
 
 use self::body::{Body, Contents, face_kind};
+use self::faces::Faces;
 use self::header::{Encoding, Header};
-use self::vertices::{Plan, RADIUS};
+use self::names::RADIUS;
+use self::vertices::{Plan, Vertices};
 use super::input::Input;
 use super::text::{Findings, whole};
 use crate::diagnostic::Diagnostic;
 use crate::fragment::{Fragment, flat};
-use crate::mesh::cut_polygons;
+use crate::mesh::{collapse_faces, cut_polygons};
 use crate::shape::Shape;
 use crate::source::trouble;
 
@@ -75,7 +82,7 @@ fn shape_of(
     input: &Input<'_>,
     findings: &mut Findings,
 ) -> io::Result<Option<Shape>> {
-    let Input { source, limits, radius, .. } = *input;
+    let Input { source, limits, .. } = *input;
     let blob = source.open(file)?;
     let blob = blob.as_ref();
     let Some(header) = Header::read(blob, file, findings)? else { return Ok(None) };
@@ -88,13 +95,15 @@ fn shape_of(
         return Ok(None);
     };
     let spheres = !header.elements.iter().any(|e| face_kind(e).is_some() && e.count > 0);
-    let Some(plan) = Plan::new(vertex, spheres, radius, findings) else { return Ok(None) };
+    let Some(plan) = Plan::new(vertex, spheres, input, findings) else { return Ok(None) };
     let vertex_count = vertex.count;
     let findings_so_far = std::mem::take(findings);
     let mut body =
         Body { blob, file, header: &header, limits, plan, vertex_count, findings: findings_so_far };
     body.check_faces();
-    body.check_counts();
+    if !limits.lenient {
+        body.check_counts();
+    }
     let mut contents = Contents::default();
     if !body.findings.any_error() && body.has_room(0, 0) {
         match header.encoding {
@@ -129,26 +138,53 @@ impl Body<'_> {
 
     fn finish(&mut self, contents: Contents) -> Option<Shape> {
         let Contents { vertices, faces } = contents;
-        if self.plan.spheres {
-            let mut points = vertices.into_points(&self.plan);
-            if points.spheres.is_empty() {
-                let span = self.whole();
-                self.findings.error(
-                    "empty models",
-                    || span,
-                    || "there is nothing to draw: the file has no vertex".to_owned(),
-                );
-                return None;
-            }
-            if self.plan.columns[RADIUS].is_none() && self.plan.radius == 0.0 {
-                points.guess_radius();
-            }
-            return Some(points.into());
+        if self.plan.transparent.load(Ordering::Relaxed) {
+            self.warn("alphas", || {
+                "vertices are less than opaque (`alpha`), which is not drawn".to_owned()
+            });
         }
+        if self.plan.spheres {
+            return self.finish_points(vertices);
+        }
+        self.finish_mesh(vertices, faces)
+    }
+
+    fn finish_points(&mut self, vertices: Vertices) -> Option<Shape> {
+        let mut points = vertices.into_points(&self.plan);
+        if points.spheres.is_empty() {
+            let span = self.whole();
+            let message = match self.vertex_count {
+                0 => "there is nothing to draw: the file has no vertex",
+                _ => "there is nothing to draw: no vertex is left",
+            };
+            self.findings.error("empty models", || span, || message.to_owned());
+            return None;
+        }
+        if self.plan.columns[RADIUS].is_none() && self.plan.radius == 0.0 {
+            points.guess_radius();
+        }
+        Some(points.into())
+    }
+
+    fn finish_mesh(&mut self, vertices: Vertices, faces: Faces) -> Option<Shape> {
         let mut mesh = vertices.into_mesh(&self.plan);
+        let mut polygons = faces.polygons;
         mesh.indices = faces.indices.into();
+        // What is out of range has been said, as has what is no number.
+        let unplaced = mesh.take_unplaced();
+        let count = mesh.positions.len();
+        let is_bad = |i: u32| {
+            let i = i as usize;
+            i >= count || unplaced.as_ref().is_some_and(|unplaced| unplaced[i])
+        };
+        let [gone, triangles] = collapse_faces(&mut mesh.indices, &mut polygons, is_bad);
+        if gone > 0 {
+            self.warn("faces without their vertices", || {
+                format!("faces of which a vertex is left out: {gone}; they are left out")
+            });
+        }
         let tangled =
-            cut_polygons(&mesh.positions, &faces.polygons, &mut mesh.indices, [&mut [], &mut []]);
+            cut_polygons(&mesh.positions, &polygons, &mut mesh.indices, [&mut [], &mut []]);
         if tangled > 0 {
             self.warn("tangled polygons", || {
                 format!(
@@ -161,7 +197,7 @@ impl Body<'_> {
                 format!("faces of fewer than three corners: {}; they are left out", faces.dropped)
             });
         }
-        let collapsed = mesh.drop_collapsed();
+        let collapsed = mesh.drop_collapsed().saturating_sub(triangles);
         if collapsed > 0 {
             self.warn("collapsed triangles", || {
                 format!("triangles that use a vertex twice: {collapsed}; they are left out")
@@ -170,7 +206,9 @@ impl Body<'_> {
         let zeros = mesh.mend_normals();
         if zeros > 0 {
             self.warn("normals of length 0", || {
-                format!("normals of length 0: {zeros}; the geometric one stands in for them")
+                format!(
+                    "normals without a direction: {zeros}; the geometric one stands in for them"
+                )
             });
         }
         if mesh.indices.is_empty() {

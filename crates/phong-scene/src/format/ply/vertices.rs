@@ -1,43 +1,25 @@
 //! Vertices: which property is what, and how rows become positions or spheres.
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use glam::{DVec3, Vec2, Vec3};
+use rayon::prelude::*;
 
 use super::header::{Element, Type};
+use super::names::{ALPHA, COLOR, NAMES, NORMAL, RADIUS, Row, UV, WIDTH};
 use crate::color::{Rgb, srgb_decode};
-use crate::diagnostic::Span;
+use crate::diagnostic::{Diagnostic, Severity, Span};
+use crate::format::input::Input;
 use crate::format::text::Findings;
+use crate::material::Material;
 use crate::mesh::{Mesh, Points};
-
-/// What a number of a vertex can be: places in [`Row`].
-pub(super) const RADIUS: usize = 3;
-const NORMAL: usize = 4;
-const COLOR: usize = 7;
-const UV: usize = 10;
-
-/// One vertex: x, y, z, radius, nx, ny, nz, red, green, blue, u, v; 0 where the file has none.
-pub(super) type Row = [f64; 12];
-
-/// Names of each place of a row; the first that the file has counts.
-const NAMES: [&[&str]; 12] = [
-    &["x"],
-    &["y"],
-    &["z"],
-    &["radius"],
-    &["nx"],
-    &["ny"],
-    &["nz"],
-    &["red", "diffuse_red", "r"],
-    &["green", "diffuse_green", "g"],
-    &["blue", "diffuse_blue", "b"],
-    &["s", "u", "texture_u", "texture_s"],
-    &["t", "v", "texture_v", "texture_t"],
-];
 
 /// Which properties are used, for what.
 #[derive(Clone, Debug)]
 pub(super) struct Plan {
     /// For every place of a row the property that it comes from.
-    pub(super) columns: [Option<usize>; 12],
+    pub(super) columns: [Option<usize>; WIDTH],
     /// How colours become linear.
     color: Transfer,
     /// Whether vertices become spheres.
@@ -46,6 +28,12 @@ pub(super) struct Plan {
     pub(super) radius: f32,
     /// Subtracted from every position.
     pub(super) origin: DVec3,
+    /// Whether damage is a warning where something is left to be drawn.
+    pub(super) lenient: bool,
+    /// What alpha is where nothing shows through.
+    opaque: f64,
+    /// Whether any vertex is less than opaque.
+    pub(super) transparent: Arc<AtomicBool>,
 }
 
 /// How a stored colour becomes linear.
@@ -62,7 +50,7 @@ impl Plan {
     pub(super) fn new(
         element: &Element,
         spheres: bool,
-        radius: Option<f32>,
+        input: &Input<'_>,
         findings: &mut Findings,
     ) -> Option<Self> {
         let splat = ["f_dc_0", "scale_0", "rot_0"].iter().find_map(|name| element.find(name));
@@ -79,10 +67,10 @@ impl Plan {
             );
             return None;
         }
-        let mut columns: [Option<usize>; 12] =
+        let mut columns: [Option<usize>; WIDTH] =
             std::array::from_fn(|place| NAMES[place].iter().find_map(|name| element.find(name)));
         // Half a normal, colour or texture coordinate is none.
-        for group in [NORMAL..COLOR, COLOR..UV, UV..12] {
+        for group in [NORMAL..COLOR, COLOR..UV, UV..ALPHA] {
             if columns[group.clone()].contains(&None) {
                 columns[group].fill(None);
             }
@@ -90,7 +78,7 @@ impl Plan {
         if spheres {
             // Nothing of a sphere is turned or textured by the file.
             columns[NORMAL..COLOR].fill(None);
-            columns[UV..].fill(None);
+            columns[UV..ALPHA].fill(None);
         } else {
             columns[RADIUS] = None;
         }
@@ -116,14 +104,27 @@ impl Plan {
             }
             _ => Transfer::Linear,
         };
-        let radius = radius.unwrap_or(0.0);
+        let radius = input.radius.unwrap_or(0.0);
+        let opaque = match columns[ALPHA].map(|p| element.properties[p].kind) {
+            Some(kind) if kind.is_float() => 1.0,
+            Some(Type::U16) => 65535.0,
+            _ => 255.0,
+        };
         (!findings.any_error()).then_some(Self {
             columns,
             color,
             spheres,
             radius,
             origin: DVec3::ZERO,
+            lenient: input.limits.lenient,
+            opaque,
+            transparent: Arc::default(),
         })
+    }
+
+    /// What damage is that leaves something to be drawn.
+    pub(super) fn damage(&self) -> Severity {
+        if self.lenient { Severity::Warning } else { Severity::Error }
     }
 
     fn has(&self, place: usize) -> bool {
@@ -138,25 +139,55 @@ impl Plan {
         position + normal + color + if self.has(UV) { 8 } else { 0 }
     }
 
-    /// What is wrong with a vertex; `None`: nothing.
+    /// What is wrong with a vertex, and what becomes of it; `None`: nothing.
     pub(super) fn blame(&self, row: &Row) -> Option<String> {
-        for (place, name) in NAMES.iter().enumerate() {
+        for (place, name) in NAMES.iter().enumerate().take(ALPHA) {
             let stored = row[place];
             let origin = if place < 3 { self.origin[place] } else { 0.0 };
             if self.has(place) && !((stored - origin) as f32).is_finite() {
                 let what = if stored.is_nan() { "NaN" } else { "infinite or too large" };
-                return Some(format!("its `{}` is {what}", name[0]));
+                return Some(format!("its `{}` is {what}; {}", name[0], self.without(place)));
             }
         }
         let radius = row[RADIUS];
         if self.has(RADIUS) && radius as f32 <= 0.0 {
-            return Some(format!("its radius is {radius}, but must be above 0"));
+            let without = self.without(RADIUS);
+            return Some(format!("its radius is {radius}, but must be above 0; {without}"));
         }
-        if let (Transfer::Srgb(table), true) = (&self.color, self.has(COLOR)) {
-            let wrong = row[COLOR..UV].iter().find(|c| table_entry(table, **c).is_none());
-            return wrong.map(|c| format!("its colour {c} is not from 0 to {}", table.len() - 1));
+        if !self.has(COLOR) {
+            return None;
         }
-        None
+        let mut colors = row[COLOR..UV].iter();
+        let without = self.without(COLOR);
+        match &self.color {
+            Transfer::Srgb(table) => {
+                let wrong = colors.find(|c| table_entry(table, **c).is_none())?;
+                let most = table.len() - 1;
+                Some(format!("its colour {wrong} is not from 0 to {most}; {without}"))
+            }
+            Transfer::Linear => {
+                let wrong = colors.find(|c| **c < 0.0)?;
+                Some(format!("its colour {wrong} is below 0; {without}"))
+            }
+        }
+    }
+
+    /// What becomes of a vertex without its number at a place of the row.
+    fn without(&self, place: usize) -> &'static str {
+        match place {
+            0..NORMAL if self.spheres => "it is left out",
+            0..NORMAL => "its faces are left out",
+            NORMAL..COLOR => "the geometric normal stands in for its own",
+            COLOR..UV => "it is grey",
+            _ => "0 stands in for it",
+        }
+    }
+
+    /// Remembers whether a vertex is less than opaque.
+    fn see_alpha(&self, alpha: f64) {
+        if alpha != self.opaque {
+            self.transparent.store(true, Ordering::Relaxed);
+        }
     }
 }
 
@@ -200,8 +231,11 @@ impl Vertices {
         }
     }
 
-    /// Appends a vertex, which is sound.
+    /// Appends a vertex; what is wrong with it is left out later.
     pub(super) fn push(&mut self, plan: &Plan, row: &Row) {
+        if plan.has(ALPHA) {
+            plan.see_alpha(row[ALPHA]);
+        }
         let xyz = (DVec3::new(row[0], row[1], row[2]) - plan.origin).as_vec3();
         if plan.spheres {
             let radius = if plan.has(RADIUS) { row[RADIUS] as f32 } else { plan.radius };
@@ -217,7 +251,7 @@ impl Vertices {
             self.colors.push(Rgb::from(match &plan.color {
                 Transfer::Linear => three(COLOR),
                 Transfer::Srgb(table) => {
-                    [0, 1, 2].map(|i| table_entry(table, row[COLOR + i]).unwrap_or(0.0))
+                    [0, 1, 2].map(|i| table_entry(table, row[COLOR + i]).unwrap_or(f32::NAN))
                 }
             }));
         }
@@ -235,8 +269,11 @@ impl Vertices {
         self.uvs.append(&mut later.uvs);
     }
 
-    pub(super) fn into_mesh(self, plan: &Plan) -> Mesh {
-        let Self { positions, normals, colors, uvs, .. } = self;
+    /// The vertices of a mesh; some positions may be no numbers.
+    pub(super) fn into_mesh(mut self, plan: &Plan) -> Mesh {
+        mend_colors(&mut self.colors);
+        let Self { positions, normals, colors, mut uvs, .. } = self;
+        uvs.iter_mut().filter(|uv| !uv.is_finite()).for_each(|uv| *uv = Vec2::ZERO);
         Mesh {
             origin: plan.origin,
             positions: positions.into(),
@@ -247,7 +284,18 @@ impl Vertices {
         }
     }
 
-    pub(super) fn into_points(self, plan: &Plan) -> Points {
+    /// The spheres, without those that have no place or no radius.
+    pub(super) fn into_points(mut self, plan: &Plan) -> Points {
+        mend_colors(&mut self.colors);
+        let sound = |&[x, y, z, radius]: &[f32; 4]| {
+            let radius = !plan.has(RADIUS) || radius.is_finite() && radius > 0.0;
+            radius && [x, y, z].iter().all(|c| c.is_finite())
+        };
+        if !self.spheres.par_iter().with_min_len(1 << 12).all(sound) {
+            let mut kept = self.spheres.iter().map(sound);
+            self.colors.retain(|_| kept.next().unwrap_or(true));
+            self.spheres.retain(sound);
+        }
         Points {
             origin: plan.origin,
             spheres: self.spheres.into(),
@@ -255,6 +303,13 @@ impl Vertices {
             ..Points::default()
         }
     }
+}
+
+/// Makes grey what is no colour.
+fn mend_colors(colors: &mut [Rgb]) {
+    let is_color = |c: &Rgb| c.to_array().iter().all(|c| c.is_finite() && *c >= 0.0);
+    let wrong = colors.par_iter_mut().with_min_len(1 << 12).filter(|color| !is_color(color));
+    wrong.for_each(|color| *color = Material::default().color);
 }
 
 /// Vertices to be filled in; what the file has none of is empty.
@@ -315,7 +370,7 @@ impl Part<'_> {
                 Transfer::Srgb(table) => columns.fill(column, self.colors, |c, v| {
                     let entry = table_entry(table, v);
                     sound &= entry.is_some();
-                    channel(c, entry.unwrap_or(0.0));
+                    channel(c, entry.unwrap_or(f32::NAN));
                 }),
             }
         }
@@ -323,6 +378,11 @@ impl Part<'_> {
             if let Some(column) = plan.columns[UV + i] {
                 columns.fill(column, self.uvs, |uv, v| uv[i] = v as f32);
             }
+        }
+        if let Some(column) = plan.columns[ALPHA] {
+            // One of the two is empty.
+            columns.fill(column, self.positions, |_, alpha| plan.see_alpha(alpha));
+            columns.fill(column, self.spheres, |_, alpha| plan.see_alpha(alpha));
         }
         let radii = plan.has(RADIUS);
         sound
@@ -332,7 +392,7 @@ impl Part<'_> {
                 .iter()
                 .all(|p| p.iter().all(|c| c.is_finite()) && !(radii && p[3] <= 0.0))
             && self.normals.iter().all(|n| n.is_finite())
-            && self.colors.iter().all(|c| c.to_array().iter().all(|c| c.is_finite()))
+            && self.colors.iter().all(|c| c.to_array().iter().all(|c| c.is_finite() && *c >= 0.0))
             && self.uvs.iter().all(|uv| uv.is_finite())
     }
 }
@@ -343,14 +403,28 @@ pub(super) trait Columns {
     fn fill<T>(&self, column: usize, rows: &mut [T], set: impl FnMut(&mut T, f64));
 }
 
-/// What is said about one vertex or face of `element`.
+/// Says of a row of `element` what is wrong with it: a warning if it does without.
 pub(super) fn tell(
     findings: &mut Findings,
-    plural: &'static str,
+    severity: Severity,
     span: impl FnOnce() -> Span,
     element: &str,
     number: u64,
     message: &str,
 ) {
-    findings.error(plural, span, || format!("{element} {number} (counted from 0): {message}"));
+    let plural = match (element, severity) {
+        ("vertex", Severity::Warning) => "vertices of which something is left out",
+        ("vertex", Severity::Error) => "vertices that cannot be read",
+        (_, Severity::Warning) => "faces that are left out",
+        (_, Severity::Error) => "faces that cannot be drawn",
+    };
+    let left_out = element == "face" && severity == Severity::Warning;
+    let end = if left_out { "; it is left out" } else { "" };
+    let message = || format!("{element} {number} (counted from 0): {message}{end}");
+    findings.add(severity, plural, || Diagnostic {
+        severity,
+        message: message(),
+        span: Some(span()),
+        ..Diagnostic::default()
+    });
 }

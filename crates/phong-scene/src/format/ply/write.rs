@@ -4,14 +4,15 @@ use std::collections::HashMap;
 use std::io::{self, Write};
 
 use glam::{DVec3, Vec2, Vec3};
+use rayon::prelude::*;
 
-use crate::color::Rgb;
+use crate::color::{Rgb, srgb_encode};
 use crate::format::export::PlyEncoding;
 use crate::mesh::{Mesh, NO_INDEX, Points};
 
 impl Mesh {
     /// Writes the mesh as PLY: positions (as doubles if it has an origin), normals, texture
-    /// coordinates, linear colours as floats, triangles.
+    /// coordinates, colours (as sRGB bytes if all are such, else as linear floats), triangles.
     ///
     /// PLY knows one normal and one texture coordinate a vertex: a position that has several is
     /// written several times. A corner without a normal gets (0, 0, 0), which reads back as
@@ -38,16 +39,13 @@ impl Mesh {
         let (vertices, triangles) = self.single_vertices();
         let mut text = header(encoding, vertices.len(), self.origin);
         let [normals, uvs] = [self.normals.len(), self.uvs.len()].map(|n| n > 0);
-        for (wanted, names) in [
-            (normals, &["nx", "ny", "nz"][..]),
-            (uvs, &["s", "t"]),
-            (!self.colors.is_empty(), &RGB),
-        ] {
+        for (wanted, names) in [(normals, &["nx", "ny", "nz"][..]), (uvs, &["s", "t"])] {
             text.extend(names.iter().filter(|_| wanted).map(|name| property(name)));
         }
+        let bytes = color_properties(&self.colors, &mut text);
         text.extend(["element face ", &triangles.len().to_string(), "\n"]);
         text += "property list uchar uint vertex_indices\nend_header\n";
-        let mut out = Out { encoding, row: Vec::new(), to };
+        let mut out = Out { encoding, bytes, row: Vec::new(), to };
         out.to.write_all(text.as_bytes())?;
         for [position, normal, uv] in vertices {
             let at = position as usize;
@@ -97,15 +95,15 @@ impl Mesh {
 }
 
 impl Points {
-    /// Writes the points as PLY: centres (as doubles if they have an origin), radii, and linear
-    /// colours as floats.
+    /// Writes the points as PLY: centres (as doubles if they have an origin), radii, and colours (as
+    /// sRGB bytes if all are such, else as linear floats).
     ///
     /// # Errors
     /// Whatever `to` says.
     pub fn write_ply(&self, encoding: PlyEncoding, to: &mut dyn Write) -> io::Result<()> {
         let mut text = header(encoding, self.spheres.len(), self.origin) + &property("radius");
-        text.extend(RGB.iter().filter(|_| !self.colors.is_empty()).map(|name| property(name)));
-        let mut out = Out { encoding, row: Vec::new(), to };
+        let bytes = color_properties(&self.colors, &mut text);
+        let mut out = Out { encoding, bytes, row: Vec::new(), to };
         out.to.write_all((text + "end_header\n").as_bytes())?;
         for (i, &[x, y, z, radius]) in self.spheres.iter().enumerate() {
             out.position(Vec3::new(x, y, z), self.origin);
@@ -135,9 +133,27 @@ fn property(name: &str) -> String {
     format!("property float {name}\n")
 }
 
+/// Adds the properties of colours, if there are some; whether they are sRGB bytes.
+fn color_properties(colors: &[Rgb], text: &mut String) -> bool {
+    let bytes = colors.par_iter().with_min_len(1 << 12).all(|color| bytes_of(*color).is_some());
+    let kind = if bytes { "uchar" } else { "float" };
+    for name in RGB.iter().filter(|_| !colors.is_empty()) {
+        text.extend(["property ", kind, " ", name, "\n"]);
+    }
+    bytes
+}
+
+/// The sRGB bytes that decode to this very colour; `None`: there are none.
+fn bytes_of(color: Rgb) -> Option<[u8; 3]> {
+    let bytes = color.to_array().map(|c| (srgb_encode(f64::from(c)) * 255.0).round() as u8);
+    (Rgb::from_srgb8(bytes) == color).then_some(bytes)
+}
+
 /// Rows in either encoding.
 struct Out<'a> {
     encoding: PlyEncoding,
+    /// Whether colours are bytes.
+    bytes: bool,
     row: Vec<u8>,
     to: &'a mut dyn Write,
 }
@@ -160,8 +176,10 @@ impl Out<'_> {
     }
 
     fn color(&mut self, color: Option<&Rgb>) {
-        if let Some(color) = color {
-            self.floats(&color.to_array());
+        let Some(color) = color else { return };
+        match bytes_of(*color).filter(|_| self.bytes) {
+            Some(bytes) => bytes.into_iter().for_each(|byte| self.number(&[byte], byte)),
+            None => self.floats(&color.to_array()),
         }
     }
 

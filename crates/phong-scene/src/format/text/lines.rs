@@ -355,7 +355,9 @@ impl<'a> Cursor<'a> {
     #[inline]
     pub(crate) fn ends_word(&self, at: usize) -> bool {
         match self.text.get(at) {
-            None | Some(..=b' ' | b'#') => true,
+            // Microsoft's runtime writes NaN as 1.#QNAN, which is no comment.
+            Some(b'#') => at == 0 || self.text[at - 1] != b'.',
+            None | Some(..=b' ') => true,
             Some(b'\\') if self.joined => {
                 matches!(self.text.get(at + 1..), Some([b'\n', ..] | [b'\r', b'\n', ..]))
             }

@@ -1,0 +1,281 @@
+//! Files as other programs write them: what came out wrong once, and what it is like.
+//!
+//! `cases/` holds the inputs of strangers' reports; the neighbours of each stand here.
+
+use std::fs;
+use std::path::Path;
+
+use phong_scene::{
+    Limits, Material, Memory, Mesh, Model, NO_INDEX, Points, Reading, Rgb, Scene, Shape, read,
+};
+
+fn case(name: &str) -> Vec<u8> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases").join(name);
+    fs::read(path).expect("a case")
+}
+
+fn read_with(files: &[(&str, &[u8])], limits: &Limits) -> Reading {
+    let source = files.iter().fold(Memory::new(), |m, (name, bytes)| m.with(*name, *bytes));
+    read(files[0].0, None, &source, limits)
+}
+
+fn reading(name: &str) -> Reading {
+    let mut files = vec![(name.to_owned(), case(name))];
+    let library = name.replace(".obj", ".mtl");
+    if Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases").join(&library).exists() {
+        files.push((library.clone(), case(&library)));
+    }
+    let files: Vec<_> = files.iter().map(|(name, bytes)| (&**name, &**bytes)).collect();
+    read_with(&files, &Limits::default())
+}
+
+fn text(name: &str, text: &str) -> Reading {
+    read_with(&[(name, text.as_bytes())], &Limits::default())
+}
+
+fn told(reading: &Reading) -> String {
+    reading.diagnostics.iter().map(|d| d.to_string() + "\n").collect()
+}
+
+#[track_caller]
+fn scene(reading: Reading) -> Scene {
+    let told = told(&reading);
+    reading.scene.unwrap_or_else(|| panic!("{told}"))
+}
+
+#[track_caller]
+fn mesh(reading: Reading) -> Mesh {
+    match scene(reading).objects.swap_remove(0).shape {
+        Shape::Mesh(mesh) => (*mesh).clone(),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[track_caller]
+fn points(reading: Reading) -> Points {
+    match scene(reading).objects.swap_remove(0).shape {
+        Shape::Points(points) => (*points).clone(),
+        other => panic!("{other:?}"),
+    }
+}
+
+/// The only material of an MTL file, of which a face is made.
+fn material(mtl: &str) -> (Material, String) {
+    let name = mtl.lines().find_map(|line| line.strip_prefix("newmtl ")).expect("a name");
+    let obj = format!("mtllib a.mtl\nusemtl {name}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    let files = [("a.obj", obj.as_bytes()), ("a.mtl", mtl.as_bytes())];
+    let reading = read_with(&files, &Limits::default());
+    let told = told(&reading);
+    (scene(reading).materials.swap_remove(1), told)
+}
+
+fn case_material(name: &str) -> (Material, String) {
+    material(&String::from_utf8(case(name)).expect("text"))
+}
+
+#[test]
+fn an_exponent_of_zero_or_below_is_no_highlight() {
+    let (blender, told) = case_material("ns0.mtl");
+    assert_eq!((blender.model, blender.k_s), (Model::Lambert, 0.0));
+    assert_eq!(told.matches("leaves no highlight").count(), 1, "{told}");
+    let (below, _) = material("newmtl a\nNs -1\nKs 1 1 1\n");
+    assert_eq!(below.model, Model::Lambert);
+    let (_, silent) = material("newmtl a\nNs 0\nKs 0 0 0\n");
+    assert_eq!(silent, "", "no highlight was asked for");
+    let (above, _) = material("newmtl a\nNs 0.5\nKs 1 1 1\n");
+    assert_eq!((above.model, above.shininess), (Model::BlinnPhong, 0.5));
+}
+
+#[test]
+fn a_transparency_of_one_alone_is_opaque() {
+    let (opaque, told) = case_material("tr1.mtl");
+    assert!(opaque.transmission.is_black() && opaque.k_d == 1.0);
+    assert!(told.contains("it is read as opaque"), "{told}");
+    let (half, _) = material("newmtl a\nTr 0.5\n");
+    assert_eq!(half.transmission, Rgb::grey(0.5));
+    let (said, _) = material("newmtl a\nTr 1\nd 0.25\n");
+    assert_eq!(said.k_d, 0.25);
+}
+
+#[test]
+fn a_white_ambient_colour_is_a_filler_and_any_other_is_meant() {
+    let (filler, _) = material("newmtl a\nKa 1 1 1\nKd 0.2 0.4 0.6\n");
+    assert_eq!((filler.ambient_color, filler.k_a), (None, 1.0));
+    let (meant, _) = material("newmtl a\nKa 1 1 0.9\nKd 0.2 0.4 0.6\n");
+    assert_eq!(meant.ambient_color, Some(Rgb::new(1.0, 1.0, 0.9)));
+}
+
+#[test]
+fn colours_above_one_are_bytes_if_all_are_whole_and_else_a_warning() {
+    let (bytes, told) = material("newmtl a\nKd 255 51 0\nKs 1 0 0\n");
+    assert_eq!(bytes.color, Rgb::new(1.0, 0.2, 0.0));
+    assert!(told.contains("read as bytes"), "{told}");
+    let (bright, told) = material("newmtl a\nKd 1.5 1 0\n");
+    assert_eq!(bright.color, Rgb::new(1.5, 1.0, 0.0));
+    assert!(told.contains("`Kd 1.5 1 0` is above 1"), "{told}");
+    let (_, silent) = material("newmtl a\nKd 1 0 1\nKa 0 0 0\n");
+    assert_eq!(silent, "");
+}
+
+#[test]
+fn a_black_diffuse_colour_beside_an_image_is_grey_while_images_are_not_read() {
+    let (grey, _) = material("newmtl a\nKd 0 0 0\nmap_Kd wood.png\n");
+    assert_eq!(grey.color, Rgb::grey(0.8));
+    let (black, _) = material("newmtl a\nKd 0 0 0\n");
+    assert!(black.color.is_black());
+}
+
+#[test]
+fn nothing_is_said_of_materials_that_no_face_uses() {
+    let reading = reading("unused_materials.obj");
+    assert_eq!(told(&reading), "");
+    assert!(reading.scene.is_some());
+    let mtl = "newmtl used\nnewmtl unused\nKd nonsense\nmap_Kd a.png\n";
+    assert_eq!(material(mtl).1, "");
+    let obj = b"mtllib a.mtl\nusemtl unused\nusemtl used\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    let files = [("a.obj", &obj[..]), ("a.mtl", mtl.as_bytes())];
+    assert_eq!(told(&read_with(&files, &Limits::default())), "", "no face stands behind it");
+}
+
+#[test]
+fn smoothing_off_is_flat_and_groups_are_round_within_themselves() {
+    let flat = mesh(reading("smoothing-off.obj"));
+    assert!(flat.normal_indices.iter().flatten().all(|i| *i == NO_INDEX));
+    let roof = "v 0 1 0\nv 0 1 1\nv 1 0 0\nv -1 0 0\n";
+    let round = mesh(text("a.obj", &format!("{roof}s 1\nf 1 2 3\nf 2 1 4\n")));
+    // Numbered like the positions, of which the ridge's are 0 and 1.
+    assert!(round.normal_indices.is_empty() && round.normals[0].y == 1.0);
+    let sharp = mesh(text("a.obj", &format!("{roof}s 1\nf 1 2 3\ns 2\nf 2 1 4\n")));
+    assert_ne!(sharp.normal_indices[0][0], sharp.normal_indices[1][1]);
+    assert!(sharp.normals.iter().all(|n| n.y < 0.9));
+    let own = format!("{roof}vn 0 0 1\ns off\nf 1//1 2//1 3//1\n");
+    assert_eq!(mesh(text("a.obj", &own)).normals.len(), 1, "the file's normals win");
+}
+
+#[test]
+fn colours_of_obj_and_bytes_of_ply_are_srgb_and_floats_of_ply_linear() {
+    let obj = mesh(reading("colours.obj")).colors[0];
+    let ply = mesh(reading("colours.ply")).colors[0];
+    assert_eq!(ply, Rgb::from_srgb8([128, 64, 200]));
+    let close = |a: f32, b: f32| (a - b).abs() < 1e-6;
+    assert!(close(obj.r, ply.r) && close(obj.g, ply.g) && close(obj.b, ply.b), "{obj:?}");
+    let face = "f 1 2 3\n";
+    let bytes = "v 0 0 0 128 64 200\nv 1 0 0 128 64 200\nv 0 1 0 0 1 255\n";
+    assert_eq!(mesh(text("a.obj", &format!("{bytes}{face}"))).colors[0], ply);
+    let bright = "v 0 0 0 1.5 0 0\nv 1 0 0 0 0 0\nv 0 1 0 0 0 0\n";
+    let reading = text("a.obj", &format!("{bright}{face}"));
+    assert!(told(&reading).contains("colours above 1: 1"), "{}", told(&reading));
+}
+
+const PLY: &str = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n\
+                   property float z\n";
+const FACE: &str = "element face 2\nproperty list uchar int vertex_indices\nend_header\n";
+
+#[test]
+fn colours_are_written_as_they_were_read() {
+    let ply = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+    let text =
+        format!("{PLY}{ply}end_header\n0 0 0 1 2 3\n1 0 0 255 0 9\n0 1 0 4 5 6\n1 1 0 7 8 9\n");
+    let cloud = points(self::text("a.ply", &text));
+    let mut file = Vec::new();
+    cloud.write_ply(phong_scene::PlyEncoding::Ascii, &mut file).expect("memory");
+    let written = String::from_utf8(file).expect("text");
+    assert!(
+        written.contains("property uchar red\n") && written.contains(" 255 0 9\n"),
+        "{written}"
+    );
+    let own = Points { colors: vec![Rgb::grey(0.3); 4], ..cloud };
+    let mut file = Vec::new();
+    own.write_ply(phong_scene::PlyEncoding::Ascii, &mut file).expect("memory");
+    let written = String::from_utf8(file).expect("text");
+    assert!(written.contains("property float red\n") && written.contains(" 0.3 0.3 0.3\n"));
+}
+
+#[test]
+fn one_point_that_is_no_number_among_many_is_left_out_and_counted() {
+    let reading = reading("nan_cloud.ply");
+    assert_eq!(
+        told(&reading),
+        "nan_cloud.ply:9:1: warning: vertex 1 (counted from 0): its `x` is NaN; it is left out\n"
+    );
+    assert_eq!(points(reading).spheres.len(), 3);
+    let all = format!("{PLY}end_header\nnan 0 0\n0 inf 0\n0 0 -inf\n1.#QNAN 0 0\n");
+    let reading = text("a.ply", &all);
+    assert!(reading.scene.is_none() && told(&reading).contains("no vertex is left"));
+    let rows = "0 0 0\nnan 0 0\n1 0 0\n0 1 0\n3 0 2 3\n3 0 1 2\n";
+    let mesh = mesh(text("a.ply", &format!("{PLY}{FACE}{rows}")));
+    assert_eq!(mesh.indices, [[0, 2, 3]]);
+    let obj = "v 0 0 0\nv nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 3 4\nf 1 2 3\n";
+    let reading = text("a.obj", obj);
+    assert!(told(&reading).contains("NaN or infinite: 1; they are left out, and the 1 faces"));
+    assert_eq!(self::mesh(reading).indices.len(), 1);
+}
+
+#[test]
+fn one_bad_colour_or_normal_is_done_without() {
+    let colors = "property float red\nproperty float green\nproperty float blue\nend_header\n";
+    let rows = "0 0 0 1 1 1\n1 0 0 nan 0 0\n0 1 0 0 -1 0\n1 1 0 0 0 0\n";
+    let reading = text("a.ply", &format!("{PLY}{colors}{rows}"));
+    assert_eq!(told(&reading).matches("it is grey").count(), 2, "{}", told(&reading));
+    assert_eq!(points(reading).colors[1], Rgb::grey(0.8));
+    let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn nan 0 1\nvn 0 0 1\nf 1//1 2//2 3//9\n";
+    let reading = text("a.obj", obj);
+    let said = told(&reading);
+    assert!(said.contains("use a normal out of range: 1"), "{said}");
+    assert!(said.contains("normals without a direction: 1"), "{said}");
+    assert_eq!(mesh(reading).normal_indices, [[NO_INDEX, 1, NO_INDEX]]);
+}
+
+#[test]
+fn a_property_that_nothing_reads_may_be_there_twice() {
+    let reading = reading("dup_unused.ply");
+    assert_eq!(told(&reading), "");
+    assert_eq!(mesh(reading).indices, [[0, 1, 2]]);
+    let twice = PLY.replace("float z\n", "float z\nproperty float z\n") + "end_header\n";
+    assert!(told(&text("a.ply", &twice)).contains("there is a property `z` already"));
+}
+
+#[test]
+fn a_position_out_of_range_is_refused_unless_one_is_lenient() {
+    let obj = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 9\n";
+    let ply = format!("{PLY}{FACE}0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2\n3 0 1 9\n");
+    let lenient = Limits { lenient: true, ..Limits::default() };
+    for (name, bytes) in [("a.obj", &obj[..]), ("a.ply", ply.as_bytes())] {
+        assert!(read_with(&[(name, bytes)], &Limits::default()).scene.is_none(), "{name}");
+        let reading = read_with(&[(name, bytes)], &lenient);
+        assert!(told(&reading).contains("left out"), "{}", told(&reading));
+        assert_eq!(mesh(reading).indices.len(), 1, "{name}");
+    }
+}
+
+#[test]
+fn a_truncated_file_is_refused_unless_one_is_lenient() {
+    let ascii = format!("{PLY}end_header\n0 0 0\n1 0 0\n");
+    let head = PLY.replace("ascii", "binary_little_endian") + "end_header\n";
+    let binary = [head.into_bytes(), vec![0; 12], vec![63; 12], vec![0; 5]].concat();
+    let lenient = Limits { lenient: true, ..Limits::default() };
+    for bytes in [ascii.as_bytes(), &binary] {
+        assert!(read_with(&[("a.ply", bytes)], &Limits::default()).scene.is_none());
+        let reading = read_with(&[("a.ply", bytes)], &lenient);
+        assert!(told(&reading).contains("after 2 of 4 rows"), "{}", told(&reading));
+        assert_eq!(points(reading).spheres.len(), 2);
+    }
+}
+
+#[test]
+fn alpha_below_one_is_told_and_alpha_of_one_is_not() {
+    let head = format!("{PLY}property uchar alpha\nend_header\n");
+    let rows = |alpha: u8| format!("0 0 0 255\n1 0 0 255\n0 1 0 255\n1 1 0 {alpha}\n");
+    assert_eq!(told(&text("a.ply", &(head.clone() + &rows(255)))), "");
+    assert!(told(&text("a.ply", &(head + &rows(7)))).contains("less than opaque"));
+}
+
+#[test]
+fn points_of_obj_are_drawn_as_those_of_ply_are() {
+    assert_eq!(points(text("a.obj", "v 0 0 0\nv 2 0 0\nv 9 9 9\np 1 2\n")).spheres.len(), 2);
+    let alone = points(text("a.obj", "v 0 0 0\nv 2 0 0\nv 4 0 0\n"));
+    assert_eq!((alone.spheres.len(), alone.guessed), (3, Some(1.0)));
+    let both = scene(text("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\np -1\n"));
+    assert_eq!(both.objects.iter().map(|o| o.shape.kind()).collect::<Vec<_>>(), ["mesh", "points"]);
+    assert!(text("a.obj", "v 0 0 0\np 2\n").scene.is_none());
+}
