@@ -61,6 +61,8 @@ pub(crate) struct Input {
     pub(crate) bare: bool,
     pub(crate) warnings: Vec<Diagnostic>,
     files: Vec<PathBuf>,
+    /// Whether nothing is told.
+    quiet: bool,
 }
 
 impl Input {
@@ -139,8 +141,8 @@ pub(crate) fn read(args: &InputArgs) -> Result<(Reading, Vec<PathBuf>), Failure>
             .with_help("say it: `phong ... - --format toml`"));
     }
     let files = Files { stdin, ..Files::default() };
-    let limits =
-        args.max_memory.map_or_else(Limits::default, |bytes| Limits { bytes, ..Limits::default() });
+    let default = Limits { lenient: args.lenient, ..Limits::default() };
+    let limits = Limits { bytes: args.max_memory.unwrap_or(default.bytes), ..default };
     let mut reading = phong_scene::read(&args.input, args.format, &files, &limits);
     // Of a file that cannot be opened nothing else is said.
     if let ([only], false) = (&mut reading.diagnostics[..], stdin) {
@@ -169,11 +171,13 @@ pub(crate) fn open(args: &InputArgs, quiet: bool) -> Result<Input, Failure> {
     if !quiet {
         report::diagnostics(&diagnostics);
     }
-    Ok(Input { scene, bare, warnings: diagnostics, files })
+    Ok(Input { scene, bare, warnings: diagnostics, files, quiet })
 }
 
 /// Looks at a scene as the command line says; a bare model is framed anew for its picture's size.
-pub(crate) fn look(scene: &mut Scene, bare: bool, args: &ViewArgs) -> Result<(), Failure> {
+pub(crate) fn look(input: &mut Input, args: &ViewArgs) -> Result<(), Failure> {
+    let Input { scene, bare, .. } = input;
+    let bare = *bare;
     let eye = args.eye.map(DVec3::from_array);
     let look_at = args.look_at.map(DVec3::from_array);
     let up = args.up.map(DVec3::from_array);
@@ -184,7 +188,7 @@ pub(crate) fn look(scene: &mut Scene, bare: bool, args: &ViewArgs) -> Result<(),
     }
     if bare {
         let default = phong_scene::Framing::default();
-        scene.frame(&phong_scene::Framing {
+        let said = scene.frame(&phong_scene::Framing {
             side: args.view.map_or(default.side, Side::from),
             up: up.unwrap_or(default.up),
             eye,
@@ -192,6 +196,10 @@ pub(crate) fn look(scene: &mut Scene, bare: bool, args: &ViewArgs) -> Result<(),
             fov: args.fov,
             color: args.color,
         });
+        if !input.quiet {
+            report::diagnostics(&said);
+        }
+        input.warnings.extend(said);
     } else {
         for (given, option) in [(args.view.is_some(), "--view"), (args.color.is_some(), "--color")]
         {
@@ -213,7 +221,7 @@ pub(crate) fn look(scene: &mut Scene, bare: bool, args: &ViewArgs) -> Result<(),
             }
         }
     }
-    let camera = &scene.camera;
+    let camera = &input.scene.camera;
     let forward = camera.look_at - camera.eye;
     if forward == DVec3::ZERO {
         return Err(Failure::usage("--eye and --look-at are the same point"));

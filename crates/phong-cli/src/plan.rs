@@ -9,7 +9,7 @@ use phong::image::{self, Bits, Content, Encoding, Format};
 use phong::part::{self, Settings};
 use phong::render::RenderOptions;
 use phong::terms::TermSet;
-use phong_scene::{Image, Scene};
+use phong_scene::Image;
 
 use crate::args::{self, EncodingArgs, ImageArgs, OutputFormat, RenderArgs, ViewArgs};
 use crate::failure::Failure;
@@ -180,10 +180,10 @@ pub(crate) fn settle(
     input: &mut Input,
 ) -> Result<RenderOptions, Failure> {
     let ImageArgs { size, samples, seed, depth, no_shadows, background, crop } = args;
-    let scene: &mut Scene = &mut input.scene;
-    scene.image.size = size.map_or(scene.image.size, |size| size.0);
-    input::look(scene, input.bare, view)?;
-    let image = &mut scene.image;
+    let image = &mut input.scene.image;
+    image.size = size.map_or(image.size, |size| size.0);
+    input::look(input, view)?;
+    let image = &mut input.scene.image;
     image.samples = samples.unwrap_or(image.samples);
     image.seed = seed.unwrap_or(image.seed);
     image.depth = depth.unwrap_or(image.depth);

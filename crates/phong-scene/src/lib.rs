@@ -22,6 +22,7 @@ mod scene;
 mod shape;
 mod source;
 mod transform;
+mod unpack;
 mod wording;
 
 pub use bounds::Bounds;

@@ -155,7 +155,7 @@ proptest! {
         let sound = !scene.check().iter().any(Diagnostic::is_error);
         let _ = scene.bounds();
         let mut framed = scene.clone();
-        framed.frame(&Framing::default());
+        let _ = framed.frame(&Framing::default());
         for format in Format::writable() {
             let options = ExportOptions { format, ..ExportOptions::default() };
             match scene.clone().export(&options, "a") {

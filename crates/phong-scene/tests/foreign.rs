@@ -6,7 +6,8 @@ use std::fs;
 use std::path::Path;
 
 use phong_scene::{
-    Limits, Material, Memory, Mesh, Model, NO_INDEX, Points, Reading, Rgb, Scene, Shape, read,
+    Framing, Limits, Material, Memory, Mesh, Model, NO_INDEX, Points, Reading, Rgb, Scene, Shape,
+    Side, read,
 };
 
 fn case(name: &str) -> Vec<u8> {
@@ -278,4 +279,68 @@ fn points_of_obj_are_drawn_as_those_of_ply_are() {
     let both = scene(text("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\np -1\n"));
     assert_eq!(both.objects.iter().map(|o| o.shape.kind()).collect::<Vec<_>>(), ["mesh", "points"]);
     assert!(text("a.obj", "v 0 0 0\np 2\n").scene.is_none());
+}
+
+#[test]
+fn guessed_spheres_are_at_least_a_pixel_large_in_any_picture() {
+    let mut scene = scene(reading("clumps.ply"));
+    for height in [64, 1080] {
+        scene.image.size = [height, height];
+        let _ = scene.frame(&Framing::default());
+        let Shape::Points(points) = &scene.objects[0].shape else { panic!("points") };
+        let bounds = scene.bounds();
+        let distance = bounds.center().distance(scene.camera.eye) + bounds.size().length();
+        let pixel = 2.0 * distance * 20_f64.to_radians().tan() / f64::from(height);
+        let radius = f64::from(points.spheres[0][3]);
+        assert!(radius > 0.5 * pixel && radius < 4.0 * pixel, "{radius} {pixel}");
+    }
+    let own = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n\
+               property float z\nproperty float radius\nend_header\n0 0 0 1e-9\n1 0 0 1e-9\n";
+    assert_eq!(points(text("a.ply", own)).spheres[0][3], 1e-9, "the file's own are kept");
+}
+
+#[test]
+fn a_flat_model_seen_from_its_edge_is_turned_and_relief_is_asked_about() {
+    let plate = "v 0 0 0\nv 9 0 0\nv 9 0 5\nv 0 0 5\nf 1 2 3 4\n";
+    let mut flat = scene(text("a.obj", plate));
+    let said = flat.frame(&Framing { side: Side::Front, ..Framing::default() });
+    assert!(said[0].to_string().starts_with("a.obj: warning: the model is flat"), "{said:?}");
+    let view = flat.camera.look_at - flat.camera.eye;
+    assert!(view.normalize().y < -0.5, "{view}");
+    assert_eq!(flat.frame(&Framing { side: Side::Top, ..Framing::default() }), []);
+    let relief = "v 0 0 0\nv 9 0 1\nv 9 7 0\nv 0 7 1\nf 1 2 3 4\n";
+    let said = scene(text("a.obj", relief)).frame(&Framing::default());
+    assert!(said[0].message.contains("perhaps Z is up"), "{said:?}");
+    let up = Framing { up: glam::DVec3::Z, ..Framing::default() };
+    assert_eq!(scene(text("a.obj", relief)).frame(&up), []);
+}
+
+#[test]
+fn what_the_camera_does_not_see_is_told() {
+    let head = "version = 1\n[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 9]\n\
+                [[light]]\nkind = \"distant\"\ndirection = [0, 0, -1]\n";
+    let ball = |name: &str, z: f64| {
+        format!("[[sphere]]\nname = \"{name}\"\ncenter = [0, 0, {z}]\nradius = 1\n")
+    };
+    let said = told(&text("a.toml", &(head.to_owned() + &ball("behind", 0.0))));
+    assert!(said.contains("a.toml:8:1: warning: the camera sees nothing"), "{said}");
+    let both = text("a.toml", &(head.to_owned() + &ball("seen", 12.0) + &ball("behind", 0.0)));
+    let said = told(&both);
+    assert!(said.contains("a.toml:12:1: warning: wholly outside the picture: `behind`"), "{said}");
+    let plane = "[[plane]]\npoint = [0, -1, 0]\nnormal = [0, 1, 0]\n";
+    assert_eq!(told(&text("a.toml", &(head.to_owned() + &ball("seen", 12.0) + plane))), "");
+}
+
+#[test]
+fn a_packed_model_is_read_as_it_is_whatever_its_name_says() {
+    use std::io::Write;
+    let mut packer = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());
+    packer.write_all(&case("colours.ply")).expect("memory");
+    let bytes = packer.finish().expect("memory");
+    for name in ["a.ply.gz", "a.ply"] {
+        let mesh = mesh(read_with(&[(name, &bytes)], &Limits::default()));
+        assert_eq!(mesh.indices.len(), 1);
+    }
+    let limits = Limits { bytes: 100, ..Limits::default() };
+    assert!(told(&read_with(&[("a.ply.gz", &bytes)], &limits)).contains("more than 100 bytes"));
 }

@@ -30,6 +30,11 @@ pub(crate) struct InputArgs {
     /// Make warnings errors
     #[arg(long)]
     pub(crate) strict: bool,
+
+    /// Draw what can be drawn of a damaged model: what is there of a file that is cut short, and all
+    /// faces but those that use vertices there are not
+    #[arg(long, conflicts_with = "strict")]
+    pub(crate) lenient: bool,
 }
 
 /// A question about an input, for people or for programs.

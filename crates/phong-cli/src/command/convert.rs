@@ -77,7 +77,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut input = input::open(&args.input, args.quiet)?;
     let image = &mut input.scene.image;
     image.size = args.size.map_or(image.size, |size| size.0);
-    input::look(&mut input.scene, input.bare, &args.view)?;
+    input::look(&mut input, &args.view)?;
     meter.stage("converting");
     let ply = if args.ascii { PlyEncoding::Ascii } else { PlyEncoding::Binary };
     let options = ExportOptions {

@@ -44,11 +44,12 @@ impl Scene {
     /// ```
     #[must_use]
     pub fn check(&self) -> Vec<Diagnostic> {
-        let mut judge = Judge { scene: self, said: Vec::new(), untold: [0; 2] };
+        let mut judge = Judge::new(self);
         judge.look();
         judge.geometry();
         if !judge.said.iter().any(Diagnostic::is_error) {
-            suspicion::check(self, &mut |warning| judge.say(warning));
+            let bounds = std::mem::take(&mut judge.bounds);
+            suspicion::check(self, &bounds, &mut |warning| judge.say(warning));
         }
         judge.finish()
     }
@@ -57,7 +58,7 @@ impl Scene {
     /// materials and picture, and without what can hardly be meant.
     #[must_use]
     pub fn check_objects(&self) -> Vec<Diagnostic> {
-        let mut judge = Judge { scene: self, said: Vec::new(), untold: [0; 2] };
+        let mut judge = Judge::new(self);
         judge.geometry();
         judge.finish()
     }
@@ -78,9 +79,15 @@ struct Judge<'s> {
     said: Vec<Diagnostic>,
     /// Warnings and errors beyond those.
     untold: [usize; 2],
+    /// The boxes of the scene's objects.
+    bounds: Vec<Bounds>,
 }
 
-impl Judge<'_> {
+impl<'s> Judge<'s> {
+    fn new(scene: &'s Scene) -> Self {
+        Self { scene, said: Vec::new(), untold: [0; 2], bounds: Vec::new() }
+    }
+
     fn say(&mut self, diagnostic: Diagnostic) {
         if self.said.len() < MOST {
             self.said.push(diagnostic);
@@ -180,7 +187,9 @@ impl Judge<'_> {
             groups.push(whole);
         }
         for (i, object) in scene.objects.iter().enumerate() {
-            all = all.union(self.extent(At::Top(i), object, &groups));
+            let bounds = self.extent(At::Top(i), object, &groups);
+            self.bounds.push(bounds);
+            all = all.union(bounds);
         }
         let size = all.size().max_element();
         if size > LARGEST {

@@ -3,16 +3,25 @@
 use glam::DVec3;
 
 use super::at;
+use crate::bounds::Bounds;
+use crate::camera::CameraKind;
 use crate::diagnostic::{Diagnostic, Label};
 use crate::light::{Light, LightKind};
+use crate::material::Material;
 use crate::scene::{Object, Scene};
 use crate::shape::Shape;
+use crate::wording::list;
 
 /// Most pairs of a light and an object that are looked at: a check must not outlast the render.
 const MOST_PAIRS: usize = 10_000_000;
 
+/// Most names that a message lists.
+const MOST_NAMED: usize = 5;
+
 /// Says everything suspicious about a scene, each with its place but without an excerpt.
-pub(super) fn check(scene: &Scene, say: &mut dyn FnMut(Diagnostic)) {
+/// `bounds` are the boxes of the objects.
+pub(super) fn check(scene: &Scene, bounds: &[Bounds], say: &mut dyn FnMut(Diagnostic)) {
+    unseen(scene, bounds, say);
     if scene.objects.is_empty() {
         let help = "add a shape, such as `[[sphere]]`";
         say(Diagnostic::warning("the scene has no objects", None).with_help(help));
@@ -24,6 +33,56 @@ pub(super) fn check(scene: &Scene, say: &mut dyn FnMut(Diagnostic)) {
     if scene.objects.len().saturating_mul(scene.lights.len()) <= MOST_PAIRS {
         scene.objects.iter().for_each(|object| shut_in(scene, object, say));
     }
+}
+
+/// Says which objects lie wholly outside the picture, or that all do.
+fn unseen(scene: &Scene, bounds: &[Bounds], say: &mut dyn FnMut(Diagnostic)) {
+    let Some(edges) = edges(scene) else { return };
+    let outside = |bounds: &Bounds| {
+        let corners = bounds.corners().map(|corner| corner - scene.camera.eye);
+        edges.iter().any(|edge| corners.iter().all(|corner| corner.dot(*edge) > 0.0))
+    };
+    let has_end = |bounds: &&Bounds| !bounds.is_empty();
+    let unseen: Vec<&Object> = (scene.objects.iter().zip(bounds))
+        .filter(|(_, bounds)| has_end(bounds) && outside(bounds))
+        .map(|(object, _)| object)
+        .collect();
+    let [first, ..] = unseen[..] else { return };
+    if unseen.len() == scene.objects.len() {
+        let message = "the camera sees nothing: everything lies outside the picture";
+        let help = "look at its `eye` and `look_at`";
+        say(Diagnostic::warning(message, at(&first.place)).with_help(help));
+        return;
+    }
+    // Elsewhere mirrors and shadows may be what shows them.
+    let mirrors = |m: &Material| !m.reflection.is_black() || !m.transmission.is_black();
+    if scene.materials.iter().any(mirrors) {
+        return;
+    }
+    let names = list(unseen.iter().take(MOST_NAMED).map(|object| object.name.as_str()), ",");
+    let more = unseen.len().saturating_sub(MOST_NAMED);
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    let message = format!("wholly outside the picture: {names}{more}");
+    say(Diagnostic::warning(message, at(&first.place)));
+}
+
+/// Normals of the planes through the eye that bound what it sees, pointing outwards; `None`: it
+/// sees in all directions, or rays do not leave from one point.
+fn edges(scene: &Scene) -> Option<[DVec3; 5]> {
+    let CameraKind::Perspective { fov } = scene.camera.kind else { return None };
+    let forward = (scene.camera.look_at - scene.camera.eye).try_normalize()?;
+    let right = forward.cross(scene.camera.up).try_normalize()?;
+    let up = right.cross(forward);
+    let [width, height] = scene.image.size.map(f64::from);
+    let tan_y = libm::tan(0.5 * fov.to_radians());
+    let tan_x = tan_y * width / height;
+    Some([
+        right - tan_x * forward,
+        -right - tan_x * forward,
+        up - tan_y * forward,
+        -up - tan_y * forward,
+        -forward,
+    ])
 }
 
 /// Says if lights or the camera are within an object that keeps light in or out.

@@ -19,6 +19,7 @@ use crate::frame::{Framing, frame};
 use crate::limits::Limits;
 use crate::scene::{Reading, Scene};
 use crate::source::Source;
+use crate::unpack::Unpacked;
 
 /// Reads a scene or a bare model, and everything there is to say about it.
 ///
@@ -53,6 +54,7 @@ pub fn read(path: &str, format: Option<Format>, source: &dyn Source, limits: &Li
             format!("names end in {}; or the format is given", endings(&Format::readable(), "or"));
         return refused(message, help, false);
     };
+    let source = &Unpacked::new(source, limits);
     let input = Input::new(path, source, limits);
     let read = match format.reader() {
         None => {

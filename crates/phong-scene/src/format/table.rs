@@ -177,10 +177,14 @@ impl Format {
         self.entry().endings[0]
     }
 
-    /// The format that the ending of a path stands for, in capitals or not.
+    /// The format that the ending of a path stands for, in capitals or not; that it is packed
+    /// (`.ply.gz`) makes no difference.
     #[must_use]
     pub fn of_path(path: &str) -> Option<Self> {
-        let (_, ending) = path.rsplit(['/', '\\']).next()?.rsplit_once('.')?;
+        let (stem, ending) = path.rsplit(['/', '\\']).next()?.rsplit_once('.')?;
+        if ending.eq_ignore_ascii_case("gz") {
+            return Self::of_ending(stem.rsplit_once('.')?.1);
+        }
         Self::of_ending(ending)
     }
 
@@ -263,5 +267,7 @@ mod tests {
         assert_eq!(Format::of_path("a.toml/readme"), None);
         assert_eq!(Format::of_path("C:\\models\\d.obj"), Some(Format::Obj));
         assert_eq!(Format::of_path("ply"), None);
+        assert_eq!(Format::of_path("a/b.OBJ.gz"), Some(Format::Obj));
+        assert_eq!(Format::of_path("obj.gz"), None);
     }
 }

@@ -12,8 +12,15 @@ impl Points {
     /// a point and its nearest neighbour.
     pub(crate) fn guess_radius(&mut self) {
         let radius = automatic(&self.spheres);
-        self.spheres.iter_mut().for_each(|sphere| sphere[3] = radius);
+        self.set_radius(Some(radius));
         self.guessed = Some(radius);
+    }
+
+    /// Gives all points this radius, if it is one.
+    pub(crate) fn set_radius(&mut self, radius: Option<f32>) {
+        if let Some(radius) = radius {
+            self.spheres.iter_mut().for_each(|sphere| sphere[3] = radius);
+        }
     }
 }
 

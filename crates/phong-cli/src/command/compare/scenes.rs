@@ -49,6 +49,7 @@ pub(super) fn render(
         format: None,
         max_memory: args.max_memory,
         strict: args.strict,
+        lenient: false,
     });
     // What is wrong with the second is told before the first is drawn.
     let once = names[0] == names[1];

@@ -1,5 +1,7 @@
 //! An automatic camera and two lights, so that a bare model looks good without a word.
 
+mod flat;
+
 use std::collections::BTreeMap;
 
 use glam::DVec3;
@@ -7,14 +9,18 @@ use glam::DVec3;
 use crate::bounds::Bounds;
 use crate::camera::{Camera, CameraKind};
 use crate::color::Rgb;
-use crate::diagnostic::Place;
+use crate::diagnostic::{Diagnostic, Place, Span};
 use crate::fragment::Fragment;
 use crate::light::{Light, LightKind};
+use crate::mesh::Points;
 use crate::scene::{Background, Group, Object, Scene};
 use crate::shape::Shape;
 
 /// Share of the picture that the model's box may fill, along the tighter direction.
 const FILL: f64 = 0.9;
+
+/// Pixels of the radius of a sphere, at least, where it was guessed.
+const LEAST_RADIUS: f64 = 1.5;
 
 /// From where a bare model is looked at.
 ///
@@ -113,7 +119,8 @@ pub(crate) fn frame(fragment: Fragment, framing: &Framing, place: &Place) -> Sce
         objects,
         ..Scene::default()
     };
-    scene.frame(framing);
+    // What is to be said of the view is said when it is chosen.
+    let _ = scene.frame(framing);
     scene.camera = fragment.camera.unwrap_or(scene.camera);
     if !fragment.lights.is_empty() {
         scene.lights = fragment.lights;
@@ -127,8 +134,30 @@ impl Scene {
     ///
     /// The camera is a perspective one; two distant lights stand behind it, a key light over its
     /// left shoulder and a weaker one low on its right, which throws no shadows.
-    pub fn frame(&mut self, framing: &Framing) {
-        self.camera = self.fit(framing);
+    ///
+    /// Spheres whose radius was guessed are at least 1½ pixels in radius; a flat model that would
+    /// be seen from its edge is turned. What there is to say about the view is returned: warnings.
+    pub fn frame(&mut self, framing: &Framing) -> Vec<Diagnostic> {
+        let mut said = Vec::new();
+        for points in self.guessed_points() {
+            // As it was guessed, whatever an earlier picture needed.
+            points.set_radius(points.guessed);
+        }
+        let (mut to_eye, up) = directions(framing.side, framing.up);
+        let thinnest = flat::thinnest(self);
+        if framing.eye.is_none()
+            && let Some(turned) = flat::turned(to_eye, up, thinnest)
+        {
+            to_eye = turned;
+            let message = "the model is flat, and would be seen from its edge: it is turned";
+            said.push(self.word(message, "choose another side with `--view`"));
+        }
+        if framing.up == DVec3::Y && lies_on_xy(thinnest) {
+            let message = "the model lies flat in X and Y: perhaps Z is up in it";
+            said.push(self.word(message, "`--up z` shows it so"));
+        }
+        self.camera = self.fit(framing, to_eye, up);
+        self.enlarge_guessed();
         self.lights = lights(&self.camera);
         self.image.background = Background::Gradient {
             top: Rgb::from_srgb8([0xd8, 0xdf, 0xe8]),
@@ -136,6 +165,41 @@ impl Scene {
         };
         if let Some(material) = self.materials.first_mut() {
             material.color = framing.color.unwrap_or(Rgb::from_srgb8([0xd9, 0xcf, 0xc2]));
+        }
+        said
+    }
+
+    /// A warning about the file that the model is from.
+    fn word(&self, message: &str, help: &str) -> Diagnostic {
+        let place = self.objects.first().map(|object| object.place.clone());
+        let place = place.filter(|place| !place.file.is_empty());
+        let span = place.map(|place| Span { place, ..Span::default() });
+        Diagnostic::warning(message, span).with_help(help)
+    }
+
+    /// The clouds whose radius was guessed.
+    fn guessed_points(&mut self) -> impl Iterator<Item = &mut Points> {
+        self.objects.iter_mut().filter_map(|object| match &mut object.shape {
+            Shape::Points(points) if points.guessed.is_some() => Some(&mut **points),
+            _ => None,
+        })
+    }
+
+    /// Makes spheres whose radius was guessed large enough to be seen.
+    fn enlarge_guessed(&mut self) {
+        let Camera { kind: CameraKind::Perspective { fov }, eye, .. } = self.camera else { return };
+        let height = f64::from(self.image.size[1].max(1));
+        let bounds = self.bounds();
+        // The farthest of them must be seen, too.
+        let distance =
+            bounds.corners().into_iter().map(|corner| corner.distance(eye)).fold(0.0, f64::max);
+        let pixel = 2.0 * distance * libm::tan(0.5 * fov.to_radians()) / height;
+        let least = (LEAST_RADIUS * pixel) as f32;
+        if !least.is_finite() {
+            return;
+        }
+        for points in self.guessed_points() {
+            points.set_radius(points.guessed.map(|guess| guess.max(least)));
         }
     }
 
@@ -145,10 +209,9 @@ impl Scene {
     /// eye lies as far along its normal as the model reaches: two edges left and right give the
     /// eye's place across and a distance, those above and below its height and another distance,
     /// and the larger counts.
-    fn fit(&self, framing: &Framing) -> Camera {
+    fn fit(&self, framing: &Framing, to_eye: DVec3, up: DVec3) -> Camera {
         let fov = framing.fov.unwrap_or(40.0);
         let [width, height] = self.image.size.map(|side| f64::from(side.max(1)));
-        let (to_eye, up) = directions(framing.side, framing.up);
         let right = up.cross(to_eye).normalize_or(DVec3::X);
         let image_up = to_eye.cross(right);
         let bounds = self.bounds();
@@ -186,6 +249,13 @@ impl Scene {
         let kind = CameraKind::Perspective { fov };
         Camera { kind, eye, look_at, up, aperture: 0.0, focus: None }
     }
+}
+
+/// Whether a model, as scans and terrains do, lies flat in X and Y without being wholly flat.
+fn lies_on_xy(thinnest: Option<(DVec3, f64)>) -> bool {
+    thinnest.is_some_and(|(normal, thickness)| {
+        normal.z.abs() > 0.95 && (0.02..=0.25).contains(&thickness)
+    })
 }
 
 /// The unit direction from the model to the eye, and the picture's up.
@@ -275,7 +345,7 @@ mod tests {
                     for size in [[100, 400], [100, 100], [1600, 900]] {
                         let mut scene = boxed(min, max);
                         scene.image.size = size;
-                        scene.frame(&Framing { side, up, ..Framing::default() });
+                        let _ = scene.frame(&Framing { side, up, ..Framing::default() });
                         let aspect = f64::from(size[0]) / f64::from(size[1]);
                         let corners = Bounds { min, max }.corners();
                         let seen = corners.map(|c| project(&scene.camera, aspect, c));
@@ -302,7 +372,7 @@ mod tests {
         let mut scene = boxed(DVec3::ZERO, DVec3::ONE);
         scene.objects[0].shape = Shape::Sphere { center: DVec3::ZERO, radius: 1.0 };
         scene.image.size = [1, 1];
-        scene.frame(&Framing { fov: Some(60.0), ..Framing::default() });
+        let _ = scene.frame(&Framing { fov: Some(60.0), ..Framing::default() });
         // Tangents from the eye leave at the angle whose sine is radius over distance.
         let half = libm::atan(libm::tan(30_f64.to_radians()) * FILL);
         assert!((scene.camera.eye.length() - 1.0 / libm::sin(half)).abs() < 1e-12);
@@ -315,7 +385,7 @@ mod tests {
         let mut nothing = boxed(point, point);
         nothing.objects.clear();
         for mut scene in [nothing, boxed(point, point)] {
-            scene.frame(&Framing::default());
+            let _ = scene.frame(&Framing::default());
             let Camera { eye, look_at, .. } = scene.camera;
             assert!(eye.is_finite() && eye.distance(look_at) > 1e-3, "{eye} {look_at}");
         }
@@ -324,7 +394,7 @@ mod tests {
     #[test]
     fn what_one_chooses_to_look_at_is_in_the_middle_and_everything_still_fits() {
         let mut scene = boxed(DVec3::ZERO, DVec3::ONE);
-        scene.frame(&Framing { look_at: Some(DVec3::ZERO), ..Framing::default() });
+        let _ = scene.frame(&Framing { look_at: Some(DVec3::ZERO), ..Framing::default() });
         assert_eq!(scene.camera.look_at, DVec3::ZERO);
         for corner in (Bounds { min: DVec3::ZERO, max: DVec3::ONE }).corners() {
             let (x, y) = project(&scene.camera, 16.0 / 9.0, corner);
@@ -344,7 +414,11 @@ mod tests {
     #[test]
     fn an_eye_of_ones_own_wins_and_looking_along_up_still_has_an_up() {
         let framing = Framing { eye: Some(DVec3::new(0.5, 9.0, 0.5)), ..Framing::default() };
-        let camera = boxed(DVec3::ZERO, DVec3::ONE).fit(&framing);
+        let camera = {
+            let mut scene = boxed(DVec3::ZERO, DVec3::ONE);
+            let _ = scene.frame(&framing);
+            scene.camera
+        };
         assert_eq!(camera.eye.y, 9.0);
         assert!((camera.look_at - camera.eye).cross(camera.up).length() > 0.1);
     }

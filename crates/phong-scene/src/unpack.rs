@@ -1,0 +1,109 @@
+//! Files that are packed with gzip, told by their content, read as if they were not.
+
+use std::fmt;
+use std::io::{self, Read};
+
+use flate2::read::MultiGzDecoder;
+
+use crate::limits::Limits;
+use crate::source::{Blob, Memory, Source};
+
+/// The most that a packed file may hold, whatever the limits say: few bytes may hold any number.
+const MOST: u64 = 8 << 30;
+
+/// A source whose packed files are read as what they hold.
+pub(crate) struct Unpacked<'a> {
+    source: &'a dyn Source,
+    most: u64,
+}
+
+impl<'a> Unpacked<'a> {
+    /// The files of a source; packed ones may hold as many bytes as the limits allow.
+    pub(crate) fn new(source: &'a dyn Source, limits: &Limits) -> Self {
+        Self { source, most: limits.bytes.min(MOST) }
+    }
+}
+
+impl fmt::Debug for Unpacked<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Unpacked").field("source", &self.source).finish_non_exhaustive()
+    }
+}
+
+impl Source for Unpacked<'_> {
+    fn open(&self, path: &str) -> io::Result<Box<dyn Blob>> {
+        let blob = self.source.open(path)?;
+        let mut head = [0; 3];
+        let read = blob.read_full(&mut head, 0)?;
+        // Of the ways to pack, only deflate was ever defined.
+        if !head[..read].starts_with(&[0x1f, 0x8b, 8]) {
+            return Ok(blob);
+        }
+        let mut bytes = Vec::new();
+        let packed = io::BufReader::with_capacity(1 << 16, Reader { blob: &*blob, at: 0 });
+        let mut unpacked = MultiGzDecoder::new(packed).take(self.most.saturating_add(1));
+        unpacked.read_to_end(&mut bytes).map_err(|error| {
+            let message = format!("it is packed, and cannot be unpacked: {error}");
+            io::Error::new(error.kind(), message)
+        })?;
+        if bytes.len() as u64 > self.most {
+            let message = format!("unpacked it takes more than {} bytes", self.most);
+            return Err(io::Error::new(io::ErrorKind::FileTooLarge, message));
+        }
+        Memory::new().with(path, bytes).open(path)
+    }
+}
+
+/// A blob, read from its beginning on.
+struct Reader<'a> {
+    blob: &'a dyn Blob,
+    at: u64,
+}
+
+impl Read for Reader<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let read = self.blob.read_at(buffer, self.at)?;
+        self.at += read as u64;
+        Ok(read)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Write;
+
+    use flate2::Compression;
+    use flate2::write::GzEncoder;
+
+    use super::*;
+
+    fn packed(bytes: &[u8]) -> Vec<u8> {
+        let mut encoder = GzEncoder::new(Vec::new(), Compression::fast());
+        encoder.write_all(bytes).expect("memory");
+        encoder.finish().expect("memory")
+    }
+
+    fn open(file: Vec<u8>, bytes: u64) -> io::Result<Vec<u8>> {
+        let files = Memory::new().with("a", file);
+        let blob = Unpacked::new(&files, &Limits { bytes, ..Limits::default() }).open("a")?;
+        let mut all = vec![0; blob.len() as usize];
+        blob.read_full(&mut all, 0)?;
+        Ok(all)
+    }
+
+    #[test]
+    fn a_packed_file_is_read_as_what_it_holds_and_any_other_as_it_is() {
+        let parts = [packed(b"one "), packed(b"two")].concat();
+        assert_eq!(open(parts, 100).expect("both"), b"one two");
+        assert_eq!(open(b"plain".to_vec(), 2).expect("plain"), b"plain");
+    }
+
+    #[test]
+    fn a_packed_file_that_holds_too_much_or_is_cut_short_is_refused() {
+        let zeros = packed(&vec![0; 1 << 20]);
+        let error = open(zeros.clone(), 1000).expect_err("too much").to_string();
+        assert!(error.contains("more than 1000 bytes"), "{error}");
+        let error = open(zeros[..zeros.len() / 2].to_vec(), 1 << 30).expect_err("cut");
+        assert!(error.to_string().contains("cannot be unpacked"), "{error}");
+    }
+}
