@@ -185,7 +185,7 @@ fn colours_are_written_as_they_were_read() {
         written.contains("property uchar red\n") && written.contains(" 255 0 9\n"),
         "{written}"
     );
-    let own = Points { colors: vec![Rgb::grey(0.3); 4], ..cloud };
+    let own = Points { colors: vec![Rgb::grey(0.3); 4].into(), ..cloud };
     let mut file = Vec::new();
     own.write_ply(phong_scene::PlyEncoding::Ascii, &mut file).expect("memory");
     let written = String::from_utf8(file).expect("text");

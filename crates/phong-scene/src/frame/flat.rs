@@ -117,9 +117,10 @@ mod tests {
     /// A plate of 20 by 10, turned.
     fn plate(turn: DQuat) -> Scene {
         let corner = |x: f64, y: f64| (turn * DVec3::new(x, y, 0.0)).as_vec3();
-        let positions: Vec<Vec3> =
-            vec![corner(-10.0, -5.0), corner(10.0, -5.0), corner(10.0, 5.0), corner(-10.0, 5.0)];
-        let mesh = Mesh { positions, indices: vec![[0, 1, 2], [0, 2, 3]], ..Mesh::default() };
+        let positions: [Vec3; 4] =
+            [corner(-10.0, -5.0), corner(10.0, -5.0), corner(10.0, 5.0), corner(-10.0, 5.0)];
+        let (positions, indices) = (positions.into(), [[0, 1, 2], [0, 2, 3]].into());
+        let mesh = Mesh { positions, indices, ..Mesh::default() };
         Scene { objects: vec![Object::from(mesh)], ..Scene::default() }
     }
 
