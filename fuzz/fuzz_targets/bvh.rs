@@ -9,7 +9,7 @@
 
 use glam::Vec3;
 use libfuzzer_sys::fuzz_target;
-use phong_bvh::{BuildOptions, Bvh, Primitives, Hit, Hits8, Level, Preset, Ray, Rays8, Sphere};
+use phong_bvh::{BuildOptions, World, Primitives, Hit, Hits8, Level, Preset, Ray, Rays8, Sphere};
 
 const PRESETS: &[Preset] = &[Preset::Fast, Preset::Balanced, Preset::Best, Preset::Compact];
 
@@ -95,7 +95,7 @@ fuzz_target!(|bytes: &[u8]| {
     for level in Level::ALL.into_iter().filter(|level| level.is_available()) {
         for &preset in presets {
             let options = BuildOptions { preset, level: Some(level) };
-            let bvh = Bvh::build(geometry.clone(), options).expect("few primitives, a known level");
+            let bvh = World::of(geometry.clone(), options).expect("few primitives, a known level");
             if expected.is_empty() {
                 expected = rays.iter().map(|ray| bvh.intersect_brute_force(ray)).collect();
             }

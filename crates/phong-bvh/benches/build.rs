@@ -30,7 +30,7 @@ use std::{
     time::Instant,
 };
 
-use phong_bvh::{BuildOptions, Bvh, Cost, Hit, Preset, Primitives, Ray};
+use phong_bvh::{BuildOptions, Cost, Hit, Hits8, Preset, Primitives, Ray, Rays8, World};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 #[path = "peers/clock.rs"]
@@ -197,9 +197,9 @@ impl Bench {
         let first = build(geometry.clone(), Preset::Balanced);
         let primary = rays::primary(geometry, 512);
         let mut hits = vec![Hit::NONE; primary.len()];
-        first.intersect_bundle(&primary, &mut hits);
+        rays::intersect(&first, &primary, &mut hits);
         let seen: Vec<(Ray, Hit)> = primary.into_iter().zip(hits).collect();
-        let others: Vec<Bvh> =
+        let others: Vec<World> =
             presets.iter().map(|&(_, preset)| build(geometry.clone(), preset)).collect();
         for rays in rays::NAMES {
             let set = rays::set(rays, &first, &seen, 1 << 17);
@@ -248,8 +248,8 @@ impl Bench {
     }
 }
 
-fn build(geometry: Primitives, preset: Preset) -> Bvh {
-    Bvh::build(vec![geometry], BuildOptions { preset, ..BuildOptions::default() })
+fn build(geometry: Primitives, preset: Preset) -> World {
+    World::of(vec![geometry], BuildOptions { preset, ..BuildOptions::default() })
         .expect("fewer than 2³² primitives")
 }
 
@@ -259,15 +259,16 @@ fn terrain(count: u32) -> Primitives {
 }
 
 /// CPU seconds for a set of rays, in bundles.
-fn trace(bvh: &Bvh, set: &rays::Set) -> f64 {
+fn trace(bvh: &World, set: &rays::Set) -> f64 {
     const BUNDLE: usize = 256;
-    let (mut hits, mut blocked) = ([Hit::NONE; BUNDLE], [false; BUNDLE]);
+    let (mut hits, mut blocked) = ([Hits8::NONE; BUNDLE / 8], [0; BUNDLE / 8]);
+    let bundles: Vec<_> = set.rays.chunks(BUNDLE).map(Rays8::of).collect();
     let work = || {
-        for rays in set.rays.chunks(BUNDLE) {
+        for rays in &bundles {
             if set.any {
-                bvh.occluded_bundle(rays, &mut blocked[..rays.len()]);
+                bvh.occluded_eights(rays, &mut blocked[..rays.len()]);
             } else {
-                bvh.intersect_bundle(rays, &mut hits[..rays.len()]);
+                bvh.intersect_eights(rays, &mut hits[..rays.len()]);
             }
         }
     };

@@ -16,7 +16,9 @@
 use std::{env, fs, hint::black_box, io, path::Path, process::Command, process::ExitCode};
 
 use glam::{DAffine3, DQuat, DVec3, Vec3, swizzles::Vec3Swizzles};
-use phong_bvh::{BuildOptions, Bvh, Canonical, Hit, Primitives, Ray, Solid, Sphere};
+use phong_bvh::{
+    BuildOptions, Canonical, Hit, Hits8, Primitives, Ray, Rays8, Solid, Sphere, World,
+};
 
 const CASES: [&str; 8] = [
     "triangles closest",
@@ -106,7 +108,7 @@ fn count(case: &str) -> io::Result<f64> {
 /// The work of one case, set up first.
 fn run(case: &str) {
     let (scene, what) = case.split_once(' ').unwrap_or((case, ""));
-    let bvh = Bvh::build(geometry(scene), BuildOptions::default()).expect("few primitives");
+    let bvh = World::of(geometry(scene), BuildOptions::default()).expect("few primitives");
     let rays: Vec<Ray> = (0..RAYS).map(ray).collect();
     let mut hits = vec![Hit::NONE; RAYS];
     match what {
@@ -120,9 +122,16 @@ fn run(case: &str) {
                 black_box(bvh.occluded(ray));
             }
         }),
-        "bundle" => measured(|| bvh.intersect_bundle(&rays, &mut hits)),
+        "bundle" => {
+            let eights = Rays8::of(&rays);
+            let mut hits = vec![Hits8::NONE; eights.len()];
+            measured(|| bvh.intersect_eights(&eights, &mut hits));
+            black_box(&hits);
+        }
         "surface" => {
-            bvh.intersect_bundle(&rays, &mut hits);
+            for (ray, hit) in rays.iter().zip(&mut hits) {
+                *hit = bvh.intersect(ray);
+            }
             let seen: Vec<(Ray, Hit)> =
                 rays.into_iter().zip(hits.clone()).filter(|(_, hit)| hit.is_some()).collect();
             measured(|| {

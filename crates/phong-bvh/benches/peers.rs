@@ -34,11 +34,12 @@
 
 use std::{
     env,
+    hint::black_box,
     path::{Path, PathBuf},
     process::ExitCode,
 };
 
-use phong_bvh::{BuildOptions, Bvh, Hit, Preset, Primitives, Ray};
+use phong_bvh::{BuildOptions, Hit, Hits8, Preset, Primitives, Ray, Rays8, World};
 
 #[path = "peers/clock.rs"]
 mod clock;
@@ -153,12 +154,12 @@ fn measure(name: &str, geometry: Primitives, embree: Option<&Embree>, options: &
     let scene = embree.map(|embree| embree.build(&arrays, Flavour::Default));
     let robust = embree.filter(|_| triangles).map(|embree| embree.build(&arrays, Flavour::Robust));
 
-    let primary = rays::primary(&bvh.geometry()[0], options.side());
+    let primary = rays::primary(bvh.primitives(0), options.side());
     let mut hits = vec![Hit::NONE; primary.len()];
     // Embree's own hits where there are any: the rays are then the same whatever becomes of ours.
     match &scene {
         Some(scene) => scene.intersect(Width::One, &primary, &mut hits),
-        None => bvh.intersect_bundle(&primary, &mut hits),
+        None => rays::intersect(&bvh, &primary, &mut hits),
     }
     let seen: Vec<(Ray, Hit)> = primary.into_iter().zip(hits).collect();
     for &rays in &options.rays {
@@ -168,8 +169,8 @@ fn measure(name: &str, geometry: Primitives, embree: Option<&Embree>, options: &
     }
 }
 
-fn build(geometry: Primitives, preset: Preset) -> Bvh {
-    Bvh::build(vec![geometry], BuildOptions { preset, ..BuildOptions::default() })
+fn build(geometry: Primitives, preset: Preset) -> World {
+    World::of(vec![geometry], BuildOptions { preset, ..BuildOptions::default() })
         .expect("fewer than 2³² primitives")
 }
 
@@ -202,7 +203,7 @@ fn compare_builds(
 struct Contest<'a> {
     name: &'a str,
     set: &'a Set,
-    bvh: &'a Bvh,
+    bvh: &'a World,
     bundle: usize,
 }
 
@@ -226,6 +227,7 @@ impl Contest<'_> {
         let count = self.set.rays.len();
         let room = || Answers { hits: vec![Hit::NONE; count], blocked: vec![false; count] };
         let (mut ours, mut theirs) = (room(), room());
+        let eights: Vec<_> = self.set.rays.chunks(self.bundle).map(Rays8::of).collect();
         let (mut single, mut bundle) = (f64::INFINITY, f64::INFINITY);
         let mut best = vec![f64::INFINITY; peers.len()];
         let mut differ = None;
@@ -244,7 +246,7 @@ impl Contest<'_> {
                     differ = Some(self.differ(&ours, &theirs));
                 }
             }
-            bundle = bundle.min(clock::thread(|| self.bundles(&mut ours)).0);
+            bundle = bundle.min(clock::thread(|| self.bundles(&eights)).0);
         }
         let (name, rays) = (self.name, self.set.name);
         let ns = |seconds: f64| 1e9 * seconds / count as f64;
@@ -274,16 +276,17 @@ impl Contest<'_> {
         }
     }
 
-    fn bundles(&self, answers: &mut Answers) {
-        let bundles = self.set.rays.chunks(self.bundle);
-        if self.set.any {
-            for (rays, blocked) in bundles.zip(answers.blocked.chunks_mut(self.bundle)) {
-                self.bvh.occluded_bundle(rays, blocked);
+    /// Bundles of rays that lie side by side already, as a renderer's do.
+    fn bundles(&self, eights: &[Vec<Rays8>]) {
+        let most = self.bundle.div_ceil(8);
+        let (mut hits, mut blocked) = (vec![Hits8::NONE; most], vec![0; most]);
+        for rays in eights {
+            if self.set.any {
+                self.bvh.occluded_eights(rays, &mut blocked[..rays.len()]);
+            } else {
+                self.bvh.intersect_eights(rays, &mut hits[..rays.len()]);
             }
-        } else {
-            for (rays, hits) in bundles.zip(answers.hits.chunks_mut(self.bundle)) {
-                self.bvh.intersect_bundle(rays, hits);
-            }
+            black_box((&hits, &blocked));
         }
     }
 
@@ -300,7 +303,7 @@ impl Contest<'_> {
 
     /// How many of some answers are right, ours and theirs.
     fn judged(&self, differing: &[(usize, [Answer; 2])]) -> String {
-        let geometry = &self.bvh.geometry()[0];
+        let geometry = self.bvh.primitives(0);
         if differing.is_empty() || !matches!(geometry, Primitives::Triangles { .. }) {
             return String::new();
         }

@@ -56,6 +56,19 @@ impl Primitives {
         }
     }
 
+    /// Bytes of the numbers that say where they are.
+    pub fn bytes(&self) -> u64 {
+        let bytes = match self {
+            Self::Triangles { positions, indices } => {
+                size_of_val(&positions[..]) + size_of_val(&indices[..])
+            }
+            Self::Spheres(spheres) => size_of_val(&spheres[..]),
+            Self::Plane(plane) => size_of_val(plane),
+            Self::Solid(solid) => size_of_val(solid),
+        };
+        bytes as u64
+    }
+
     /// Whether the batch holds no primitive.
     pub fn is_empty(&self) -> bool {
         self.len() == 0

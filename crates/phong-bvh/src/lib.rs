@@ -1,18 +1,20 @@
 //! Rays against primitives, eight at a time.
 //!
-//! The door is [`Bvh`]: build it from [`Primitives`], then ask [`Bvh::intersect`] (the closest hit)
-//! or [`Bvh::occluded`] (any hit), for one ray or a bundle. This crate knows no colours, no scene
-//! and no files, and never imports another crate of the project.
+//! The door is [`World`]: build it from [`Part`]s, which are [`Primitives`] written one by one or
+//! instances of a [`Tree`], then ask [`World::intersect`] (the closest hit) or [`World::occluded`] (any
+//! hit), for one ray or a bundle. This crate knows no colours, no scene and no files, and never imports
+//! another crate of the project.
 //!
 //! Results are the same bits on every SIMD level, for every build preset and thread count.
 
 mod aabb;
 mod build;
-mod bvh;
 mod eights;
+mod frame;
 mod geometry;
 pub mod lanes;
 mod level;
+mod local;
 mod node8;
 mod primitives;
 mod ray;
@@ -20,14 +22,18 @@ mod reference;
 mod simd;
 mod surface;
 mod traverse;
+mod tree;
 #[cfg(test)]
 mod validate;
+mod world;
 
 pub use aabb::Aabb;
-pub use bvh::{BuildError, BuildOptions, Bvh, Cost, Preset, Stats};
-pub use eights::{Hits8, Rays8, lanes};
+pub use build::{BuildError, BuildOptions, Preset};
+pub use eights::{Hits8, Rays8, halves, lanes, whole};
 pub use geometry::{Canonical, Plane, Primitives, Solid, Sphere};
 pub use lanes::Lanes;
 pub use level::{Kernel, Level};
-pub use ray::{Coordinates, Hit, Ray, Surface};
-pub use surface::{Surfaces8, offset_origin};
+pub use ray::{Coordinates, Cost, Hit, Ray, Surface};
+pub use surface::{Surfaces8, offset_origin, offset_origins};
+pub use tree::Tree;
+pub use world::{Part, Stats, World};

@@ -1,22 +1,22 @@
-//! Brute force over every primitive: the oracle of tests and fuzzing.
+//! Brute force over every primitive of a tree: the oracle of tests and fuzzing.
 //!
 //! It knows nothing of trees, boxes, blocks or levels, and shares the scalar test of each primitive
 //! with the kernels; so what the two return is equal bit for bit.
 
 use crate::{
-    Bvh, Hit, Primitives, Ray,
+    Primitives, Tree,
+    local::{Hit, Ray},
     primitives::{sphere, triangle},
     traverse::Best,
 };
 
-/// The closest hit over all primitives, by trying each.
-pub(crate) fn intersect(bvh: &Bvh, ray: &Ray) -> Hit {
+/// The closest hit over all primitives of a tree, by trying each; planes, which are in no tree, excepted.
+pub(crate) fn intersect(tree: &Tree, ray: &Ray) -> Hit {
     let shear = triangle::Shear::new(ray);
     let closest = sphere::Closest::new(ray);
     let mut best = Best::new(ray.t_max);
-    for (index, geometry) in bvh.geometry().iter().enumerate() {
-        let first = bvh.primitives(index).start;
-        match geometry {
+    for (batch, &first) in tree.batches().iter().zip(tree.first()) {
+        match batch {
             Primitives::Triangles { positions, indices } => {
                 for (prim, corners) in (first..).zip(&**indices) {
                     let corners = corners.map(|i| positions[i as usize]);
@@ -34,11 +34,7 @@ pub(crate) fn intersect(bvh: &Bvh, ray: &Ray) -> Hit {
                     }
                 }
             }
-            Primitives::Plane(plane) => {
-                if let Some(t) = plane.intersect(ray) {
-                    best.offer(t, first, 0.0, 0.0);
-                }
-            }
+            Primitives::Plane(_) => {}
             Primitives::Solid(solid) => {
                 if let Some(t) = solid.intersect(ray) {
                     best.offer(t, first, 0.0, 0.0);

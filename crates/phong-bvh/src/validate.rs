@@ -3,21 +3,21 @@
 use glam::Vec3;
 
 use crate::{
-    Aabb, Bvh, Primitives,
-    build::Tree,
+    Aabb, Primitives, Tree,
+    build::Nodes,
     node8::{Kind, NODE, REFS, Ref, Row, rows},
     primitives::{sphere, triangle},
 };
 
-/// What is wrong with the tree of `bvh`, or nothing.
-pub(crate) fn validate(bvh: &Bvh) -> Result<(), String> {
-    let mut seen = vec![false; bvh.stats().primitives as usize];
-    if let Some(root) = bvh.tree().root {
+/// What is wrong with a tree, or nothing.
+pub(crate) fn validate(tree: &Tree) -> Result<(), String> {
+    let mut seen = vec![false; tree.len() as usize];
+    if let Some(root) = tree.rows().root {
         let everything = Aabb { lo: Vec3::NEG_INFINITY, hi: Vec3::INFINITY };
-        visit(bvh, root, &everything, &mut seen)?;
+        visit(tree, root, &everything, &mut seen)?;
     }
-    for (index, geometry) in bvh.geometry().iter().enumerate() {
-        for (local, prim) in bvh.primitives(index).enumerate() {
+    for (index, geometry) in tree.batches().iter().enumerate() {
+        for (local, prim) in (tree.first()[index]..tree.first()[index + 1]).enumerate() {
             if seen[prim as usize] != belongs(geometry, local) {
                 return Err(format!(
                     "primitive {prim} of geometry {index} is missing or should be"
@@ -39,8 +39,8 @@ fn belongs(geometry: &Primitives, local: usize) -> bool {
     }
 }
 
-fn visit(bvh: &Bvh, at: Ref, bounds: &Aabb, seen: &mut [bool]) -> Result<(), String> {
-    let tree = bvh.tree().rows.as_slice();
+fn visit(tree: &Tree, at: Ref, bounds: &Aabb, seen: &mut [bool]) -> Result<(), String> {
+    let nodes = tree.rows().rows.as_slice();
     let mut found = |prim: u32, inside: Aabb| {
         if prim == u32::MAX {
             return Ok(());
@@ -52,20 +52,20 @@ fn visit(bvh: &Bvh, at: Ref, bounds: &Aabb, seen: &mut [bool]) -> Result<(), Str
     };
     match at.kind() {
         None => {
-            let node: &[Row; NODE] = rows(tree, at.row());
+            let node: &[Row; NODE] = rows(nodes, at.row());
             for child in 0..8 {
-                let inside = Tree::child_bounds(node, child);
+                let inside = Nodes::child_bounds(node, child);
                 if inside.is_empty() {
                     continue;
                 }
                 if !bounds.contains(&inside) {
                     return Err(format!("child {child} of the node at {} is outside", at.row()));
                 }
-                visit(bvh, Ref(node[REFS].bits(child)).from(at.row()), &inside, seen)?;
+                visit(tree, Ref(node[REFS].bits(child)).from(at.row()), &inside, seen)?;
             }
         }
         Some(Kind::Triangles) => {
-            let block = rows(tree, at.row());
+            let block = rows(nodes, at.row());
             for lane in 0..8 {
                 let [a, b, c] = triangle::corners(block, lane).map(Vec3::from);
                 let inside = Aabb { lo: a.min(b).min(c), hi: a.max(b).max(c) };
@@ -73,18 +73,18 @@ fn visit(bvh: &Bvh, at: Ref, bounds: &Aabb, seen: &mut [bool]) -> Result<(), Str
             }
         }
         Some(Kind::Indexed) => {
-            let [locals, geometries]: &[Row; 2] = rows(tree, at.row());
+            let [locals, geometries]: &[Row; 2] = rows(nodes, at.row());
             for lane in (0..8).filter(|&lane| locals.bits(lane) != u32::MAX) {
                 let (index, local) = (geometries.bits(lane) as usize, locals.bits(lane) as usize);
-                if let Primitives::Triangles { positions, indices } = &bvh.geometry()[index] {
+                if let Primitives::Triangles { positions, indices } = &tree.batches()[index] {
                     let [a, b, c] = indices[local].map(|i| positions[i as usize]);
                     let inside = Aabb { lo: a.min(b).min(c), hi: a.max(b).max(c) };
-                    found(bvh.primitives(index).start + local as u32, inside)?;
+                    found(tree.first()[index] + local as u32, inside)?;
                 }
             }
         }
         Some(Kind::Spheres) => {
-            let block: &[Row; sphere::BLOCK] = rows(tree, at.row());
+            let block: &[Row; sphere::BLOCK] = rows(nodes, at.row());
             for lane in 0..8 {
                 let [x, y, z, r] = [0, 1, 2, 3].map(|row| block[row].0[lane]);
                 let (center, radius) = (Vec3::new(x, y, z), Vec3::splat(r));
@@ -93,8 +93,8 @@ fn visit(bvh: &Bvh, at: Ref, bounds: &Aabb, seen: &mut [bool]) -> Result<(), Str
             }
         }
         Some(Kind::Solid) => {
-            let row = tree[at.row()];
-            if let Primitives::Solid(solid) = &bvh.geometry()[row.bits(1) as usize] {
+            let row = nodes[at.row()];
+            if let Primitives::Solid(solid) = &tree.batches()[row.bits(1) as usize] {
                 let [lo, hi] = solid.bounds();
                 found(row.bits(0), Aabb { lo, hi })?;
             }
@@ -125,8 +125,8 @@ mod tests {
         ];
         for preset in [Preset::Fast, Preset::Balanced, Preset::Best, Preset::Compact] {
             let options = BuildOptions { preset, level: None };
-            let bvh = Bvh::build(geometry.clone(), options).unwrap();
-            assert_eq!(validate(&bvh), Ok(()), "{preset:?}");
+            let tree = Tree::of(geometry.clone(), options).unwrap();
+            assert_eq!(validate(&tree), Ok(()), "{preset:?}");
         }
     }
 }

@@ -3,8 +3,8 @@
 
 use glam::{DAffine3, DVec3, Vec3};
 use phong_bvh::{
-    BuildOptions, Bvh, Canonical, Hit, Hits8, Level, Plane, Preset, Primitives, Ray, Rays8, Solid,
-    Sphere,
+    BuildOptions, Canonical, Hit, Hits8, Level, Plane, Preset, Primitives, Ray, Rays8, Solid,
+    Sphere, World,
 };
 use proptest::prelude::*;
 
@@ -126,8 +126,8 @@ fn ray(numbers: &mut Numbers, geometry: &[Primitives]) -> Ray {
     ray
 }
 
-fn bits(hit: Hit) -> [u32; 4] {
-    [hit.t.to_bits(), hit.prim, hit.u.to_bits(), hit.v.to_bits()]
+fn bits(hit: Hit) -> [u32; 5] {
+    [hit.t.to_bits(), hit.part, hit.prim, hit.u.to_bits(), hit.v.to_bits()]
 }
 
 fn levels() -> impl Iterator<Item = Level> {
@@ -143,13 +143,9 @@ fn agrees_with_brute_force(geometry: &[Primitives], rays: &[Ray]) {
         .chain(PRESETS.iter().map(|preset| (Level::detect(), preset)))
     {
         let options = BuildOptions { preset: *preset, level: Some(level) };
-        let bvh = Bvh::build(geometry.to_vec(), options).expect("a tree");
+        let bvh = World::of(geometry.to_vec(), options).expect("a tree");
         let expected = expected
             .get_or_insert_with(|| rays.iter().map(|r| bvh.intersect_brute_force(r)).collect());
-        let mut hits = vec![Hit::NONE; rays.len()];
-        let mut blocked = vec![false; rays.len()];
-        bvh.intersect_bundle(rays, &mut hits);
-        bvh.occluded_bundle(rays, &mut blocked);
         let mut eights = Rays8::of(rays);
         // A gap in each.
         for rays in &mut eights {
@@ -162,10 +158,8 @@ fn agrees_with_brute_force(geometry: &[Primitives], rays: &[Ray]) {
         for (i, (ray, want)) in rays.iter().zip(expected).enumerate() {
             let one = bvh.intersect(ray);
             assert_eq!(bits(one), bits(*want), "{ray:?} {one:?} {want:?} {options:?}");
-            assert_eq!(bits(hits[i]), bits(*want), "bundle: {ray:?} {options:?}");
             assert_eq!(bits(bvh.intersect_counted(ray).0), bits(*want), "counted");
             assert_eq!(bvh.occluded(ray), want.is_some(), "occluded: {ray:?} {options:?}");
-            assert_eq!(blocked[i], want.is_some(), "occluded bundle: {ray:?} {options:?}");
             let want = if i % 8 == 2 { Hit::NONE } else { *want };
             assert_eq!(bits(hits8[i / 8].get(i % 8)), bits(want), "eights: {ray:?} {options:?}");
             let blocked = blocked8[i / 8] >> (i % 8) & 1 != 0;
@@ -217,7 +211,7 @@ proptest! {
         let same_origin = numbers.below(2) == 0;
         let rays: Vec<Ray> = (0..256).map(|_| {
             let dir = (first.dir + spread * numbers.point()).try_normalize().unwrap_or(Vec3::Y);
-            let away = spread * numbers.point();
+            let away = (spread * numbers.point()).as_dvec3();
             let origin = if same_origin { first.origin } else { first.origin + away };
             Ray { origin, dir, ..first }
         }).collect();
@@ -232,8 +226,8 @@ proptest! {
         let length = [0.5, 3.0, 200.0][numbers.below(3)];
         let light = first.at(length);
         let rays: Vec<Ray> = (0..200).map(|_| {
-            let origin = first.origin + length * spread * numbers.point();
-            let (dir, length) = (light - origin).normalize_and_length();
+            let origin = first.origin + (length * spread * numbers.point()).as_dvec3();
+            let (dir, length) = (light - origin).as_vec3().normalize_and_length();
             let dir = if length > 0.0 { dir } else { first.dir };
             Ray { t_max: length * 0.999, ..Ray::new(origin, dir) }
         }).collect();
@@ -251,7 +245,7 @@ fn nothing_is_hit_where_there_is_nothing() {
         vec![Primitives::triangles(vec![], vec![])],
         vec![flat],
     ] {
-        let bvh = Bvh::build(geometry, BuildOptions::default()).unwrap();
+        let bvh = World::of(geometry, BuildOptions::default()).unwrap();
         assert_eq!(bvh.intersect(&ray), Hit::NONE);
         assert!(!bvh.occluded(&ray));
     }
@@ -266,7 +260,7 @@ fn of_thousands_of_coincident_primitives_the_lowest_number_is_hit() {
     let geometry = vec![Primitives::spheres(spheres), Primitives::triangles(corners, indices)];
     let ray = Ray::new(Vec3::ZERO, Vec3::Z);
     for preset in PRESETS {
-        let bvh = Bvh::build(geometry.clone(), BuildOptions { preset, level: None }).unwrap();
+        let bvh = World::of(geometry.clone(), BuildOptions { preset, level: None }).unwrap();
         let hit = bvh.intersect(&ray);
         assert_eq!((hit.t, hit.prim), (2.0, 0), "sphere and triangle at one distance");
         assert!(bvh.occluded(&ray));
@@ -301,7 +295,7 @@ fn a_tree_does_not_depend_on_the_number_of_threads() {
     let costs = [1, 2, 7].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let geometry = vec![Primitives::spheres(spheres.clone())];
-        let bvh = pool.install(|| Bvh::build(geometry, BuildOptions::default())).unwrap();
+        let bvh = pool.install(|| World::of(geometry, BuildOptions::default())).unwrap();
         let counted: Vec<_> = rays.iter().map(|ray| bvh.intersect_counted(ray)).collect();
         (bvh.stats(), counted)
     });
@@ -321,7 +315,7 @@ fn a_hundred_thousand_primitives_in_order_are_all_found() {
     let geometry = vec![Primitives::spheres(spheres)];
     for preset in [Preset::Fast, Preset::Balanced] {
         let options = BuildOptions { preset, level: None };
-        let bvh = Bvh::build(geometry.clone(), options).expect("few primitives");
+        let bvh = World::of(geometry.clone(), options).expect("few primitives");
         for i in 0..count {
             let ray = Ray::new(place(i) + Vec3::Z, Vec3::NEG_Z);
             assert_eq!(bvh.intersect(&ray).prim, i as u32, "{preset:?}");
@@ -347,7 +341,7 @@ fn no_ray_slips_between_the_triangles_of_a_closed_mesh() {
     let positions: Vec<Vec3> = triangles.iter().flatten().copied().collect();
     let indices: Vec<[u32; 3]> =
         (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-    let bvh = Bvh::build(vec![Primitives::triangles(positions, indices)], BuildOptions::default())
+    let bvh = World::of(vec![Primitives::triangles(positions, indices)], BuildOptions::default())
         .unwrap();
     for origin in [Vec3::ZERO, Vec3::new(0.1, 0.2, -0.3), Vec3::new(0.0, 0.5, 0.0)] {
         for [a, b, c] in &triangles {
@@ -372,6 +366,6 @@ fn few_rays_ask_for_a_tree_that_is_soon_built_and_many_for_a_better_one() {
 fn a_level_this_machine_lacks_is_an_error() {
     let missing = Level::ALL.into_iter().find(|level| !level.is_available()).unwrap();
     let options = BuildOptions { level: Some(missing), ..BuildOptions::default() };
-    let error = Bvh::build(vec![], options).unwrap_err();
+    let error = World::of(vec![], options).unwrap_err();
     assert!(error.to_string().contains("leave the level out"), "{error}");
 }

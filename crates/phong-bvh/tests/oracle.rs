@@ -14,7 +14,7 @@
 //! Every other answer is held to these bounds, and enough cases must lie outside of the doubt.
 
 use glam::{DVec3, Vec3};
-use phong_bvh::{BuildOptions, Bvh, Hit, Primitives, Ray, Sphere};
+use phong_bvh::{BuildOptions, Hit, Primitives, Ray, Sphere, World};
 
 const U: f64 = 1.0 / 16_777_216.0;
 
@@ -62,7 +62,7 @@ fn within(ray: &Ray, t: f64, bound: f64) -> Verdict {
 }
 
 fn triangle(ray: &Ray, corners: [Vec3; 3]) -> Verdict {
-    let (o, d) = (ray.origin.as_dvec3(), ray.dir.as_dvec3());
+    let (o, d) = (ray.origin, ray.dir.as_dvec3());
     let [a, b, c] = corners.map(|v| v.as_dvec3() - o);
     let far = a.abs().max(b.abs()).max(c.abs()).max_element();
     let off = 8.0 * U * far;
@@ -87,7 +87,7 @@ fn triangle(ray: &Ray, corners: [Vec3; 3]) -> Verdict {
 
 fn sphere(ray: &Ray, sphere: &Sphere) -> Verdict {
     let d = ray.dir.as_dvec3();
-    let c = sphere.center.as_dvec3() - ray.origin.as_dvec3();
+    let c = sphere.center.as_dvec3() - ray.origin;
     let r = f64::from(sphere.radius);
     let middle = c.dot(d) / d.dot(d);
     let q = (c - middle * d).length();
@@ -137,8 +137,8 @@ fn ray(random: &mut Random, target: DVec3, dir: DVec3, size: f64) -> Ray {
     ray
 }
 
-fn bvh(geometry: Primitives) -> Bvh {
-    Bvh::build(vec![geometry], BuildOptions::default()).expect("one primitive")
+fn bvh(geometry: Primitives) -> World {
+    World::of(vec![geometry], BuildOptions::default()).expect("one primitive")
 }
 
 #[test]

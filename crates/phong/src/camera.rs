@@ -3,12 +3,12 @@
 use fearless_simd::{Simd, f32x8, f64x4, prelude::*};
 use glam::{DVec2, DVec3, Vec3};
 use phong_bvh::lanes::splat3;
-use phong_bvh::{Lanes, Ray, Rays8};
+use phong_bvh::{Lanes, Ray, Rays8, whole};
 use phong_scene::CameraKind;
 
 use crate::math::{Dir3, wide};
 
-/// A camera set up in f64, in the compiled scene's space.
+/// A camera set up in f64, in the world.
 #[derive(Clone, Debug)]
 pub struct Camera {
     kind: CameraKind,
@@ -23,8 +23,8 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// Sets a camera up, everything moved by `−center`.
-    pub fn new(camera: &phong_scene::Camera, center: DVec3) -> Self {
+    /// Sets a camera up.
+    pub fn new(camera: &phong_scene::Camera) -> Self {
         let view = camera.look_at - camera.eye;
         let forward = view.normalize_or(-DVec3::Z);
         let right = forward.cross(camera.up).normalize_or(forward.any_orthonormal_vector());
@@ -36,7 +36,7 @@ impl Camera {
         };
         Self {
             kind: camera.kind,
-            eye: camera.eye - center,
+            eye: camera.eye,
             right,
             up: right.cross(forward),
             forward,
@@ -72,8 +72,8 @@ impl Camera {
             CameraKind::Perspective { .. } | CameraKind::Orthographic { .. } => {
                 let lens = self.has_lens().then(|| disc(lens.map(f64::from)));
                 let [origin, dir] = self.flat(place.to_array(), size, lens);
-                let narrow = |v: [f64; 3]| DVec3::from_array(v).as_vec3();
-                return Some(Ray::new(narrow(origin), narrow(dir)));
+                let dir = DVec3::from_array(dir).as_vec3();
+                return Some(Ray::new(DVec3::from_array(origin), dir));
             }
             CameraKind::Fisheye { .. } => {
                 let [x, y] = from_the_middle(place.to_array(), width, height);
@@ -83,7 +83,7 @@ impl Camera {
             }
             CameraKind::Panorama => self.panorama(place.x / width - 0.5, 0.5 - place.y / height),
         };
-        Some(Ray::new(self.eye.as_vec3(), dir.normalize_or(self.forward).as_vec3()))
+        Some(Ray::new(self.eye, dir.normalize_or(self.forward).as_vec3()))
     }
 
     /// Whether [`Camera::flat_rays`] draws its rays.
@@ -109,9 +109,9 @@ impl Camera {
         let [high_o, high] = self.flat([x[1], y[1]], size, high_lens);
         Rays8 {
             origin: [
-                low_o[0].narrow(high_o[0]).into(),
-                low_o[1].narrow(high_o[1]).into(),
-                low_o[2].narrow(high_o[2]).into(),
+                whole(low_o[0], high_o[0]),
+                whole(low_o[1], high_o[1]),
+                whole(low_o[2], high_o[2]),
             ],
             dir: [
                 low[0].narrow(high[0]).into(),
@@ -226,7 +226,7 @@ mod tests {
     }
 
     fn dir(kind: CameraKind, x: f64, y: f64) -> Vec3 {
-        let camera = Camera::new(&camera(kind), DVec3::ZERO);
+        let camera = Camera::new(&camera(kind));
         camera.ray(DVec2::new(x, y), SIZE, MIDDLE).unwrap().dir
     }
 
@@ -250,7 +250,7 @@ mod tests {
         for (kind, aperture) in kinds.into_iter().flat_map(|kind| [(kind, 0.0), (kind, 0.3)]) {
             let eye = DVec3::new(1.0, 2.5, 8.1);
             let camera = phong_scene::Camera { eye, aperture, ..camera(kind) };
-            let camera = Camera::new(&camera, DVec3::new(0.25, 0.0, 0.0));
+            let camera = Camera::new(&camera);
             for i in 0..6 {
                 let place = |lane: usize| DVec2::new(0.93, 0.41) * (8 * i + lane) as f64;
                 let column = |axis: usize, from: usize| -> f64x4<_> {
@@ -297,16 +297,16 @@ mod tests {
 
     #[test]
     fn orthographic_rays_are_parallel_and_span_the_height() {
-        let camera = Camera::new(&camera(CameraKind::Orthographic { height: 4.0 }), DVec3::ZERO);
+        let camera = Camera::new(&camera(CameraKind::Orthographic { height: 4.0 }));
         let ray = camera.ray(DVec2::new(20.0, 0.0), SIZE, MIDDLE).unwrap();
-        assert_eq!((ray.origin, ray.dir), (Vec3::new(0.0, 2.0, 5.0), -Vec3::Z));
+        assert_eq!((ray.origin, ray.dir), (DVec3::new(0.0, 2.0, 5.0), -Vec3::Z));
     }
 
     #[test]
     fn the_image_circle_touches_the_nearer_edges() {
         let d = dir(CameraKind::Fisheye { fov: 180.0 }, 30.0, 10.0);
         assert!((d - Vec3::X).length() < 1e-6, "90° off at the circle's edge");
-        let camera = Camera::new(&camera(CameraKind::Fisheye { fov: 180.0 }), DVec3::ZERO);
+        let camera = Camera::new(&camera(CameraKind::Fisheye { fov: 180.0 }));
         assert!(camera.ray(DVec2::new(30.1, 10.0), SIZE, MIDDLE).is_none());
     }
 
@@ -324,10 +324,10 @@ mod tests {
             focus: Some(3.0),
             ..camera(CameraKind::Perspective { fov: 40.0 })
         };
-        let camera = Camera::new(&lens, DVec3::ZERO);
+        let camera = Camera::new(&lens);
         let at_focus = |lens| {
             let ray = camera.ray(DVec2::new(7.0, 3.0), SIZE, lens).unwrap();
-            ray.at((2.0 - ray.origin.z) / ray.dir.z)
+            ray.at((2.0 - ray.origin.z) as f32 / ray.dir.z)
         };
         let sharp = at_focus(MIDDLE);
         for lens in [[0.0, 0.0], [0.9, 0.2], [0.5, 0.99]] {

@@ -1,6 +1,6 @@
 //! Where a ray met a surface: all that shading needs to know.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use phong_bvh::{Hit, Ray, offset_origin};
 use phong_scene::Rgb;
 
@@ -13,9 +13,10 @@ pub struct SurfaceInteraction {
     pub hit: Hit,
     /// Number of the material, from 0.
     pub material: u32,
-    /// The point, in the compiled scene's space (the world moved by its centre).
-    pub p: Vec3,
-    /// Bound on the error of each coordinate of `p`.
+    /// The point, in the world.
+    pub p: DVec3,
+    /// Bound on the error of each coordinate of `p`, and on what is lost where a ray that starts there
+    /// meets the same object again.
     pub p_error: Vec3,
     /// Geometric normal as the surface has it: outwards, whichever side the ray comes from.
     pub ng: Dir3,

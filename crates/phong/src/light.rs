@@ -2,14 +2,15 @@
 
 use fearless_simd::{Simd, f32x8, prelude::*};
 use glam::{DVec3, Vec3};
-use phong_bvh::Lanes;
+use phong_bvh::lanes::sub;
+use phong_bvh::{Lanes, halves};
 use phong_scene::{LightKind, Rgb};
 
 use crate::camera::{disc, disc4};
 use crate::math::lanes::{add, dot, normalize, scale, select3, splat3};
 use crate::math::{Dir3, wide};
 
-/// A light in the compiled scene's space.
+/// A light in the world.
 #[derive(Clone, Debug)]
 pub struct Light {
     kind: Kind,
@@ -24,7 +25,7 @@ pub struct Light {
 #[derive(Clone, Debug)]
 enum Kind {
     Distant { to_light: Dir3, half_angle_tan: f32 },
-    Point { position: Vec3, attenuation: [f32; 3], radius: f32, cone: Option<Cone> },
+    Point { position: DVec3, attenuation: [f32; 3], radius: f32, cone: Option<Cone> },
 }
 
 #[derive(Clone, Debug)]
@@ -61,7 +62,7 @@ pub(crate) struct Reach<L, F> {
 }
 
 impl Light {
-    /// A light moved by `−center`.
+    /// A light; where it is, is rounded to f32 about `center`.
     pub fn new(light: &phong_scene::Light, center: DVec3) -> Self {
         let (kind, size) = match light.kind {
             LightKind::Distant { direction, angle } => {
@@ -70,13 +71,13 @@ impl Light {
                 (Kind::Distant { to_light, half_angle_tan }, angle)
             }
             LightKind::Point { position, attenuation, radius } => {
-                (point(position - center, attenuation, radius, None), radius)
+                (point(about(position, center), attenuation, radius, None), radius)
             }
             LightKind::Spot { position, target, cone, edge, attenuation, radius } => {
                 let axis = Dir3::from_unit((target - position).normalize_or(-DVec3::Y).as_vec3());
                 let [full, none] = [cone, edge].map(|a| wide::cos(a.to_radians()) as f32);
                 let cone = Cone { axis, full, none };
-                (point(position - center, attenuation, radius, Some(cone)), radius)
+                (point(about(position, center), attenuation, radius, Some(cone)), radius)
             }
         };
         Self {
@@ -90,7 +91,7 @@ impl Light {
 
     /// What it sends to `p`. `place` in [0, 1)² picks a point of a soft light, (½, ½) its centre.
     /// `None` if `p` is where the light is.
-    pub fn sample(&self, p: Vec3, place: [f32; 2]) -> Option<LightSample> {
+    pub fn sample(&self, p: DVec3, place: [f32; 2]) -> Option<LightSample> {
         self.reach(p, place).map(|reach| self.colored(reach))
     }
 
@@ -101,9 +102,10 @@ impl Light {
     }
 
     /// How it reaches `p`, as [`Light::sample`] has it.
-    pub(crate) fn reach(&self, p: Vec3, place: [f32; 2]) -> Option<Reach<Dir3, f32>> {
+    pub(crate) fn reach(&self, p: DVec3, place: [f32; 2]) -> Option<Reach<Dir3, f32>> {
         let place = self.soft.then(|| disc(place.map(f64::from)).map(|v| v as f32));
-        let Reach { l, distance, share } = self.arrive(p.to_array(), place);
+        let Reach { l, distance, share } =
+            self.arrive(self.toward(p.to_array()).map(|v| v as f32), place);
         (l != [0.0; 3]).then(|| Reach { l: Dir3::from_unit(Vec3::from(l)), distance, share })
     }
 
@@ -113,7 +115,7 @@ impl Light {
     pub(crate) fn reach8<S: Simd>(
         &self,
         simd: S,
-        p: [f32x8<S>; 3],
+        p: &[[f64; 8]; 3],
         place: Option<&[[f32; 8]; 2]>,
     ) -> Reach<[f32x8<S>; 3], f32x8<S>> {
         let place = match place {
@@ -123,15 +125,33 @@ impl Light {
             }
             None => None,
         };
-        self.arrive(p, place)
+        let ([x, x_high], [y, y_high], [z, z_high]) =
+            (halves(simd, &p[0]), halves(simd, &p[1]), halves(simd, &p[2]));
+        let (low, high) = (self.toward([x, y, z]), self.toward([x_high, y_high, z_high]));
+        let toward = [low[0].narrow(high[0]), low[1].narrow(high[1]), low[2].narrow(high[2])];
+        self.arrive(toward, place)
     }
 
-    /// How it reaches one point, or eight; `l` is 0 where the light is. `place`: of a soft light, a
-    /// point of the unit disc.
+    /// The way from one point, or several, to where the light is; of a distant one unspecified.
     #[inline(always)]
-    fn arrive<F: Lanes<Scalar = f32>>(&self, p: [F; 3], place: Option<[F; 2]>) -> Reach<[F; 3], F> {
-        let like = |v: f32| p[0].splat(v);
-        let all = |v: [f32; 3]| splat3(p[0], v);
+    fn toward<F: Lanes<Scalar = f64>>(&self, p: [F; 3]) -> [F; 3] {
+        match self.kind {
+            Kind::Distant { .. } => p,
+            Kind::Point { position, .. } => sub(splat3(p[0], position.to_array()), p),
+        }
+    }
+
+    /// How it reaches one point, or eight, given the way to where the light is; `l` is 0 where the light
+    /// is. `place`: of a soft light, a point of the unit disc.
+    #[inline(always)]
+    fn arrive<F: Lanes<Scalar = f32>>(
+        &self,
+        mut toward: [F; 3],
+        place: Option<[F; 2]>,
+    ) -> Reach<[F; 3], F> {
+        let width = toward[0];
+        let like = |v: f32| width.splat(v);
+        let all = |v: [f32; 3]| splat3(width, v);
         match &self.kind {
             Kind::Distant { to_light, half_angle_tan } => {
                 let mut l = all(to_light.to_array());
@@ -140,9 +160,7 @@ impl Light {
                 }
                 Reach { l, distance: like(f32::INFINITY), share: like(1.0) }
             }
-            Kind::Point { position, attenuation, radius, cone } => {
-                let [x, y, z] = all(position.to_array());
-                let mut toward = [x - p[0], y - p[1], z - p[2]];
+            Kind::Point { attenuation, radius, cone, .. } => {
                 if let Some(place) = place {
                     let axis = normalize(toward);
                     let aside = across(like(*radius), axis, place);
@@ -197,9 +215,14 @@ impl Cone {
     }
 }
 
+/// A place rounded to f32 about `center`: in scenes about the origin a number of f32.
+fn about(position: DVec3, center: DVec3) -> DVec3 {
+    (position - center).as_vec3().as_dvec3() + center
+}
+
 fn point(position: DVec3, attenuation: [f64; 3], radius: f64, cone: Option<Cone>) -> Kind {
     Kind::Point {
-        position: position.as_vec3(),
+        position,
         attenuation: attenuation.map(|a| a as f32),
         radius: radius as f32,
         cone,
@@ -223,7 +246,6 @@ fn across<F: Lanes<Scalar = f32>>(radius: F, [x, y, z]: [F; 3], [u, v]: [F; 2]) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::lanes::{Lanes3, load3};
     use phong_scene::Place;
 
     const MIDDLE: [f32; 2] = [0.5, 0.5];
@@ -243,19 +265,19 @@ mod tests {
     #[test]
     fn a_distant_light_is_looked_for_against_the_way_it_travels() {
         let sun = light(LightKind::Distant { direction: DVec3::new(0.0, -3.0, 0.0), angle: 0.0 });
-        let a = sun.sample(Vec3::ZERO, MIDDLE).unwrap();
+        let a = sun.sample(DVec3::ZERO, MIDDLE).unwrap();
         assert_eq!((a.l, a.distance, a.color), (Dir3::Y, f32::INFINITY, Rgb::grey(2.0)));
-        assert_eq!(sun.sample(Vec3::splat(7.0), MIDDLE), Some(a), "the same everywhere");
+        assert_eq!(sun.sample(DVec3::splat(7.0), MIDDLE), Some(a), "the same everywhere");
     }
 
     #[test]
     fn a_point_light_is_divided_by_its_attenuation() {
         let position = DVec3::new(0.0, 3.0, 0.0);
         let lamp = light(LightKind::Point { position, attenuation: [1.0, 2.0, 3.0], radius: 0.0 });
-        let sample = lamp.sample(Vec3::new(0.0, 1.0, 0.0), MIDDLE).unwrap();
+        let sample = lamp.sample(DVec3::new(0.0, 1.0, 0.0), MIDDLE).unwrap();
         assert_eq!((sample.l, sample.distance), (Dir3::Y, 2.0));
         assert_eq!(sample.color, Rgb::grey(2.0) * (1.0 / 17.0));
-        assert_eq!(lamp.sample(Vec3::new(0.0, 3.0, 0.0), MIDDLE), None, "at the light itself");
+        assert_eq!(lamp.sample(DVec3::new(0.0, 3.0, 0.0), MIDDLE), None, "at the light itself");
     }
 
     #[test]
@@ -283,14 +305,14 @@ mod tests {
             // The last one is where the lamp is.
             let lamp = position.as_vec3();
             let at = |i: usize| if i == 7 { lamp } else { Vec3::new(x(i, 0), x(i, 1), x(i, 2)) };
-            let p: Lanes3 = std::array::from_fn(|k| std::array::from_fn(|i| at(i)[k]));
+            let p = std::array::from_fn(|k| std::array::from_fn(|i| at(i)[k].into()));
             let place = |i: usize| [0.1 * i as f32, 0.93 - 0.12 * i as f32];
             let places = [0, 1].map(|k| std::array::from_fn(|i| place(i)[k]));
-            let eight = light.reach8(simd, load3(simd, &p), light.soft.then_some(&places));
+            let eight = light.reach8(simd, &p, light.soft.then_some(&places));
             for i in 0..8 {
                 let at = at(i);
                 let l = [eight.l[0][i], eight.l[1][i], eight.l[2][i]];
-                match light.reach(at, place(i)) {
+                match light.reach(at.as_dvec3(), place(i)) {
                     Some(one) => {
                         assert_eq!(l, one.l.to_array());
                         let eight = [eight.distance[i], eight.share[i]];
@@ -314,7 +336,7 @@ mod tests {
         });
         let at = |degrees: f64| {
             let x = wide::tan(degrees.to_radians()) as f32;
-            spot.sample(Vec3::new(x, 0.0, 0.0), MIDDLE).unwrap().specular_color.r
+            spot.sample(DVec3::new(x.into(), 0.0, 0.0), MIDDLE).unwrap().specular_color.r
         };
         assert_eq!((at(0.0), at(19.9), at(40.1)), (1.0, 1.0, 0.0));
         // Half way between the cosines smoothstep is a half.
@@ -329,8 +351,8 @@ mod tests {
     fn a_soft_light_is_sampled_over_its_disc() {
         let position = DVec3::new(0.0, 4.0, 0.0);
         let lamp = light(LightKind::Point { position, attenuation: [1.0, 0.0, 0.0], radius: 1.0 });
-        assert_eq!(lamp.sample(Vec3::ZERO, MIDDLE).unwrap().l, Dir3::Y);
-        let rim = lamp.sample(Vec3::ZERO, [0.0, 0.5]).unwrap();
+        assert_eq!(lamp.sample(DVec3::ZERO, MIDDLE).unwrap().l, Dir3::Y);
+        let rim = lamp.sample(DVec3::ZERO, [0.0, 0.5]).unwrap();
         let sin = (1.0 - rim.l.dot(Dir3::Y) * rim.l.dot(Dir3::Y)).sqrt();
         assert!((sin - 1.0 / 17.0_f32.sqrt()).abs() < 1e-6, "a unit off at a distance of four");
     }

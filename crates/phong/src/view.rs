@@ -4,8 +4,7 @@ mod shading;
 
 use std::sync::Arc;
 
-use glam::{DVec3, Vec3};
-use phong_bvh::{Bvh, Coordinates, Hit, Ray, Surface};
+use phong_bvh::{Coordinates, Hit, Ray, Surface, World};
 use phong_scene::{Background, Diagnostic, Rgb, Scene};
 use thiserror::Error;
 
@@ -79,7 +78,7 @@ impl View {
             return Err(ViewError::NoMaterial { number: geometry.materials() - 1, count });
         }
         let center = geometry.center();
-        let camera = Camera::new(&look.camera, center);
+        let camera = Camera::new(&look.camera);
         let viewer = camera.backward();
         let lights: Vec<_> = look.lights.iter().map(|light| Light::new(light, center)).collect();
         let materials: Vec<_> = look.materials.iter().map(|m| Material::new(m, viewer)).collect();
@@ -109,16 +108,6 @@ impl View {
     #[inline]
     pub fn camera(&self) -> &Camera {
         &self.camera
-    }
-
-    /// What was taken off every coordinate: world = view + this.
-    pub fn center(&self) -> DVec3 {
-        self.geometry.center()
-    }
-
-    /// A point of the view's space, in the world.
-    pub fn to_world(&self, p: Vec3) -> DVec3 {
-        self.geometry.to_world(p)
     }
 
     /// The ambient light.
@@ -175,21 +164,24 @@ impl View {
         self.geometry.objects()
     }
 
-    /// The hierarchy.
+    /// What rays meet.
     #[inline]
-    pub fn bvh(&self) -> &Bvh {
-        self.geometry.bvh()
+    pub fn world(&self) -> &World {
+        self.geometry.world()
     }
 
-    /// The number of a primitive within its object, from 0: a mesh's face, a point of a cloud.
+    /// The number of the primitive hit within its object, from 0: a mesh's face, a point of a cloud.
     /// `None` for objects that are one primitive.
-    pub fn element(&self, prim: u32) -> Option<u32> {
-        self.geometry.element(prim)
+    pub fn element(&self, hit: &Hit) -> Option<u32> {
+        self.geometry.element(hit)
     }
 
-    /// The number of the object that a primitive belongs to, from 0.
-    pub fn object(&self, prim: u32) -> u32 {
-        self.geometry.object(prim)
+    /// The number of the object hit, from 0.
+    ///
+    /// # Panics
+    /// If `hit` is none.
+    pub fn object(&self, hit: &Hit) -> u32 {
+        self.geometry.object(hit)
     }
 
     /// Where on its surface a hit of `ray` is: a mesh's own texture coordinates, if it has some.
@@ -205,7 +197,7 @@ impl View {
     /// # Panics
     /// If `hit` is none.
     pub fn interaction(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
-        let Surface { p, p_error, ng } = self.bvh().surface(ray, hit);
+        let Surface { p, p_error, ng } = self.world().surface(ray, hit);
         let (ng, e) = (Dir3::from_unit(ng), -Dir3::from_unit(ray.dir));
         let Shading { n, material, color } = self.shading(hit, ng, e);
         SurfaceInteraction { hit: *hit, material, p, p_error, ng, n, e, color }

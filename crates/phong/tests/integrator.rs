@@ -362,7 +362,7 @@ fn the_grain_of_a_brushed_sphere_turns_with_it() {
         scene.objects.push(ball);
         let scene = View::of(&scene).unwrap();
         let ray = Ray::new(Vec3::new(0.0, 0.6, 5.0), Vec3::NEG_Z);
-        let hit = scene.bvh().intersect(&ray);
+        let hit = scene.world().intersect(&ray);
         scene.coordinates(&ray, &hit).tangent
     };
     // Around the pole z; around the pole x, to which the turn takes z.

@@ -358,7 +358,7 @@ impl Drop for EmbreeScene<'_> {
 impl RayOnly {
     fn of(ray: &Ray) -> Self {
         Self {
-            origin: ray.origin.to_array(),
+            origin: ray.origin.as_vec3().to_array(),
             near: ray.t_min,
             dir: ray.dir.to_array(),
             time: 0.0,
@@ -388,7 +388,7 @@ impl RayHit {
         if self.geometry == NONE {
             return Hit::NONE;
         }
-        Hit { t: self.ray.far, prim: self.prim, u: self.u, v: self.v }
+        Hit { t: self.ray.far, part: part(self.prim), prim: self.prim, u: self.u, v: self.v }
     }
 }
 
@@ -413,7 +413,7 @@ impl Ray8 {
         };
         for (lane, ray) in rays.iter().enumerate() {
             for axis in 0..3 {
-                eight.origin[axis][lane] = ray.origin[axis];
+                eight.origin[axis][lane] = ray.origin[axis] as f32;
                 eight.dir[axis][lane] = ray.dir[axis];
             }
             eight.near[lane] = ray.t_min;
@@ -443,6 +443,11 @@ impl RayHit8 {
             return Hit::NONE;
         }
         let [u, v] = [self.u[lane], self.v[lane]];
-        Hit { t: self.ray.far[lane], prim: self.prim[lane], u, v }
+        Hit { t: self.ray.far[lane], part: part(self.prim[lane]), prim: self.prim[lane], u, v }
     }
+}
+
+/// The part of our world that Embree's primitive is of: the only one, or none.
+fn part(prim: u32) -> u32 {
+    if prim == u32::MAX { u32::MAX } else { 0 }
 }

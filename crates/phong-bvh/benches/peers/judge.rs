@@ -10,7 +10,7 @@ pub(crate) const CASES: usize = 200;
 /// products have no error to speak of in f64.
 pub(crate) fn closest(geometry: &Primitives, ray: &Ray) -> Option<f64> {
     let Primitives::Triangles { positions, indices } = geometry else { return None };
-    let (o, d) = (ray.origin.as_dvec3(), ray.dir.as_dvec3());
+    let (o, d) = (ray.origin, ray.dir.as_dvec3());
     let meet = |corners: &[u32; 3]| {
         let [a, b, c] = corners.map(|i| positions[i as usize].as_dvec3());
         let (ab, ac, ao): (DVec3, DVec3, DVec3) = (b - a, c - a, o - a);

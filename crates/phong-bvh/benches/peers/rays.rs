@@ -1,7 +1,7 @@
 //! What is asked: rays of a picture, and the rays that leave what they hit.
 
-use glam::Vec3;
-use phong_bvh::{Bvh, Hit, Primitives, Ray, offset_origin};
+use glam::{DVec3, Vec3};
+use phong_bvh::{Hit, Hits8, Primitives, Ray, Rays8, World, offset_origin};
 
 use crate::scenes::Random;
 
@@ -37,9 +37,9 @@ pub(crate) fn primary(geometry: &Primitives, side: u32) -> Vec<Ray> {
 }
 
 /// The set `name`, from the hits of the primary rays, up to `most` rays: whole tiles, evenly spread.
-pub(crate) fn set(name: &'static str, bvh: &Bvh, seen: &[(Ray, Hit)], most: usize) -> Set {
+pub(crate) fn set(name: &'static str, bvh: &World, seen: &[(Ray, Hit)], most: usize) -> Set {
     let mut random = Random(7);
-    let (low, high) = bounds(&bvh.geometry()[0]);
+    let (low, high) = bounds(bvh.primitives(0));
     let (middle, size) = (0.5 * (low + high), (high - low).max_element());
     let lights = [Vec3::new(0.9, 1.3, 0.4), Vec3::new(-1.2, 0.8, 0.9)].map(|l| middle + size * l);
     let a_hit = match name {
@@ -78,7 +78,7 @@ pub(crate) fn set(name: &'static str, bvh: &Bvh, seen: &[(Ray, Hit)], most: usiz
 
 /// A point to leave from, its normal on the side it was seen from.
 struct Start {
-    p: Vec3,
+    p: DVec3,
     error: Vec3,
     n: Vec3,
     /// Embree's default mode meets again what a ray leaves (up to 4 % of those off the sticks, at
@@ -87,7 +87,7 @@ struct Start {
 }
 
 impl Start {
-    fn of(bvh: &Bvh, (ray, hit): &(Ray, Hit), t_min: f32) -> Self {
+    fn of(bvh: &World, (ray, hit): &(Ray, Hit), t_min: f32) -> Self {
         let surface = bvh.surface(ray, hit);
         let n = if surface.ng.dot(ray.dir) > 0.0 { -surface.ng } else { surface.ng };
         Self { p: surface.p, error: surface.p_error, n, t_min }
@@ -99,7 +99,7 @@ impl Start {
     }
 
     fn toward(&self, light: Vec3) -> Ray {
-        let way = light - self.p;
+        let way = (light.as_dvec3() - self.p).as_vec3();
         self.leave(way.normalize_or(self.n), 0.999 * way.length())
     }
 
@@ -107,6 +107,18 @@ impl Start {
     fn cosine(&self, random: &mut Random) -> Ray {
         let dir = (self.n + random.direction()).normalize_or(self.n);
         self.leave(dir, f32::INFINITY)
+    }
+}
+
+/// The closest hit of each ray, in bundles.
+pub(crate) fn intersect(bvh: &World, rays: &[Ray], hits: &mut [Hit]) {
+    for (rays, hits) in rays.chunks(256).zip(hits.chunks_mut(256)) {
+        let rays = Rays8::of(rays);
+        let mut eights = vec![Hits8::NONE; rays.len()];
+        bvh.intersect_eights(&rays, &mut eights);
+        for (i, hit) in hits.iter_mut().enumerate() {
+            *hit = eights[i / 8].get(i % 8);
+        }
     }
 }
 

@@ -9,11 +9,14 @@ mod boxes;
 mod emit;
 mod gather;
 mod grow;
+mod options;
 mod partition;
 mod sah;
 
+use glam::Vec3;
 use rayon::prelude::*;
 
+pub use self::options::{BuildError, BuildOptions, Preset};
 use self::{
     boxes::Boxed,
     emit::Writer,
@@ -23,8 +26,7 @@ use self::{
 #[cfg(test)]
 use crate::node8::NODE;
 use crate::{
-    Primitives,
-    bvh::Preset,
+    Aabb, Primitives,
     level::Token,
     node8::{Kind, MAX_ROWS, Ref, Row},
     simd::Rows,
@@ -33,9 +35,9 @@ use crate::{
 /// The most children or primitives side by side.
 const WIDTH: usize = 8;
 
-/// A tree.
+/// The nodes and leaves of a tree.
 #[derive(Debug, Default)]
-pub(crate) struct Tree {
+pub(crate) struct Nodes {
     /// Nodes and leaves.
     pub(crate) rows: Rows,
     /// Where to begin; none: there is nothing.
@@ -44,6 +46,8 @@ pub(crate) struct Tree {
     pub(crate) nodes: u64,
     /// The kind of all leaves, if it is one.
     pub(crate) only: Option<Kind>,
+    /// The box around all, grown like every box of the tree; none: there is nothing.
+    pub(crate) bounds: Option<Aabb>,
 }
 
 /// More primitives than a box can name, or more rows than can be referred to.
@@ -78,21 +82,25 @@ pub(crate) fn build(
     first: &[u32],
     preset: Preset,
     token: Token,
-) -> Result<Tree, TooLarge> {
+) -> Result<Nodes, TooLarge> {
     if geometry.len() > boxes::MOST || geometry.iter().any(|g| g.len() > boxes::MOST) {
         return Err(TooLarge);
     }
     let (mut boxes, count) = boxes::of(geometry);
     if count == 0 {
-        return Ok(Tree::default());
+        return Ok(Nodes::default());
     }
     let boxes = &mut boxes.as_mut_slice()[..count];
     let settings = Settings::of(preset);
     let only = only(geometry);
     let (top, subtrees) = Grower { geometry, settings, only, token }.grow(boxes);
+    let bounds = top.branches.last().map(|root| {
+        let [x, y, z, hi @ ..] = root.bounds;
+        Aabb { lo: Vec3::new(-x, -y, -z), hi: Vec3::from(hi) }
+    });
     let only = only.filter(|&kind| !(settings.indexed && kind == Kind::Triangles));
-    let tree = Plan { geometry, first, indexed: settings.indexed, boxes }.lay(&top, &subtrees)?;
-    Ok(Tree { only, ..tree })
+    let nodes = Plan { geometry, first, indexed: settings.indexed, boxes }.lay(&top, &subtrees)?;
+    Ok(Nodes { only, bounds, ..nodes })
 }
 
 /// The kind of all primitives that have bounds, if it is one.
@@ -112,7 +120,7 @@ struct Plan<'a> {
 
 impl Plan<'_> {
     /// Writes all subtrees and the tree over them.
-    fn lay(&self, top: &Subtree, subtrees: &[Subtree]) -> Result<Tree, TooLarge> {
+    fn lay(&self, top: &Subtree, subtrees: &[Subtree]) -> Result<Nodes, TooLarge> {
         let sizes = || subtrees.iter().chain([top]).map(|subtree| subtree.size);
         let size = sizes().map(|size| size.rows).sum();
         let nodes = sizes().map(|size| size.nodes).sum();
@@ -139,7 +147,7 @@ impl Plan<'_> {
         pieces.into_par_iter().for_each(|(subtree, rows)| {
             self.write(subtree, rows, |_, at| (Ref::node(at), 0));
         });
-        Ok(Tree { rows, root: Some(root), nodes, only: None })
+        Ok(Nodes { rows, root: Some(root), nodes, ..Nodes::default() })
     }
 
     fn write(
@@ -156,7 +164,7 @@ impl Plan<'_> {
     }
 }
 
-impl Tree {
+impl Nodes {
     /// The bytes of nodes and leaves.
     pub(crate) fn bytes(&self) -> u64 {
         size_of_val(self.rows.as_slice()) as u64
@@ -164,11 +172,8 @@ impl Tree {
 
     /// The bounds of a child, as stored.
     #[cfg(test)]
-    pub(crate) fn child_bounds(node: &[Row; NODE], child: usize) -> crate::Aabb {
+    pub(crate) fn child_bounds(node: &[Row; NODE], child: usize) -> Aabb {
         let at = |row: usize| node[row].0[child];
-        crate::Aabb {
-            lo: glam::Vec3::new(at(0), at(2), at(4)),
-            hi: glam::Vec3::new(at(1), at(3), at(5)),
-        }
+        Aabb { lo: Vec3::new(at(0), at(2), at(4)), hi: Vec3::new(at(1), at(3), at(5)) }
     }
 }

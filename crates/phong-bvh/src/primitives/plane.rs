@@ -6,12 +6,15 @@
 use fearless_simd::{Simd, f32x8, f64x4, mask32x8, prelude::*};
 use glam::DVec3;
 
-use crate::{Plane, Ray, Rays8};
+use crate::{
+    Plane,
+    local::{Ray, Rays8},
+};
 
 impl Plane {
     /// The distance at which `ray` meets the plane, or none; both sides count.
     #[inline]
-    pub fn intersect(&self, ray: &Ray) -> Option<f32> {
+    pub(crate) fn intersect(&self, ray: &Ray) -> Option<f32> {
         let t = self.solve(ray) as f32;
         (ray.t_min < t && t < ray.t_max).then_some(t)
     }

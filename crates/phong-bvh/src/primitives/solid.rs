@@ -9,7 +9,7 @@ use super::{
     crossing::{Crossings, Line},
     cylinder, disc, ellipsoid, torus,
 };
-use crate::{Canonical, Ray, Solid};
+use crate::{Canonical, Solid, local::Ray};
 
 /// A surface near one of its points.
 #[derive(Clone, Copy, Debug)]
@@ -36,7 +36,7 @@ impl Solid {
     /// The distance at which `ray` first meets the solid, or none.
     ///
     /// Closed shapes are met from within too, and so are open cylinders and cones.
-    pub fn intersect(&self, ray: &Ray) -> Option<f32> {
+    pub(crate) fn intersect(&self, ray: &Ray) -> Option<f32> {
         let (line, start) = self.line(ray);
         let within = |t: f64| {
             let t = (start + t) as f32;

@@ -12,7 +12,12 @@
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 
-use crate::{Rays8, Sphere, node8::Row, primitives::splat3, ray::Ray};
+use crate::{
+    Sphere,
+    local::{Ray, Rays8},
+    node8::Row,
+    primitives::splat3,
+};
 
 /// What the test needs of a ray.
 #[derive(Clone, Copy, Debug)]

@@ -21,7 +21,7 @@
 use fearless_simd::{Simd, f32x8, f64x4, prelude::*};
 use glam::{DVec3, Vec3};
 
-use crate::{node8::Row, primitives::splat3, ray::Ray};
+use crate::{local::Ray, node8::Row, primitives::splat3};
 
 /// What the test needs of a ray.
 #[derive(Clone, Copy, Debug)]

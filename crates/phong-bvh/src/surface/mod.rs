@@ -1,9 +1,10 @@
 //! The surface at a hit, and the way off it.
 //!
-//! Everything is solved again in f64, from the ray as it is in f32, and put back *onto* the surface.
-//! So `p` is a point of the surface rounded to f32, and all that `p_error` must cover is that
-//! rounding, and the rounding of the f32 kernels that will test the next ray against the very
-//! same surface: a ray that starts nearer than a kernel can tell would hit what it leaves.
+//! Everything is solved again in f64, in the part's own space, from the ray as it is there in f32, and put
+//! back *onto* the surface. So `p` is a point of the surface rounded to f32 there, and all that `p_error`
+//! must cover is that rounding, the way into the world and back, and the rounding of the f32 kernels that
+//! will test the next ray against the very same surface: a ray that starts nearer than a kernel can tell
+//! would hit what it leaves.
 //!
 //! | kind | u, v |
 //! |---|---|
@@ -17,73 +18,69 @@
 //!
 //! (x, y and z are the solid's own; spheres are not turned.)
 
+mod offset;
 mod point;
 
-use std::ops::Range;
+pub use offset::{offset_origin, offset_origins};
 
-use fearless_simd::{Simd, f32x8, f64x4, mask32x8, prelude::*};
+use fearless_simd::{Simd, f32x8, f64x4, mask32x8, prelude::*, u32x8};
 use glam::{DVec2, DVec3, Vec3};
 
-use self::point::{
-    Point, corners, flat, line, on_plane, on_sphere, rounded, sphere, triangle, unit,
-};
+use self::point::{Point, corners, flat, line, on_plane, on_sphere, rounded, sphere, triangle};
 use crate::{
-    Bvh, Coordinates, Hit, Hits8, Kernel, Primitives, Ray, Rays8, Sphere, Surface, lanes,
-    primitives::{ellipsoid, solid::Patch},
+    Coordinates, Hit, Hits8, Kernel, Primitives, Ray, Rays8, Sphere, Surface,
+    eights::whole,
+    frame::{Frame, Way, unit},
+    lanes, local,
+    primitives::{ellipsoid, solid::Patch, sphere::Closest},
 };
 
-/// Where to start a ray that leaves the surface at `p` towards `dir`: beyond the error of `p`, on
-/// the side of `ng` that `dir` points to.
-///
-/// The true point is within the box `p ± p_error`; moved along ±`ng` by `|ng| · p_error`, the box
-/// lies wholly on that side of the tangent plane. Each coordinate is then rounded away from `p`.
-/// (Pharr, Jakob, Humphreys, *Physically Based Rendering*, 4th ed., section 6.8.6.)
-///
-/// ```
-/// use glam::Vec3;
-/// use phong_bvh::offset_origin;
-///
-/// let (p, error) = (Vec3::new(3.0, 4.0, 5.0), Vec3::splat(1e-6));
-/// let up = offset_origin(p, error, Vec3::Z, Vec3::new(0.6, 0.0, 0.8));
-/// assert!(up.z > 5.000_001 && up.truncate() == p.truncate());
-/// assert!(offset_origin(p, error, Vec3::Z, Vec3::NEG_Z).z < 4.999_999);
-/// ```
-#[inline]
-pub fn offset_origin(p: Vec3, p_error: Vec3, ng: Vec3, dir: Vec3) -> Vec3 {
-    let side = if dir.dot(ng) < 0.0 { -ng } else { ng };
-    let offset = ng.abs().dot(p_error) * side;
-    let away = |p: f32, offset: f32| match p + offset {
-        moved if offset > 0.0 => moved.next_up(),
-        moved if offset < 0.0 => moved.next_down(),
-        still => still,
-    };
-    Vec3::new(away(p.x, offset.x), away(p.y, offset.y), away(p.z, offset.z))
+/// What knows all parts of a world.
+pub(crate) trait Places {
+    /// The primitives of a part, and where it stands.
+    fn place(&self, part: u32) -> (&Primitives, &Frame);
 }
 
 /// The surface at a hit of `ray`.
-pub(crate) fn surface(bvh: &Bvh, ray: &Ray, hit: &Hit) -> Surface {
-    let (index, local) = bvh.locate(hit.prim);
-    let point = match &bvh.geometry()[index] {
+pub(crate) fn surface(world: &impl Places, ray: &Ray, hit: &Hit) -> Surface {
+    let (primitives, frame) = world.place(hit.part);
+    let (ray, way) = frame.ray(ray);
+    let (t, local) = (distance(primitives, &ray, way, hit), hit.prim as usize);
+    let Point { p, p_error, ng } = match primitives {
         Primitives::Triangles { positions, indices } => {
-            triangle(corners(positions, indices[local as usize]), hit.u.into(), hit.v.into())
+            triangle(corners(positions, indices[local]), hit.u.into(), hit.v.into())
         }
         Primitives::Spheres(spheres) => {
-            let Sphere { center, radius } = spheres[local as usize];
-            let (o, d) = line(ray);
-            sphere(center.as_dvec3().to_array(), radius.into(), o, d, hit.t.into())
+            let Sphere { center, radius } = spheres[local];
+            let (o, d) = line(&ray);
+            sphere(center.as_dvec3().to_array(), radius.into(), o, d, t.into())
         }
         Primitives::Plane(plane) => {
-            let (o, d) = line(ray);
+            let (o, d) = line(&ray);
             flat(plane, o, d)
         }
         Primitives::Solid(solid) => {
-            let Patch { p, normal, curvature, .. } = solid.patch(ray, hit.t);
+            let Patch { p, normal, curvature, .. } = solid.patch(&ray, t);
             let slack = f64::EPSILON * 64.0 * solid.largest();
             rounded(p.to_array(), unit(normal.to_array()), curvature, slack.to_array())
         }
     };
-    let narrow = |v: [f64; 3]| DVec3::from_array(v).as_vec3();
-    Surface { p: narrow(point.p), p_error: narrow(point.p_error), ng: narrow(point.ng) }
+    let p = p.map(|x| f64::from(x as f32));
+    let [p, p_error, ng] = frame.leave([p, p_error, ng]).map(DVec3::from_array);
+    Surface { p, p_error: p_error.as_vec3(), ng: ng.as_vec3() }
+}
+
+/// How far along its ray in the part's space a hit is. Where the ray was moved along, its own distance is
+/// rounded too coarsely to tell the near side of a thing from the far one, so it is looked for again.
+fn distance(primitives: &Primitives, ray: &local::Ray, way: Way<f64>, hit: &Hit) -> f32 {
+    let again = match primitives {
+        Primitives::Spheres(spheres) if way.skip > 0.0 => {
+            Closest::new(ray).intersect(&spheres[hit.prim as usize])
+        }
+        Primitives::Solid(solid) if way.skip > 0.0 => solid.intersect(ray),
+        _ => None,
+    };
+    again.unwrap_or_else(|| way.there(hit.t))
 }
 
 /// Eight surfaces side by side.
@@ -91,7 +88,7 @@ pub(crate) fn surface(bvh: &Bvh, ray: &Ray, hit: &Hit) -> Surface {
 #[repr(align(32))]
 pub struct Surfaces8 {
     /// [`Surface::p`]: x of each, y of each, z of each.
-    pub p: [[f32; 8]; 3],
+    pub p: [[f64; 8]; 3],
     /// [`Surface::p_error`].
     pub p_error: [[f32; 8]; 3],
     /// [`Surface::ng`].
@@ -109,64 +106,49 @@ impl Surfaces8 {
 }
 
 /// [`surface`] of a bundle of eights.
-pub(crate) struct Surfaces<'a> {
-    pub(crate) bvh: &'a Bvh,
+pub(crate) struct Surfaces<'a, P> {
+    pub(crate) world: &'a P,
     pub(crate) rays: &'a [Rays8],
     pub(crate) hits: &'a [Hits8],
     pub(crate) out: &'a mut [Surfaces8],
 }
 
-impl Kernel for Surfaces<'_> {
+impl<P: Places> Kernel for Surfaces<'_, P> {
     type Output = ();
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Self { bvh, rays, hits, out } = self;
-        let mut index = 0;
+        let Self { world, rays, hits, out } = self;
         for ((rays, hits), out) in rays.iter().zip(hits).zip(out) {
             let mut left = hits.met;
             while left != 0 {
-                // Neighbours are mostly of one geometry.
-                let first = hits.prim[left.trailing_zeros() as usize & 7];
-                let range = bvh.primitives_around(&mut index, first);
-                let same = left & within(&hits.prim, &range);
+                // Neighbours are mostly of one part.
+                let first = left.trailing_zeros() as usize & 7;
+                let part = u32x8::splat(simd, hits.part[first]);
+                let same = part.simd_eq(u32x8::load_array_ref(simd, &hits.part));
+                let same = left & same.to_bitmask() as u32;
                 left &= !same;
-                match &bvh.geometry()[index] {
-                    Primitives::Solid(_) => {
-                        for lane in lanes(same) {
-                            out.set(lane, surface(bvh, &rays.get(lane), &hits.get(lane)));
-                        }
+                let (primitives, frame) = world.place(hits.part[first]);
+                // The other lanes repeat the first.
+                let mut locals = [hits.prim[first] as usize; 8];
+                for (lane, own) in locals.iter_mut().enumerate() {
+                    if same >> lane & 1 != 0 {
+                        *own = hits.prim[lane] as usize;
                     }
-                    geometry => {
-                        // The other lanes repeat the first.
-                        let mut locals = [(first - range.start) as usize; 8];
-                        for (lane, own) in locals.iter_mut().enumerate() {
-                            if same >> lane & 1 != 0 {
-                                *own = (hits.prim[lane] - range.start) as usize;
-                            }
-                        }
-                        let met = eight(simd, geometry, &locals, rays, hits);
-                        // What is in lanes without a hit is of no account.
-                        let lanes = if same == hits.met { 0xff } else { same };
-                        let same = mask32x8::from_bitmask(simd, lanes.into());
-                        put(simd, &mut out.p, same, met.p);
-                        put(simd, &mut out.p_error, same, met.p_error);
-                        put(simd, &mut out.ng, same, met.ng);
+                }
+                // What is in lanes without a hit is unspecified.
+                let all = same == hits.met;
+                let to = mask32x8::from_bitmask(simd, if all { 0xff } else { same.into() });
+                let one_by_one = matches!(primitives, Primitives::Solid(_))
+                    || !eight(simd, (primitives, frame), &locals, rays, hits, to, out);
+                if one_by_one {
+                    for lane in lanes(same) {
+                        out.set(lane, surface(world, &rays.get(lane), &hits.get(lane)));
                     }
                 }
             }
         }
     }
-}
-
-/// The numbers that are in a range, a bit each.
-#[inline(always)]
-fn within(prim: &[u32; 8], range: &Range<u32>) -> u32 {
-    let mut mask = 0;
-    for (lane, &prim) in prim.iter().enumerate() {
-        mask |= u32::from(prim.wrapping_sub(range.start) < range.end - range.start) << lane;
-    }
-    mask
 }
 
 #[inline(always)]
@@ -177,46 +159,79 @@ fn put<S: Simd>(simd: S, to: &mut [[f32; 8]; 3], lanes: mask32x8<S>, value: [f32
     }
 }
 
-/// The surfaces of eight rays that met primitives of one geometry.
+/// The surfaces of eight rays that met primitives of one part, put into `lanes` of `out`; false: they have
+/// to be worked out one by one.
 #[inline(always)]
 fn eight<S: Simd>(
     simd: S,
-    geometry: &Primitives,
+    (primitives, frame): (&Primitives, &Frame),
     locals: &[usize; 8],
     rays: &Rays8,
     hits: &Hits8,
-) -> Point<f32x8<S>> {
+    lanes: mask32x8<S>,
+    out: &mut Surfaces8,
+) -> bool {
     let load = |lanes: &[f32; 8]| f32x8::load_array_ref(simd, lanes).widen();
-    let Rays8 { origin: [ox, oy, oz], dir: [dx, dy, dz], .. } = rays;
-    let (ox, oy, oz) = (load(ox), load(oy), load(oz));
-    let (dx, dy, dz) = (load(dx), load(dy), load(dz));
-    let (low_o, high_o) = ([ox.0, oy.0, oz.0], [ox.1, oy.1, oz.1]);
-    let (low_d, high_d) = ([dx.0, dy.0, dz.0], [dx.1, dy.1, dz.1]);
     let [a, b, c, d, e, f, g, h] = *locals;
-    let (low, high) = match geometry {
+    let [low, high] = match primitives {
         Primitives::Triangles { positions, indices } => {
             let (u, v) = (load(&hits.u), load(&hits.v));
             let four = |of| corners_of_four(simd, positions, indices, of);
-            (triangle(four([a, b, c, d]), u.0, v.0), triangle(four([e, f, g, h]), u.1, v.1))
+            [triangle(four([a, b, c, d]), u.0, v.0), triangle(four([e, f, g, h]), u.1, v.1)]
         }
-        Primitives::Spheres(spheres) => {
-            let t = load(&hits.t);
-            let (center, radius) = four_spheres(simd, spheres, [a, b, c, d]);
-            let low = sphere(center, radius, low_o, low_d, t.0);
-            let (center, radius) = four_spheres(simd, spheres, [e, f, g, h]);
-            (low, sphere(center, radius, high_o, high_d, t.1))
+        others => {
+            let mut local = local::Rays8::NONE;
+            let [low, high] = frame.rays(simd, rays, &mut local);
+            let far = low.skip.simd_gt(0.0).any_true() || high.skip.simd_gt(0.0).any_true();
+            if far && matches!(others, Primitives::Spheres(_)) {
+                return false;
+            }
+            let local::Rays8 { origin: [ox, oy, oz], dir: [dx, dy, dz], .. } = &local;
+            let (ox, oy, oz) = (load(ox), load(oy), load(oz));
+            let (dx, dy, dz) = (load(dx), load(dy), load(dz));
+            let (low_o, high_o) = ([ox.0, oy.0, oz.0], [ox.1, oy.1, oz.1]);
+            let (low_d, high_d) = ([dx.0, dy.0, dz.0], [dx.1, dy.1, dz.1]);
+            match others {
+                Primitives::Spheres(spheres) => {
+                    let t = load(&hits.t);
+                    // As `Way::there` has it.
+                    let (t_low, t_high) =
+                        (t.0 * low.scale - low.skip, t.1 * high.scale - high.skip);
+                    let t: f32x8<S> = t_low.narrow(t_high);
+                    let t = t.widen();
+                    let (center, radius) = four_spheres(simd, spheres, [a, b, c, d]);
+                    let low = sphere(center, radius, low_o, low_d, t.0);
+                    let (center, radius) = four_spheres(simd, spheres, [e, f, g, h]);
+                    [low, sphere(center, radius, high_o, high_d, t.1)]
+                }
+                Primitives::Plane(plane) => {
+                    [flat(plane, low_o, low_d), flat(plane, high_o, high_d)]
+                }
+                _ => unreachable!("triangles are above, and solids are worked out one by one"),
+            }
         }
-        Primitives::Plane(plane) => (flat(plane, low_o, low_d), flat(plane, high_o, high_d)),
-        Primitives::Solid(_) => unreachable!("solids are worked out one by one"),
     };
     let join = |l: [f64x4<S>; 3], h: [f64x4<S>; 3]| -> [f32x8<S>; 3] {
         [l[0].narrow(h[0]), l[1].narrow(h[1]), l[2].narrow(h[2])]
     };
-    Point {
-        p: join(low.p, high.p),
-        p_error: join(low.p_error, high.p_error),
-        ng: join(low.ng, high.ng),
+    let [x, y, z] = join(low.p, high.p);
+    let (x, y, z) = (x.widen(), y.widen(), z.widen());
+    let [low_p, low_error, low_ng] = frame.leave([[x.0, y.0, z.0], low.p_error, low.ng]);
+    let [high_p, high_error, high_ng] = frame.leave([[x.1, y.1, z.1], high.p_error, high.ng]);
+    put(simd, &mut out.p_error, lanes, join(low_error, high_error));
+    put(simd, &mut out.ng, lanes, join(low_ng, high_ng));
+    let bits = lanes.to_bitmask();
+    for axis in 0..3 {
+        let p = whole(low_p[axis], high_p[axis]);
+        if bits == 0xff {
+            out.p[axis] = p;
+            continue;
+        }
+        for (lane, to) in out.p[axis].iter_mut().enumerate() {
+            *to = if bits >> lane & 1 != 0 { p[lane] } else { *to };
+        }
     }
+    true
 }
 
 #[inline(always)]
@@ -261,34 +276,37 @@ fn corners_of_four<S: Simd>(
 }
 
 /// Where on its surface a hit of `ray` is.
-pub(crate) fn coordinates(bvh: &Bvh, ray: &Ray, hit: &Hit) -> Coordinates {
-    let (index, local) = bvh.locate(hit.prim);
-    let (normal, tangent, uv) = match &bvh.geometry()[index] {
+pub(crate) fn coordinates(world: &impl Places, ray: &Ray, hit: &Hit) -> Coordinates {
+    let (primitives, frame) = world.place(hit.part);
+    let (ray, way) = frame.ray(ray);
+    let (t, local) = (distance(primitives, &ray, way, hit), hit.prim as usize);
+    let (normal, tangent, uv) = match primitives {
         Primitives::Triangles { positions, indices } => {
-            let [a, b, c] = corners(positions, indices[local as usize]).map(DVec3::from_array);
+            let [a, b, c] = corners(positions, indices[local]).map(DVec3::from_array);
             ((b - a).cross(c - a), b - a, DVec2::new(hit.u.into(), hit.v.into()))
         }
         Primitives::Spheres(spheres) => {
-            let Sphere { center, radius } = spheres[local as usize];
-            let (o, d) = line(ray);
+            let Sphere { center, radius } = spheres[local];
+            let (o, d) = line(&ray);
             let center = center.as_dvec3().to_array();
-            let normal = on_sphere(center, radius.into(), o, d, hit.t.into());
+            let normal = on_sphere(center, radius.into(), o, d, t.into());
             let patch = ellipsoid::patch(DVec3::from_array(normal));
             (patch.normal, patch.tangent, patch.uv)
         }
         Primitives::Plane(plane) => {
             let [u, v] = plane.axes();
-            let (o, d) = line(ray);
+            let (o, d) = line(&ray);
             let p = on_plane(plane.point.to_array(), plane.normal.to_array(), o, d);
             let from = DVec3::from_array(p) - plane.point;
             (plane.normal, u, DVec2::new(from.dot(u), from.dot(v)))
         }
         Primitives::Solid(solid) => {
-            let patch = solid.patch(ray, hit.t);
+            let patch = solid.patch(&ray, t);
             (patch.normal, patch.tangent, patch.uv)
         }
     };
-    let ng = normal.normalize_or(DVec3::Z);
+    let ng = frame.normal(normal).normalize_or(DVec3::Z);
+    let tangent = frame.direction(tangent);
     let tangent = tangent - tangent.dot(ng) * ng;
     let tangent = tangent.try_normalize().unwrap_or_else(|| ng.any_orthonormal_vector());
     Coordinates { uv: uv.as_vec2(), tangent: tangent.as_vec3() }

@@ -3,12 +3,11 @@
 use glam::Vec3;
 
 use crate::{
-    Plane, Ray,
+    Plane,
+    frame::{ROUNDING, unit},
     lanes::{Lanes, cross, dot, splat3, sub},
+    local::Ray,
 };
-
-/// What rounding to f32 changes at most, relative: half of ε, and a trifle for rounding the bound.
-const ROUNDING: f64 = 0.500_001 * f32::EPSILON as f64;
 
 /// A surface before it is rounded to f32.
 pub(super) struct Point<F> {
@@ -21,19 +20,6 @@ pub(super) struct Point<F> {
 #[inline(always)]
 fn along<F: Lanes<Scalar = f64>>(a: [F; 3], k: F, b: [F; 3]) -> [F; 3] {
     [a[0] + k * b[0], a[1] + k * b[1], a[2] + k * b[2]]
-}
-
-/// The direction of `v`; z where it has none.
-#[inline(always)]
-pub(super) fn unit<F: Lanes<Scalar = f64>>(v: [F; 3]) -> [F; 3] {
-    let square = dot(v, v);
-    let (zero, one, least) = (square.splat(0.0), square.splat(1.0), square.splat(1e-290));
-    let (inverse, some) = (one / square.sqrt(), square.gt(least));
-    [
-        F::select(some, v[0] * inverse, zero),
-        F::select(some, v[1] * inverse, zero),
-        F::select(some, v[2] * inverse, one),
-    ]
 }
 
 /// The line of a ray: origin and direction.

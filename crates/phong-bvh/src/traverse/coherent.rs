@@ -18,8 +18,8 @@ use super::{
     sheared::Sheared,
 };
 use crate::{
-    Ray,
     level::Kernel,
+    local::Ray,
     node8::{Kind, NODE, REFS, Ref, Row, rows},
 };
 

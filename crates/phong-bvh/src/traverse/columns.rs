@@ -4,7 +4,8 @@ use fearless_simd::{Simd, f32x8, prelude::*};
 
 use super::slabs::SLACK;
 use crate::{
-    Aabb, Ray,
+    Aabb,
+    local::Ray,
     node8::{NODE, Row},
 };
 

@@ -5,8 +5,9 @@ use fearless_simd::{Simd, f32x8, mask32x8, prelude::*, u32x8};
 
 use super::columns::{highest, lowest};
 use crate::{
-    Hits8, Plane, Primitives, Rays8, lanes,
+    Plane, Primitives, lanes,
     level::Kernel,
+    local::{Hits8, Rays8},
     node8::Row,
     primitives::sphere::{BLOCK, Closest8},
 };

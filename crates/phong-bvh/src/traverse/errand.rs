@@ -9,7 +9,10 @@ use super::{
     leaves::Leaves,
     walk::{Stack, Walk},
 };
-use crate::{Hit, Ray, node8::Ref};
+use crate::{
+    local::{Hit, Ray},
+    node8::Ref,
+};
 
 /// What the rays of a bundle are sent for, and where their answers go.
 pub(super) trait Errand {

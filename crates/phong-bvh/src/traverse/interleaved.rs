@@ -14,7 +14,7 @@ use super::{
     leaves::Content,
     walk::{Stack, Walk},
 };
-use crate::{Ray, level::Kernel, node8::Ref, simd::prefetch};
+use crate::{level::Kernel, local::Ray, node8::Ref, simd::prefetch};
 
 /// How many rays are on their way at once.
 pub(super) const RAYS: usize = 12;

@@ -7,7 +7,8 @@ use fearless_simd::{Simd, prelude::*};
 
 use super::{Best, World};
 use crate::{
-    Primitives, Ray,
+    Primitives,
+    local::Ray,
     node8::{Kind, Ref, Row, rows},
     primitives::{
         sphere::{self, Closest, Closest8},

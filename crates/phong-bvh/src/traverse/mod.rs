@@ -1,5 +1,6 @@
 //! Rays through the tree.
 
+mod boxes;
 mod coherent;
 mod columns;
 mod eights;
@@ -12,7 +13,9 @@ mod single;
 mod slabs;
 mod walk;
 
+pub(crate) use self::boxes::{Boxes, Stack as BoxStack};
 pub(crate) use self::eights::Planes;
+pub(crate) use self::slabs::meet;
 
 use std::{cell::RefCell, marker::PhantomData, ops::Range};
 
@@ -24,10 +27,11 @@ use self::{
     leaves::{Anything, Content, OnlySpheres, OnlyTriangles},
 };
 use crate::{
-    Cost, Hit, Hits8, Primitives, Ray, Rays8,
-    build::Tree,
+    Cost, Primitives,
+    build::Nodes,
     lanes,
     level::Token,
+    local::{Hit, Hits8, Ray, Rays8},
     node8::{Kind, Ref, Row, rows},
     primitives::sphere,
 };
@@ -48,12 +52,12 @@ impl<'a> World<'a> {
     /// The world of a tree.
     #[inline(always)]
     pub(crate) fn new(
-        tree: &'a Tree,
+        nodes: &'a Nodes,
         geometry: &'a [Primitives],
         first: &'a [u32],
         token: Token,
     ) -> Self {
-        let (rows, root, only) = (tree.rows.as_slice(), tree.root, tree.only);
+        let (rows, root, only) = (nodes.rows.as_slice(), nodes.root, nodes.only);
         Self { rows, root, only, geometry, first, token }
     }
 
@@ -89,38 +93,56 @@ impl<'a> World<'a> {
         let block = self.handful();
         self.token.run(ClosestOfFew { planes, block, rays, hits });
         if block.is_none() && self.root.is_some() {
-            GATHERED.with_borrow_mut(|Gathered { rays: alone, hits: found, .. }| {
-                gather(rays, alone);
-                found.clear();
-                found.extend(all(rays).map(|(i, lane)| hits[i].get(lane)));
-                self.closest_of_many(alone, found);
-                for ((i, lane), &hit) in all(rays).zip(&*found) {
-                    hits[i].set(lane, hit);
-                }
-            });
+            self.closer_of_eights(rays, hits);
         }
-        for hits in hits.iter_mut().filter(|hits| hits.met != 0xff) {
-            for (t, prim) in hits.t.iter_mut().zip(hits.prim) {
-                *t = if prim == u32::MAX { f32::INFINITY } else { *t };
-            }
-        }
+        end(hits);
     }
 
-    /// Whether each ray hits anything, a bit each.
+    /// The closest hit of each ray outside the tree.
+    pub(crate) fn closest_outside(&self, planes: Planes<'a>, rays: &[Rays8], hits: &mut [Hits8]) {
+        self.token.run(ClosestOfFew { planes, block: None, rays, hits });
+        end(hits);
+    }
+
+    /// Whether each ray hits anything outside the tree, a bit each.
+    pub(crate) fn any_outside(&self, planes: Planes<'a>, rays: &[Rays8], blocked: &mut [u32]) {
+        self.token.run(AnyOfFew { planes, block: None, rays, blocked });
+    }
+
+    /// The closest hit of each ray in the tree; `hits` come with how far each has to look, and what
+    /// is there.
+    pub(crate) fn closer_of_eights(&self, rays: &[Rays8], hits: &mut [Hits8]) {
+        GATHERED.with_borrow_mut(|Gathered { rays: alone, hits: found, .. }| {
+            gather(rays, alone);
+            found.clear();
+            found.extend(all(rays).map(|(i, lane)| hits[i].get(lane)));
+            self.closest_of_many(alone, found);
+            for ((i, lane), &hit) in all(rays).zip(&*found) {
+                hits[i].set(lane, hit);
+            }
+        });
+    }
+
+    /// Whether each ray hits anything, a bit each, `planes` being the geometry outside the tree.
     pub(crate) fn any_of_eights(&self, planes: Planes<'a>, rays: &[Rays8], blocked: &mut [u32]) {
         let block = self.handful();
         self.token.run(AnyOfFew { planes, block, rays, blocked });
         if block.is_none() && self.root.is_some() {
-            GATHERED.with_borrow_mut(|Gathered { rays: alone, blocked: found, .. }| {
-                gather(rays, alone);
-                found.clear();
-                found.extend(all(rays).map(|(i, lane)| blocked[i] >> lane & 1 != 0));
-                self.any_of_many(alone, found);
-                for ((i, lane), &found) in all(rays).zip(&*found) {
-                    blocked[i] |= u32::from(found) << lane;
-                }
-            });
+            self.more_of_eights(rays, blocked);
         }
+    }
+
+    /// Whether each ray hits anything in the tree, a bit each; those already `blocked` stay so.
+    pub(crate) fn more_of_eights(&self, rays: &[Rays8], blocked: &mut [u32]) {
+        GATHERED.with_borrow_mut(|Gathered { rays: alone, blocked: found, .. }| {
+            gather(rays, alone);
+            found.clear();
+            found.extend(all(rays).map(|(i, lane)| blocked[i] >> lane & 1 != 0));
+            self.any_of_many(alone, found);
+            for ((i, lane), &found) in all(rays).zip(&*found) {
+                blocked[i] |= u32::from(found) << lane;
+            }
+        });
     }
 
     /// The only leaf, if the tree is one and holds spheres.
@@ -190,6 +212,9 @@ impl<'a> World<'a> {
 /// each node leaves seven children behind.
 const STACK: usize = 7 * (64 + 40);
 
+/// An empty stack of boxes.
+pub(crate) const NO_BOXES: BoxStack = [0; STACK];
+
 thread_local! {
     /// Stacks of a thread: clearing one for each ray would cost a tenth of its time.
     static LONE: RefCell<single::Stack> = const { RefCell::new([0; STACK]) };
@@ -204,6 +229,15 @@ struct Gathered {
     rays: Vec<Ray>,
     hits: Vec<Hit>,
     blocked: Vec<bool>,
+}
+
+/// Where nothing was hit, sets the distance to +∞.
+fn end(hits: &mut [Hits8]) {
+    for hits in hits.iter_mut().filter(|hits| hits.met != 0xff) {
+        for (t, prim) in hits.t.iter_mut().zip(hits.prim) {
+            *t = if prim == u32::MAX { f32::INFINITY } else { *t };
+        }
+    }
 }
 
 /// The rays there are: the numbers of their eights and lanes.

@@ -9,7 +9,7 @@ use super::{
     leaves::Triangles,
 };
 use crate::{
-    Ray,
+    local::Ray,
     node8::{Ref, Row, rows},
     primitives::triangle::{BLOCK, Shear, ShearBounds, Shears},
 };

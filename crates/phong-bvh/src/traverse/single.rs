@@ -14,8 +14,8 @@ use super::{
     slabs::Slabs,
 };
 use crate::{
-    Ray,
     level::Kernel,
+    local::Ray,
     node8::{NODE, REFS, Ref, Row, rows},
 };
 

@@ -12,9 +12,10 @@ use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 use glam::{BVec3, Vec3};
 
 use crate::{
+    Aabb,
+    local::{Ray, Rays8},
     node8::{NODE, Row},
     primitives::splat3,
-    ray::Ray,
 };
 
 /// What the test needs of a ray.
@@ -76,4 +77,26 @@ impl<S: Simd> Slabs<S> {
         let leave = far(0).min(far(1)).min(far(2).min(t_max));
         (enter.simd_le(leave), enter)
     }
+}
+
+/// The rays that meet a box before `t_max`, as bits: [`Slabs::meet`] of eight rays and one box. Of rays
+/// that are not there what is said is unspecified.
+#[inline(always)]
+pub(crate) fn meet<S: Simd>(simd: S, rays: &Rays8, bounds: &Aabb, t_max: f32x8<S>) -> u32 {
+    let load = |lanes: &[f32; 8]| f32x8::load_array_ref(simd, lanes);
+    let [x, y, z] = [load(&rays.origin[0]), load(&rays.origin[1]), load(&rays.origin[2])];
+    let pad = x.abs().max(y.abs()).max(z.abs()) * SLACK + 1e-24;
+    let (one, zero) = (f32x8::splat(simd, 1.0), f32x8::splat(simd, 0.0));
+    let (mut enter, mut leave) = (load(&rays.t_min), t_max);
+    for (axis, origin) in [x, y, z].into_iter().enumerate() {
+        let dir = load(&rays.dir[axis]);
+        let reciprocal = (one / dir).max(f32x8::splat(simd, -1e37)).min(f32x8::splat(simd, 1e37));
+        let back = reciprocal.simd_lt(zero);
+        let (lo, hi) = (bounds.lo[axis], bounds.hi[axis]);
+        let (low, high) = (f32x8::splat(simd, lo) - pad, f32x8::splat(simd, hi) + pad);
+        let (near, far) = (back.select(high, low), back.select(low, high));
+        enter = enter.max((near - origin) * reciprocal);
+        leave = leave.min((far - origin) * (reciprocal * (1.0 + SLACK)));
+    }
+    enter.simd_le(leave).to_bitmask() as u32
 }

@@ -9,7 +9,7 @@ use fearless_simd::{Simd, f32x8, mask32x8, prelude::*, u32x8};
 
 use super::{Best, World, leaves::Leaves, slabs::Slabs};
 use crate::{
-    Ray,
+    local::Ray,
     node8::{NODE, REFS, Ref, Row, rows},
 };
 

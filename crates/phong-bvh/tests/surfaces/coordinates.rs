@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3, Vec2, Vec3};
 use phong_bvh::{
-    BuildOptions, Bvh, Canonical, Coordinates, Plane, Primitives, Ray, Sphere, Surface,
+    BuildOptions, Canonical, Coordinates, Plane, Primitives, Ray, Sphere, Surface, World,
 };
 use proptest::prelude::*;
 
@@ -11,7 +11,7 @@ use crate::oracle::{Placed, directions, shapes};
 type Seen = (Surface, Coordinates);
 
 fn seen(geometry: Primitives, origin: [f32; 3], dir: [f32; 3]) -> Seen {
-    let bvh = Bvh::build(vec![geometry], BuildOptions::default()).expect("few primitives");
+    let bvh = World::of(vec![geometry], BuildOptions::default()).expect("few primitives");
     let ray = Ray::new(Vec3::from(origin), Vec3::from(dir));
     let hit = bvh.intersect(&ray);
     assert!(hit.is_some(), "{ray:?} meets nothing");
@@ -114,7 +114,7 @@ fn a_plane_is_measured_from_its_point() {
     let plane = Plane { point: DVec3::new(1.0, 7.0, 1.0), normal: DVec3::Y };
     let surface = seen(Primitives::Plane(plane), [4.0, 9.0, 3.0], [0.0, -1.0, 0.0]);
     expect(&surface, Vec3::Y, Vec3::X, [3.0, -2.0]);
-    assert_eq!(surface.0.p, Vec3::new(4.0, 7.0, 3.0));
+    assert_eq!(surface.0.p, DVec3::new(4.0, 7.0, 3.0));
 }
 
 #[test]
@@ -124,7 +124,7 @@ fn a_triangle_has_its_weights_and_the_normal_of_its_turning() {
     for (height, dir) in [(2.0, -1.0), (-2.0, 1.0)] {
         let surface = seen(geometry.clone(), [0.25, 0.5, height], [0.0, 0.0, dir]);
         expect(&surface, Vec3::Z, Vec3::X, [0.25, 0.5]);
-        assert_eq!(surface.0.p, Vec3::new(0.25, 0.5, 0.0));
+        assert_eq!(surface.0.p, DVec3::new(0.25, 0.5, 0.0));
     }
 }
 
@@ -146,7 +146,7 @@ proptest! {
         let turn = DQuat::from_axis_angle(axis, angle);
         let placed = Placed::new(shape, DVec3::from_array(stretch), turn, DVec3::ZERO);
         let geometry = vec![Primitives::Solid(placed.solid)];
-        let bvh = Bvh::build(geometry, BuildOptions::default()).expect("one primitive");
+        let bvh = World::of(geometry, BuildOptions::default()).expect("one primitive");
         let look = |at: Vec3, dir: Vec3| {
             let ray = Ray::new(at - dir, dir);
             let hit = bvh.intersect(&ray);
@@ -157,7 +157,7 @@ proptest! {
             return Ok(());
         };
         prop_assert!(at.uv.min_element() >= 0.0 && at.uv.max_element() <= 1.0);
-        let next = look(first.p + 1e-3 * at.tangent, -first.ng);
+        let next = look(first.p.as_vec3() + 1e-3 * at.tangent, -first.ng);
         // On past a seam or over an edge it may begin again.
         let Some((next, there)) = next.filter(|(next, _)| next.ng.dot(first.ng) > 0.999) else {
             return Ok(());

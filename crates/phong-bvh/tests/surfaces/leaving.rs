@@ -2,8 +2,8 @@
 
 use glam::{DVec3, Vec3};
 use phong_bvh::{
-    BuildOptions, Bvh, Canonical, Hit, Hits8, Plane, Primitives, Ray, Rays8, Solid, Sphere,
-    Surface, Surfaces8, offset_origin,
+    BuildOptions, Canonical, Hit, Hits8, Plane, Primitives, Ray, Rays8, Solid, Sphere, Surface,
+    Surfaces8, World, offset_origin,
 };
 use proptest::prelude::*;
 
@@ -11,7 +11,7 @@ use crate::oracle::{directions, placed, ray_at};
 
 /// Where a ray hit, and a way off.
 struct Landing {
-    bvh: Bvh,
+    bvh: World,
     ray: Ray,
     hit: Hit,
     surface: Surface,
@@ -19,7 +19,7 @@ struct Landing {
 
 impl Landing {
     fn of(geometry: Primitives, ray: Ray) -> Option<Self> {
-        let bvh = Bvh::build(vec![geometry], BuildOptions::default()).expect("few primitives");
+        let bvh = World::of(vec![geometry], BuildOptions::default()).expect("few primitives");
         let hit = bvh.intersect(&ray);
         hit.is_some().then(|| Self { surface: bvh.surface(&ray, &hit), bvh, ray, hit })
     }
@@ -47,17 +47,17 @@ impl Landing {
         prop_assert_eq!((hits[0].get(5), hits[0].met), (self.hit, 0b11_1111));
         self.bvh.surface_eights(&rays, &hits, &mut eight);
         for axis in 0..3 {
-            let want = [p[axis], p_error[axis], ng[axis]];
+            let want = (p[axis], p_error[axis], ng[axis]);
             let [Surfaces8 { p, p_error, ng }] = &eight;
-            let found = [p[axis][5], p_error[axis][5], ng[axis][5]];
+            let found = (p[axis][5], p_error[axis][5], ng[axis][5]);
             prop_assert_eq!(found, want, "eight are not as one");
         }
         prop_assert!(p.is_finite() && p_error.is_finite() && ng.is_finite());
-        let scale = p.as_dvec3().length() + size;
+        let scale = p.length() + size;
         prop_assert!(f64::from(p_error.length()) < 3e-6 * scale, "{p_error} is no tight bound");
         let along = self.ray.at(self.hit.t);
-        let far = f64::from(self.hit.t) + size + along.as_dvec3().length();
-        prop_assert!(f64::from((p - along).length()) < 1e-2 * far, "{p} is not {along}");
+        let far = f64::from(self.hit.t) + size + along.length();
+        prop_assert!((p - along).length() < 1e-2 * far, "{p} is not {along}");
         Ok(())
     }
 
@@ -118,7 +118,7 @@ proptest! {
             landing.never_meets_itself(dir, &[true, false])?;
             let Surface { p, p_error, ng, .. } = landing.surface;
             let n = (b - a).cross(c - a).normalize_or_zero();
-            let off = (p.as_dvec3() - a).dot(n).abs();
+            let off = (p - a).dot(n).abs();
             prop_assert!(off <= n.abs().dot(p_error.as_dvec3()), "{p} is {off} off the plane");
             prop_assert!(n.dot(ng.as_dvec3()) > 0.999_999);
         }
@@ -136,7 +136,7 @@ proptest! {
             landing.check(size)?;
             landing.never_meets_itself(dir, &[true])?;
             let Surface { p, p_error, ng, .. } = landing.surface;
-            let (from, r) = (p.as_dvec3() - sphere.center.as_dvec3(), f64::from(sphere.radius));
+            let (from, r) = (p - sphere.center.as_dvec3(), f64::from(sphere.radius));
             let error = ng.as_dvec3().abs().dot(p_error.as_dvec3());
             prop_assert!((from.length() - r).abs() <= error + error * error / r, "{p} is off");
             // Going inwards it meets the far side, not the near one at once.
@@ -160,7 +160,7 @@ proptest! {
             landing.check(distance + at.length())?;
             landing.never_meets_itself(dir, &[true, false])?;
             let Surface { p, p_error, .. } = landing.surface;
-            let off = (p.as_dvec3() - at).dot(normal).abs();
+            let off = (p - at).dot(normal).abs();
             prop_assert!(off <= normal.abs().dot(p_error.as_dvec3()), "{p} is {off} off the plane");
         }
     }
@@ -191,7 +191,7 @@ proptest! {
         let ray = ray_at(&placed, from, to, distance);
         let (_, size) = placed.bounding_sphere();
         if let Some(landing) = Landing::of(Primitives::Solid(placed.solid), ray) {
-            let side = |p: Vec3| placed.side(placed.local(p.as_dvec3()));
+            let side = |p: DVec3| placed.side(placed.local(p));
             let Surface { p, p_error, ng, .. } = landing.surface;
             let error = ng.abs().dot(p_error);
             // Elsewhere rounding makes more of a difference than the shape, an edge or an apex does.
@@ -199,12 +199,12 @@ proptest! {
             let is_like = |p: DVec3| placed.normal(p).0.dot(ng.as_dvec3()) > 0.999;
             let flat = step < 1e-3 * size
                 && DVec3::AXES.iter().all(|&axis| {
-                    [step, -step].iter().all(|step| is_like(p.as_dvec3() + step * axis))
+                    [step, -step].iter().all(|step| is_like(p + step * axis))
                 });
             if flat {
                 prop_assert!(side(landing.leave(dir, true).origin) > 0.0, "not outside");
                 prop_assert!(side(landing.leave(dir, false).origin) < 0.0, "not inside");
-                let (_, slope) = placed.normal(p.as_dvec3());
+                let (_, slope) = placed.normal(p);
                 let off = side(p).abs() / slope;
                 prop_assert!(off <= 1.001 * f64::from(error) + 1e-12 * size, "{p} is {off} off");
             }

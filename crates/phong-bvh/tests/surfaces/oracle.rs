@@ -90,7 +90,7 @@ impl Placed {
 
     /// The `t` near that of a hit, which is rounded to f32, at which the sign function is least.
     pub(crate) fn on_surface(&self, ray: &Ray, t: f64) -> f64 {
-        let (o, d) = (ray.origin.as_dvec3(), ray.dir.as_dvec3());
+        let (o, d) = (ray.origin, ray.dir.as_dvec3());
         let value = |t: f64| self.side(self.local(o + t * d)).abs();
         let ulp = f64::from((t as f32).next_up()) - t;
         (-512..=512)
@@ -103,7 +103,7 @@ impl Placed {
     /// the solid show.
     pub(crate) fn march(&self, ray: &Ray) -> Vec<f64> {
         const STEPS: u32 = 2000;
-        let (o, d) = (ray.origin.as_dvec3(), ray.dir.as_dvec3());
+        let (o, d) = (ray.origin, ray.dir.as_dvec3());
         let (middle, radius) = self.bounding_sphere();
         let nearest = (middle - o).dot(d) / d.dot(d);
         let reach = 1.01 * radius / d.length();

@@ -1,13 +1,19 @@
 //! Solids against an oracle that knows them only by a sign.
 
 use glam::{DQuat, DVec3, Vec3};
-use phong_bvh::{BuildOptions, Bvh, Canonical, Primitives, Ray, Solid};
+use phong_bvh::{BuildOptions, Canonical, Primitives, Ray, Solid, World};
 use proptest::prelude::*;
 
 use crate::oracle::{Placed, directions, placed, ray_at};
 
-fn alone(solid: Solid) -> Bvh {
-    Bvh::build(vec![Primitives::Solid(solid)], BuildOptions::default()).expect("one primitive")
+fn alone(solid: Solid) -> World {
+    World::of(vec![Primitives::Solid(solid)], BuildOptions::default()).expect("one primitive")
+}
+
+/// The distance at which a ray first meets a solid, or none.
+fn meet(solid: &Solid, ray: &Ray) -> Option<f32> {
+    let hit = alone(*solid).intersect(ray);
+    hit.is_some().then_some(hit.t)
 }
 
 /// A hit the oracle found nothing of must at least be a point of the surface.
@@ -18,8 +24,8 @@ fn is_on_surface(placed: &Placed, p: DVec3) -> bool {
 
 fn agrees(placed: &Placed, ray: &Ray) -> Result<(), TestCaseError> {
     let (_, radius) = placed.bounding_sphere();
-    let hit = placed.solid.intersect(ray).map(f64::from);
-    let at = |t: f64| ray.origin.as_dvec3() + t * ray.dir.as_dvec3();
+    let hit = meet(&placed.solid, ray).map(f64::from);
+    let at = |t: f64| ray.origin + t * ray.dir.as_dvec3();
     // `t` itself is rounded to f32: what is left of the error must be as small.
     let slack = |t: f64| 2e-7 * t.abs() + 1e-9 * radius;
     let expected = placed.march(ray).into_iter().find(|&t| t > 1e-6 * radius);
@@ -67,7 +73,7 @@ proptest! {
         if hit.is_some() {
             let surface = bvh.surface(&ray, &hit);
             let exact = placed.on_surface(&ray, f64::from(hit.t));
-            let p = ray.origin.as_dvec3() + exact * ray.dir.as_dvec3();
+            let p = ray.origin + exact * ray.dir.as_dvec3();
             let (normal, _) = placed.normal(p);
             // Differences straddle an edge, an apex: there they are no gradient.
             let h = 1e-4 * placed.bounding_sphere().1;
@@ -85,8 +91,8 @@ proptest! {
     fn the_bounds_of_a_solid_hold_all_of_it(placed in placed(), toward in directions()) {
         let [low, high] = placed.solid.bounds();
         let ray = ray_at(&placed, toward, -toward, 3.0);
-        if let Some(t) = placed.solid.intersect(&ray) {
-            let p = ray.origin.as_dvec3() + placed.on_surface(&ray, f64::from(t)) * ray.dir.as_dvec3();
+        if let Some(t) = meet(&placed.solid, &ray) {
+            let p = ray.origin + placed.on_surface(&ray, f64::from(t)) * ray.dir.as_dvec3();
             let slack = 1e-9 * placed.bounding_sphere().1;
             prop_assert!((p + slack).cmpge(low.as_dvec3()).all(), "{p} is below {low}");
             prop_assert!((p - slack).cmple(high.as_dvec3()).all(), "{p} is above {high}");
@@ -104,39 +110,39 @@ fn a_ray_along_the_axis_meets_both_caps_and_no_open_end() {
     let inside = Ray::new(Vec3::new(0.25, 0.5, 0.75), Vec3::NEG_Z);
     for (capped, from_above, from_within) in [(true, Some(6.0), Some(0.75)), (false, None, None)] {
         let cylinder = plain(Canonical::Cylinder { capped }).solid;
-        assert_eq!(cylinder.intersect(&down), from_above);
-        assert_eq!(cylinder.intersect(&inside), from_within);
+        assert_eq!(meet(&cylinder, &down), from_above);
+        assert_eq!(meet(&cylinder, &inside), from_within);
         let straight = plain(Canonical::Cone { radius: 1.0, radius_to: 1.0, capped }).solid;
-        assert_eq!(straight.intersect(&down), from_above);
-        assert_eq!(straight.intersect(&inside), from_within);
+        assert_eq!(meet(&straight, &down), from_above);
+        assert_eq!(meet(&straight, &inside), from_within);
     }
 }
 
 #[test]
 fn a_ray_onto_the_apex_of_a_cone_meets_it() {
     let cone = plain(Canonical::Cone { radius: 1.0, radius_to: 0.0, capped: true }).solid;
-    assert_eq!(cone.intersect(&Ray::new(Vec3::new(0.0, 0.0, 4.0), Vec3::NEG_Z)), Some(3.0));
-    assert_eq!(cone.intersect(&Ray::new(Vec3::new(0.0, 0.0, -4.0), Vec3::Z)), Some(4.0));
+    assert_eq!(meet(&cone, &Ray::new(Vec3::new(0.0, 0.0, 4.0), Vec3::NEG_Z)), Some(3.0));
+    assert_eq!(meet(&cone, &Ray::new(Vec3::new(0.0, 0.0, -4.0), Vec3::Z)), Some(4.0));
     // The other half of the double cone is no part of it.
-    assert_eq!(cone.intersect(&Ray::new(Vec3::new(-4.0, 0.0, 1.5), Vec3::X)), None);
+    assert_eq!(meet(&cone, &Ray::new(Vec3::new(-4.0, 0.0, 1.5), Vec3::X)), None);
 }
 
 #[test]
 fn a_ray_through_the_hole_of_a_torus_misses_and_one_across_meets_it_four_times() {
     let torus = plain(Canonical::Torus { tube: 0.25 }).solid;
-    assert_eq!(torus.intersect(&Ray::new(Vec3::new(0.5, 0.0, 9.0), Vec3::NEG_Z)), None);
+    assert_eq!(meet(&torus, &Ray::new(Vec3::new(0.5, 0.0, 9.0), Vec3::NEG_Z)), None);
     let mut ray = Ray::new(Vec3::new(-5.0, 0.0, 0.0), Vec3::X);
     for expected in [3.75, 4.25, 5.75, 6.25] {
-        ray.t_min = torus.intersect(&ray).unwrap();
+        ray.t_min = meet(&torus, &ray).unwrap();
         assert!((ray.t_min - expected).abs() < 1e-6, "{} is not {expected}", ray.t_min);
     }
-    assert_eq!(torus.intersect(&ray), None);
+    assert_eq!(meet(&torus, &ray), None);
 }
 
 #[test]
 fn a_ray_that_touches_the_crown_of_a_torus_from_above_is_a_graze_at_most() {
     let torus = plain(Canonical::Torus { tube: 0.25 }).solid;
-    let along = |z: f32| torus.intersect(&Ray::new(Vec3::new(-5.0, 1.0, z), Vec3::X));
+    let along = |z: f32| meet(&torus, &Ray::new(Vec3::new(-5.0, 1.0, z), Vec3::X));
     assert_eq!(along(0.250_001), None);
     assert!((along(0.249_999).unwrap() - 5.0).abs() < 0.05);
 }

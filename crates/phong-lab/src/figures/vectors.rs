@@ -52,7 +52,9 @@ fn point() -> Written {
 /// `l` at one of the [`POINTS`], as the renderer samples the light.
 fn to_light(light: &Written, point: usize) -> Dir3 {
     let p = unit(POINTS[point]).to_vec();
-    Light::new(light, DVec3::ZERO).sample(p, [0.5, 0.5]).map_or(Dir3::Y, |sample| sample.l)
+    Light::new(light, DVec3::ZERO)
+        .sample(p.as_dvec3(), [0.5, 0.5])
+        .map_or(Dir3::Y, |sample| sample.l)
 }
 
 fn drawing(angle: f64) -> Drawing {

@@ -98,7 +98,7 @@ impl Witness for Listener<'_> {
         if self.weights.is_empty() {
             self.point.terms = terms;
             self.point.surface = Some(Surface {
-                object: self.scene.object(at.hit.prim),
+                object: self.scene.object(&at.hit),
                 material: at.material,
                 n: at.n,
                 ng: at.ng,
@@ -123,7 +123,7 @@ impl Witness for Listener<'_> {
         let point_light =
             !matches!(self.scene.written_lights()[told.light].kind, LightKind::Distant { .. });
         let clear = told.visible
-            && !(point_light && endless.is_some_and(|ray| self.scene.bvh().occluded(&ray)));
+            && !(point_light && endless.is_some_and(|ray| self.scene.world().occluded(&ray)));
         surface.lights.push(LightPoint {
             l: sample.l,
             distance: sample.distance,

@@ -21,22 +21,17 @@ pub struct Holdings {
 impl Holdings {
     /// That of a geometry.
     pub fn of(geometry: &Geometry) -> Self {
-        let bvh = geometry.bvh();
-        let Stats { nodes, bytes, .. } = bvh.stats();
+        let world = geometry.world();
+        let Stats { nodes, bytes, .. } = world.stats();
         let mut all = Self { nodes, bytes, ..Self::default() };
-        for primitives in bvh.geometry() {
-            let count = primitives.len() as u64;
-            let (of_kind, bytes) = match primitives {
-                Primitives::Triangles { positions, indices } => {
-                    let bytes = size_of_val(&positions[..]) + size_of_val(&indices[..]);
-                    (&mut all.triangles, bytes)
-                }
-                Primitives::Spheres(spheres) => (&mut all.spheres, size_of_val(&spheres[..])),
-                Primitives::Plane(plane) => (&mut all.other, size_of_val(plane)),
-                Primitives::Solid(solid) => (&mut all.other, size_of_val(solid)),
+        for part in 0..world.parts() as u32 {
+            let primitives = world.primitives(part);
+            let of_kind = match primitives {
+                Primitives::Triangles { .. } => &mut all.triangles,
+                Primitives::Spheres(_) => &mut all.spheres,
+                Primitives::Plane(_) | Primitives::Solid(_) => &mut all.other,
             };
-            *of_kind += count;
-            all.bytes += bytes as u64;
+            *of_kind += primitives.len() as u64;
         }
         all
     }

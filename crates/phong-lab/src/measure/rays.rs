@@ -75,7 +75,7 @@ impl Bundles {
                 .collect();
             let rays = Rays8::of(&rays);
             let mut hits = vec![Hits8::NONE; rays.len()];
-            scene.bvh().intersect_eights(&rays, &mut hits);
+            scene.world().intersect_eights(&rays, &mut hits);
             let met: Vec<_> = rays
                 .iter()
                 .zip(&hits)
@@ -115,12 +115,12 @@ fn best(bundles: &[Vec<Rays8>], trace: impl Fn(&[Rays8]) + Sync) -> RaySpeed {
 
 fn closest(scene: &View, rays: &[Rays8]) {
     let mut hits = vec![Hits8::NONE; rays.len()];
-    scene.bvh().intersect_eights(rays, &mut hits);
+    scene.world().intersect_eights(rays, &mut hits);
     black_box(hits);
 }
 
 fn any(scene: &View, rays: &[Rays8]) {
     let mut blocked = vec![0; rays.len()];
-    scene.bvh().occluded_eights(rays, &mut blocked);
+    scene.world().occluded_eights(rays, &mut blocked);
     black_box(blocked);
 }

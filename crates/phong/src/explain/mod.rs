@@ -240,12 +240,12 @@ pub fn explain(
         let brought = drawn.ray.map_or(Radiance8::NONE, |ray| {
             integrator.trace_one(ray, &mut RayCounts::default(), &mut recorder)
         });
-        Sums8::add(scene.bvh(), &mut sums, &[brought], &[[drawn.weight; 8]]);
+        Sums8::add(scene.world(), &mut sums, &[brought], &[[drawn.weight; 8]]);
         let place = [drawn.place.x as f32, drawn.place.y as f32];
         let terms = brought.terms.get(0);
         samples.push(Sample { place, weight: drawn.weight, ray: recorder.finish(), terms });
     }
-    let (terms, alpha) = sums[0].resolve(scene.bvh(), options.samples(), options.background());
+    let (terms, alpha) = sums[0].resolve(scene.world(), options.samples(), options.background());
     let (terms, alpha) = (terms.get(0), alpha[0]);
     Ok(Explanation { pixel, size, samples, terms, linear: terms.total(), alpha })
 }

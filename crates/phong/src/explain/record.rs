@@ -35,8 +35,7 @@ impl<'a> Recorder<'a> {
     }
 
     fn tell(&mut self, ray: &Ray, at: Option<SurfaceInteraction>, end: End) {
-        let origin = self.scene.to_world(ray.origin);
-        let told = RayTold { origin, dir: Dir3::from_unit(ray.dir), end };
+        let told = RayTold { origin: ray.origin, dir: Dir3::from_unit(ray.dir), end };
         if let Some(open) = self.open.last_mut() {
             open.told = Some(told);
             open.at = at;
@@ -61,14 +60,14 @@ impl<'a> Recorder<'a> {
     }
 
     fn blocker(&self, shadow: &Ray) -> Option<Blocker> {
-        let hit = self.scene.bvh().intersect(shadow);
+        let hit = self.scene.world().intersect(shadow);
         hit.is_some().then(|| {
-            let object = self.scene.object(hit.prim);
+            let object = self.scene.object(&hit);
             let record = &self.scene.objects()[object as usize];
             Blocker {
                 object: record.name.clone(),
                 at: record.place.clone(),
-                element: self.scene.element(hit.prim),
+                element: self.scene.element(&hit),
                 t: hit.t,
             }
         })
@@ -82,7 +81,7 @@ impl Witness for Recorder<'_> {
 
     fn met(&mut self, ray: &Ray, at: &SurfaceInteraction, terms: Terms) {
         let scene = self.scene;
-        let object = scene.object(at.hit.prim);
+        let object = scene.object(&at.hit);
         let record = &scene.objects()[object as usize];
         let coordinates = scene.coordinates(ray, &at.hit);
         let material = &scene.written_materials()[at.material as usize];
@@ -90,11 +89,11 @@ impl Witness for Recorder<'_> {
             object: record.name.clone(),
             object_number: object,
             at: record.place.clone(),
-            element: scene.element(at.hit.prim),
+            element: scene.element(&at.hit),
             material: material.clone(),
             material_number: at.material,
             t: at.hit.t,
-            p: scene.to_world(at.p),
+            p: at.p,
             ng: at.ng,
             n: at.n,
             tangent: Dir3::from_unit(coordinates.tangent),

@@ -1,7 +1,7 @@
 //! Pixels' samples, summed in f64, eight pixels side by side.
 
 use fearless_simd::{Simd, f32x8, f64x4, mask32x8, prelude::*};
-use phong_bvh::{Bvh, Kernel};
+use phong_bvh::{Kernel, World};
 use phong_scene::Background;
 
 use super::Window;
@@ -53,14 +53,14 @@ impl Sums8 {
 
     /// Adds samples to sums: one to each eight pixels, then the next to each, and so on. One that
     /// brought nothing, outside a fisheye's image circle, still has its weight.
-    pub(crate) fn add(bvh: &Bvh, sums: &mut [Self], samples: &[Radiance8], weights: &[[f32; 8]]) {
+    pub(crate) fn add(bvh: &World, sums: &mut [Self], samples: &[Radiance8], weights: &[[f32; 8]]) {
         bvh.run(Add { sums, samples, weights });
     }
 
     /// What eight pixels of so many samples are: the terms, each resolved to f32, and the coverage.
     pub(crate) fn resolve(
         &self,
-        bvh: &Bvh,
+        bvh: &World,
         samples: u32,
         background: Background,
     ) -> (Terms8, [f32; 8]) {

@@ -9,8 +9,8 @@ mod estimate;
 mod flatten;
 mod solid;
 
-use glam::{DVec3, Vec3};
-use phong_bvh::{BuildError, BuildOptions, Bvh, Coordinates, Hit, Preset, Primitives, Ray};
+use glam::DVec3;
+use phong_bvh::{BuildError, BuildOptions, Coordinates, Hit, Part, Preset, Primitives, Ray, World};
 use phong_scene::{Diagnostic, Place, Scene, Shape};
 use thiserror::Error;
 
@@ -39,8 +39,8 @@ pub(crate) use batch::Batch;
 #[derive(Debug)]
 pub struct Geometry {
     center: DVec3,
-    bvh: Bvh,
-    /// What belongs to the primitives of each of the hierarchy's geometries.
+    world: World,
+    /// What belongs to the primitives of each part of the world.
     batches: Vec<Batch>,
     objects: Vec<ObjectRecord>,
     /// One more than the highest number of a material; 0: nothing has a material.
@@ -147,17 +147,14 @@ impl Geometry {
         let build::Built { primitives, batches, objects } = build::build(leaves, center);
         let materials = batches.iter().filter_map(Batch::highest_material).max();
         let materials = materials.map_or(0, |highest| highest.saturating_add(1));
-        Ok(Self { center, bvh: Bvh::build(primitives, options)?, batches, objects, materials })
+        let parts = primitives.into_iter().map(Part::Own).collect();
+        let world = World::build(parts, center, options)?;
+        Ok(Self { center, world, batches, objects, materials })
     }
 
-    /// What was taken off every coordinate: world = geometry + this.
+    /// The middle of all, about which things that are written one by one keep their detail in f32.
     pub fn center(&self) -> DVec3 {
         self.center
-    }
-
-    /// A point of the geometry's space, in the world.
-    pub fn to_world(&self, p: Vec3) -> DVec3 {
-        p.as_dvec3() + self.center
     }
 
     /// The objects, numbered from 0, instances unfolded.
@@ -165,10 +162,10 @@ impl Geometry {
         &self.objects
     }
 
-    /// The hierarchy.
+    /// What rays meet.
     #[inline]
-    pub fn bvh(&self) -> &Bvh {
-        &self.bvh
+    pub fn world(&self) -> &World {
+        &self.world
     }
 
     /// How many materials a look must have at least: one more than the highest number of one.
@@ -176,17 +173,18 @@ impl Geometry {
         self.materials
     }
 
-    /// The number of a primitive within its object, from 0: a mesh's face, a point of a cloud.
+    /// The number of the primitive hit within its object, from 0: a mesh's face, a point of a cloud.
     /// `None` for objects that are one primitive.
-    pub fn element(&self, prim: u32) -> Option<u32> {
-        let (batch, local) = self.bvh.locate(prim);
-        self.batches[batch].is_bulk().then_some(local)
+    pub fn element(&self, hit: &Hit) -> Option<u32> {
+        self.batch(hit.part).is_bulk().then_some(hit.prim)
     }
 
-    /// The number of the object that a primitive belongs to, from 0.
-    pub fn object(&self, prim: u32) -> u32 {
-        let (batch, local) = self.bvh.locate(prim);
-        self.batches[batch].object(local)
+    /// The number of the object hit, from 0.
+    ///
+    /// # Panics
+    /// If `hit` is none.
+    pub fn object(&self, hit: &Hit) -> u32 {
+        self.batch(hit.part).object(hit.prim)
     }
 
     /// Where on its surface a hit of `ray` is: a mesh's own texture coordinates, if it has some.
@@ -194,35 +192,35 @@ impl Geometry {
     /// # Panics
     /// If `hit` is none.
     pub fn coordinates(&self, ray: &Ray, hit: &Hit) -> Coordinates {
-        let (index, local) = self.bvh.locate(hit.prim);
-        let batch = &self.batches[index];
+        let local = hit.prim;
+        let batch = self.batch(hit.part);
         if let (Some(rotation), Primitives::Spheres(spheres)) =
-            (batch.rotation(local), &self.bvh.geometry()[index])
+            (batch.rotation(local), self.world.primitives(hit.part))
         {
             // The tree holds the sphere unturned, so it is the ray that is turned back about it.
-            let center = spheres[local as usize].center.as_dvec3();
+            let center = spheres[local as usize].center.as_dvec3() + self.center;
             let back = rotation.transpose();
-            let origin = center + back * (ray.origin.as_dvec3() - center);
+            let origin = center + back * (ray.origin - center);
             let dir = back * ray.dir.as_dvec3();
-            let ray = Ray { origin: origin.as_vec3(), dir: dir.as_vec3(), ..*ray };
-            let Coordinates { uv, tangent } = self.bvh.coordinates(&ray, hit);
+            let ray = Ray { origin, dir: dir.as_vec3(), ..*ray };
+            let Coordinates { uv, tangent } = self.world.coordinates(&ray, hit);
             return Coordinates { uv, tangent: (rotation * tangent.as_dvec3()).as_vec3() };
         }
-        let here = self.bvh.coordinates(ray, hit);
-        let own = self.corners(index, local).and_then(|corners| batch.uv(local, corners, hit));
+        let here = self.world.coordinates(ray, hit);
+        let own = self.corners(hit.part, local).and_then(|corners| batch.uv(local, corners, hit));
         Coordinates { uv: own.unwrap_or(here.uv), ..here }
     }
 
-    /// What belongs to the primitives of one of the hierarchy's geometries.
+    /// What belongs to the primitives of one part of the world.
     #[inline]
-    pub(crate) fn batch(&self, index: usize) -> &Batch {
-        &self.batches[index]
+    pub(crate) fn batch(&self, part: u32) -> &Batch {
+        &self.batches[part as usize]
     }
 
     /// The corners of a triangle; `None` for other primitives.
     #[inline]
-    pub(crate) fn corners(&self, index: usize, local: u32) -> Option<[u32; 3]> {
-        match &self.bvh.geometry()[index] {
+    pub(crate) fn corners(&self, part: u32, local: u32) -> Option<[u32; 3]> {
+        match self.world.primitives(part) {
             Primitives::Triangles { indices, .. } => Some(indices[local as usize]),
             _ => None,
         }

@@ -1,12 +1,12 @@
 //! What lights add to the surfaces met, eight at a time.
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
-use phong_bvh::{Kernel, Rays8, lanes};
+use phong_bvh::{Kernel, Rays8, lanes, offset_origins};
 use phong_scene::Rgb;
 
 use super::Integrator;
 use super::bundle::Radiance8;
-use super::met::{Met, is_above, origins, same_material, to_eye};
+use super::met::{Met, is_above, same_material, to_eye};
 use crate::light::{Light, LightSample, Reach};
 use crate::math::Dir3;
 use crate::math::lanes::{Lanes3, direction, dot, get, load3, select3, store3};
@@ -66,7 +66,7 @@ impl Integrator<'_> {
         ways.resize(rays.len(), Rays8::NONE);
         let casts = self.shadows && light.shadows;
         let purpose = Use::Light(number as u32);
-        let bvh = self.scene.bvh();
+        let bvh = self.scene.world();
         let count = bvh.run(Send { light, purpose, casts, rays, met, samplers, sent, ways });
         if casts {
             blocked.resize(rays.len(), 0);
@@ -87,7 +87,7 @@ impl Integrator<'_> {
         from: &Light8s,
         out: &mut [Radiance8],
     ) {
-        self.scene.bvh().run(Shade { integrator: self, number, rays, met, from, out });
+        self.scene.world().run(Shade { integrator: self, number, rays, met, from, out });
     }
 
     /// Tells of what [`Integrator::shade`] is about to add.
@@ -175,7 +175,7 @@ impl Kernel for Send<'_> {
                 continue;
             }
             let place = light.soft.then(|| samplers[i].pair(purpose));
-            let reach = light.reach8(simd, load3(simd, &surface.p), place.as_ref());
+            let reach = light.reach8(simd, &surface.p, place.as_ref());
             let (n, ng) = (load3(simd, &dressed.n), load3(simd, &surface.ng));
             let above = is_above(reach.l, n, ng, to_eye(simd, rays));
             // Nothing comes from a spot beyond its edge: nobody need look.
@@ -186,7 +186,7 @@ impl Kernel for Send<'_> {
             ways.dir = store3(reach.l);
             ways.t_max = reach.distance.into();
             if casts && lit != 0 {
-                ways.origin = store3(origins(simd, surface, reach.l));
+                ways.origin = offset_origins(simd, surface, reach.l);
                 ways.there = lit;
                 count += u64::from(lit.count_ones());
             }

@@ -1,7 +1,7 @@
 //! The surfaces that the rays of a bundle met, eight side by side, each in the lane of its ray.
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*, u32x8};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use phong_bvh::{Hits8, Kernel, Rays8, Surfaces8, lanes};
 use phong_scene::{Background, Rgb};
 
@@ -36,9 +36,9 @@ impl Met {
         self.surfaces.resize(rays.len(), Surfaces8::default());
         self.dressed.resize(rays.len(), Shading8::NONE);
         out.resize(rays.len(), Radiance8::NONE);
-        scene.bvh().intersect_eights(rays, &mut self.hits);
-        scene.bvh().surface_eights(rays, &self.hits, &mut self.surfaces);
-        scene.bvh().run(Begin { scene, background, height, rays, met: self, out });
+        scene.world().intersect_eights(rays, &mut self.hits);
+        scene.world().surface_eights(rays, &self.hits, &mut self.surfaces);
+        scene.world().run(Begin { scene, background, height, rays, met: self, out });
     }
 
     /// The surface that one ray met.
@@ -47,7 +47,7 @@ impl Met {
         SurfaceInteraction {
             hit: self.hits[i].get(lane),
             material: dressed.material[lane],
-            p: Vec3::from(get(&surface.p, lane)),
+            p: DVec3::from_array(surface.p.map(|all| all[lane])),
             p_error: Vec3::from(get(&surface.p_error, lane)),
             ng: direction(&surface.ng, lane),
             n: direction(&dressed.n, lane),
@@ -91,7 +91,6 @@ impl Kernel for Begin<'_> {
         const LOCAL: TermSet = TermSet::of(&[Term::Ambient, Term::Diffuse, Term::Specular]);
         let Self { scene, background, height, rays, met, out } = self;
         let Met { hits, surfaces, dressed } = met;
-        let mut index = 0;
         let eights = rays.iter().zip(hits).zip(surfaces).zip(dressed).zip(out);
         for (i, ((((rays, hits), surface), dressed), out)) in eights.enumerate() {
             let met = hits.met;
@@ -120,7 +119,7 @@ impl Kernel for Begin<'_> {
                 continue;
             }
             let (ng, e) = (load3(simd, &surface.ng), to_eye(simd, rays));
-            scene.shading8(simd, hits, ng, e, &mut index, dressed);
+            scene.shading8(simd, hits, ng, e, dressed);
             out.brought = out.brought.or(LOCAL);
             let mut left = met;
             while left != 0 {
@@ -157,40 +156,10 @@ pub(super) fn is_above<S: Simd>(
     dot(l, n).simd_gt(zero) & over.simd_gt(zero)
 }
 
-/// Where rays in directions `l` start: [`phong_bvh::offset_origin`], to the bit.
-#[inline(always)]
-pub(super) fn origins<S: Simd>(simd: S, surface: &Surfaces8, l: [f32x8<S>; 3]) -> [f32x8<S>; 3] {
-    let zero = f32x8::splat(simd, 0.0);
-    let (p, error, ng) =
-        (load3(simd, &surface.p), load3(simd, &surface.p_error), load3(simd, &surface.ng));
-    let below = dot(l, ng).simd_lt(zero);
-    let keep = dot([ng[0].abs(), ng[1].abs(), ng[2].abs()], error);
-    let [x, y, z] = ng;
-    [
-        away(simd, p[0], keep * below.select(-x, x)),
-        away(simd, p[1], keep * below.select(-y, y)),
-        away(simd, p[2], keep * below.select(-z, z)),
-    ]
-}
-
-/// `p + offset`, rounded away from `p`.
-#[inline(always)]
-fn away<S: Simd>(simd: S, p: f32x8<S>, offset: f32x8<S>) -> f32x8<S> {
-    let zero = f32x8::splat(simd, 0.0);
-    let down = offset.simd_lt(zero);
-    let moved = p + offset;
-    // The next number up; down is up in a mirror.
-    let up = down.select(-moved, moved);
-    let bits: u32x8<S> = up.bitcast();
-    let next: f32x8<S> = up.simd_gt(zero).select(bits + 1, bits - 1).bitcast();
-    let least = f32x8::splat(simd, f32::from_bits(1));
-    let next = up.simd_eq(zero).select(least, next);
-    let next = down.select(-next, next);
-    (down | offset.simd_gt(zero)).select(next, moved)
-}
-
 #[cfg(test)]
 mod tests {
+    use phong_bvh::offset_origins;
+
     use super::*;
     use crate::math::Dir3;
 
@@ -208,7 +177,9 @@ mod tests {
                 let i = 8 * round + lane;
                 // Coordinates that are 0, and normals along an axis, are the odd cases.
                 let p = if lane == 0 { [0.0, -0.0, x(i, 2)] } else { [x(i, 1), x(i, 2), 5.0] };
-                set(&mut surface.p, lane, p);
+                for (to, from) in surface.p.iter_mut().zip(p) {
+                    to[lane] = from.into();
+                }
                 set(&mut surface.p_error, lane, [1e-7 * x(i, 3).abs(), 0.0, 2e-7]);
                 let ng = if lane == 1 { -Dir3::Y } else { dir(i, 4) };
                 set(&mut surface.ng, lane, ng.to_array());
@@ -220,7 +191,7 @@ mod tests {
             let l8 = load3(simd, &l);
             let (n, ng) = (load3(simd, &dressed.n), load3(simd, &surface.ng));
             let mask = is_above(l8, n, ng, to_eye(simd, &rays)).to_bitmask();
-            let origins = store3(origins(simd, &surface, l8));
+            let origins = offset_origins(simd, &surface, l8);
             let met =
                 Met { hits: vec![Hits8::NONE], surfaces: vec![surface], dressed: vec![dressed] };
             for lane in 0..8 {
@@ -228,7 +199,8 @@ mod tests {
                 let is_above = l.dot(at.n) > 0.0 && l.dot(at.facing_ng()) > 0.0;
                 assert_eq!(mask >> lane & 1 != 0, is_above);
                 let start = at.spawn(l, 1.0).origin.to_array();
-                assert_eq!(get(&origins, lane).map(f32::to_bits), start.map(f32::to_bits));
+                let origin = origins.map(|all| all[lane]);
+                assert_eq!(origin.map(f64::to_bits), start.map(f64::to_bits));
                 above += u32::from(is_above);
             }
         }

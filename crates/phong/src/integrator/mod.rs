@@ -220,7 +220,7 @@ impl Integrator<'_> {
         let mut partings = std::mem::take(&mut onward.partings);
         partings.resize(rays.len(), Parting8::NONE);
         let to = &mut *partings;
-        self.scene.bvh().run(Part { scene: self.scene, branch, rays, met, to });
+        self.scene.world().run(Part { scene: self.scene, branch, rays, met, to });
         for (i, parting) in partings.iter().enumerate() {
             for lane in lanes(parting.goes) {
                 let (weight, fresnel) = parting.weight(lane);

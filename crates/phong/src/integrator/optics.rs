@@ -1,10 +1,11 @@
 //! Where mirror and glass rays go, and what they weigh, eight at a time.
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
-use phong_bvh::{Kernel, Lanes, Ray, Rays8};
+use glam::DVec3;
+use phong_bvh::{Kernel, Lanes, Ray, Rays8, offset_origins};
 use phong_scene::Rgb;
 
-use super::met::{Met, origins, same_material, to_eye};
+use super::met::{Met, same_material, to_eye};
 use crate::material::Material;
 use crate::math::lanes::{
     Lanes3, dot, get, load3, mirror, neg, normalize, scale, select3, splat3, store3,
@@ -17,7 +18,7 @@ use crate::witness::Branch;
 #[derive(Clone, Copy)]
 #[repr(align(32))]
 pub(super) struct Parting8 {
-    origin: Lanes3,
+    origin: [[f64; 8]; 3],
     dir: Lanes3,
     weight: Lanes3,
     /// The reflectance F where the material wants it; else it is not a number.
@@ -37,7 +38,8 @@ impl Parting8 {
 
     /// The ray that goes on from one surface.
     pub(super) fn ray(&self, lane: usize) -> Ray {
-        Ray::new(get(&self.origin, lane).into(), get(&self.dir, lane).into())
+        let origin = self.origin.map(|all| all[lane]);
+        Ray::new(DVec3::from_array(origin), get(&self.dir, lane).into())
     }
 
     /// Its weight, and F where it was asked for.
@@ -87,9 +89,13 @@ impl Kernel for Part<'_> {
                 let black =
                     weight[0].simd_eq(zero) & weight[1].simd_eq(zero) & weight[2].simd_eq(zero);
                 to.goes |= same & !(black.to_bitmask() as u32);
+                let origins = offset_origins(simd, surface, dir);
+                for (to, from) in to.origin.iter_mut().zip(origins) {
+                    for (lane, (to, from)) in to.iter_mut().zip(from).enumerate() {
+                        *to = if same >> lane & 1 != 0 { from } else { *to };
+                    }
+                }
                 let same = mask32x8::from_bitmask(simd, same.into());
-                let origin = origins(simd, surface, dir);
-                to.origin = store3(select3(same, origin, load3(simd, &to.origin)));
                 to.dir = store3(select3(same, dir, load3(simd, &to.dir)));
                 to.weight = store3(select3(same, weight, load3(simd, &to.weight)));
                 let old = f32x8::load_array(simd, to.fresnel);

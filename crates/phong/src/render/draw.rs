@@ -61,7 +61,7 @@ impl Samples {
         let soft = integrator.scene.has_soft_lights();
         if integrator.scene.camera().is_flat() {
             let (camera, to) = (integrator.scene.camera(), self);
-            let bvh = integrator.scene.bvh();
+            let bvh = integrator.scene.world();
             bvh.run(FlatRays { camera, options, filter, pixels, indices, soft, to });
             return;
         }

@@ -136,7 +136,7 @@ impl<'a> Painter<'a> {
                 (&sample.terms, std::array::from_fn(covered))
             });
             let (resolved, layers) = (pixels.iter().zip(one), &self.layers);
-            integrator.scene.bvh().run(Put { window, layers, resolved, values });
+            integrator.scene.world().run(Put { window, layers, resolved, values });
         }
         Ok(())
     }
@@ -151,7 +151,7 @@ impl<'a> Painter<'a> {
         counts: &mut RayCounts,
     ) -> Result<Option<TileSums>, Cancelled> {
         let (integrator, background) = (&self.integrator, self.options.background());
-        let bvh = integrator.scene.bvh();
+        let bvh = integrator.scene.world();
         let begin = earlier.map_or(0, TileSums::samples);
         let mut kept = (to < self.options.samples()).then(|| Vec::with_capacity(pixels.len()));
         for (lot, pixels) in pixels.chunks(LOT).enumerate() {
@@ -237,7 +237,7 @@ impl<'a> Painter<'a> {
         let centre = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
         let ray = scene.camera().ray(centre, size, [0.5; 2]);
         let (hit, cost) = ray.map_or((Hit::NONE, 0), |ray| {
-            let (hit, cost) = scene.bvh().intersect_counted(&ray);
+            let (hit, cost) = scene.world().intersect_counted(&ray);
             (hit, cost.nodes)
         });
         let at = ray.filter(|_| hit.is_some()).map(|ray| scene.interaction(&ray, &hit));
@@ -250,7 +250,7 @@ impl<'a> Painter<'a> {
                 (Aov::Depth, Some(at)) => values[place] = at.hit.t,
                 (Aov::Normal, Some(at)) => put(values, place, at.n.to_array()),
                 (Aov::Position, Some(at)) => {
-                    put(values, place, scene.to_world(at.p).as_vec3().to_array());
+                    put(values, place, at.p.as_vec3().to_array());
                 }
                 (Aov::Albedo, Some(at)) => put(values, place, at.color.to_array()),
                 (Aov::Uv, Some(at)) => {
@@ -258,7 +258,7 @@ impl<'a> Painter<'a> {
                     put(values, place, uv.unwrap_or_default().to_array());
                 }
                 (Aov::Object, Some(at)) => {
-                    values[place] = (scene.object(at.hit.prim) + 1) as f32;
+                    values[place] = (scene.object(&at.hit) + 1) as f32;
                 }
                 (Aov::Material, Some(at)) => values[place] = (at.material + 1) as f32,
                 (Aov::Shadow, Some(_)) => {

@@ -38,18 +38,17 @@ impl View {
     /// What shading needs of the surface at a hit whose geometric normal is `ng`; `e` leads to the
     /// eye.
     pub(super) fn shading(&self, hit: &Hit, ng: Dir3, e: Dir3) -> Shading {
-        let (index, local) = self.bvh().locate(hit.prim);
-        let batch = self.geometry.batch(index);
+        let local = hit.prim;
+        let batch = self.geometry.batch(hit.part);
         let material = batch.material(local);
         let own = self.materials[material as usize].color;
-        let corners = self.geometry.corners(index, local);
+        let corners = self.geometry.corners(hit.part, local);
         let n = corners.and_then(|c| batch.normal(local, c, hit)).unwrap_or(ng);
         let color = batch.color(local, corners, hit).unwrap_or(own);
         Shading { n: n.facing(e), material, color }
     }
 
-    /// [`View::shading`] of those of eight surfaces that were met: the same bits. `index` is the
-    /// number of the batch met last, whichever it was.
+    /// [`View::shading`] of those of eight surfaces that were met: the same bits.
     #[inline(always)]
     pub(crate) fn shading8<S: Simd>(
         &self,
@@ -57,7 +56,6 @@ impl View {
         hits: &Hits8,
         ng: [f32x8<S>; 3],
         e: [f32x8<S>; 3],
-        index: &mut usize,
         shading: &mut Shading8,
     ) {
         let Shading8 { n, color, material } = shading;
@@ -65,14 +63,11 @@ impl View {
         *n = store3(ng);
         let mut left = hits.met;
         while left != 0 {
-            // Neighbours are mostly of one batch.
-            let first = left.trailing_zeros() as usize & 7;
-            let range = self.bvh().primitives_around(index, hits.prim[first]);
-            let batch = self.geometry.batch(*index);
-            let prim = u32x8::load_array_ref(simd, &hits.prim);
-            let from = prim.simd_ge(u32x8::splat(simd, range.start));
-            let below = prim.simd_lt(u32x8::splat(simd, range.end));
-            let same = left & (from & below).to_bitmask() as u32;
+            // Neighbours are mostly of one part.
+            let part = hits.part[left.trailing_zeros() as usize & 7];
+            let batch = self.geometry.batch(part);
+            let parts = u32x8::load_array_ref(simd, &hits.part);
+            let same = left & parts.simd_eq(u32x8::splat(simd, part)).to_bitmask() as u32;
             left &= !same;
             if let (Some(number), true) = (batch.only_material(), batch.is_plain()) {
                 let own = splat3(zero, self.materials[number as usize].color.to_array());
@@ -85,8 +80,8 @@ impl View {
                 continue;
             }
             for lane in lanes(same) {
-                let (hit, local) = (hits.get(lane), hits.prim[lane] - range.start);
-                let corners = self.geometry.corners(*index, local);
+                let (hit, local) = (hits.get(lane), hits.prim[lane]);
+                let corners = self.geometry.corners(part, local);
                 let own = batch.material(local);
                 material[lane] = own;
                 let own = self.materials[own as usize].color;

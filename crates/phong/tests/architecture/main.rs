@@ -36,7 +36,7 @@ fn the_leaves_import_nothing_of_the_project() {
         leaves,
         &[
             ("crates/phong-bvh/src/ray.rs", "use phong_scene::Rgb;"),
-            ("crates/phong-scene/src/scene.rs", "fn f(b: &phong_bvh::Bvh) {}"),
+            ("crates/phong-scene/src/scene.rs", "fn f(b: &phong_bvh::World) {}"),
             ("crates/phong-scene/tests/ply.rs", "use phong::film::Film;"),
             ("crates/phong-bvh/Cargo.toml", "[dependencies]\nphong-scene.workspace = true\n"),
         ],

@@ -1,0 +1,72 @@
+//! How to build, and what can be wrong with it.
+
+use thiserror::Error;
+
+use super::MOST_OF_ONE;
+use crate::Level;
+
+/// How to build.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct BuildOptions {
+    /// How much time to spend on a better tree.
+    pub preset: Preset,
+    /// The vector instructions to use, by building and tracing. None: the fastest of this machine.
+    pub level: Option<Level>,
+}
+
+/// How much time to spend on a better tree. The preset never changes a result.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Preset {
+    /// Soonest built: for fewer than two rays a primitive.
+    Fast,
+    /// The usual choice.
+    #[default]
+    Balanced,
+    /// Fastest to trace.
+    Best,
+    /// Least memory.
+    Compact,
+}
+
+impl Preset {
+    /// The preset that takes the least time in all for so many primitives and rays, of every kind and
+    /// in all samples of all pictures: [`Fast`](Self::Fast) up to two rays a primitive, then
+    /// [`Balanced`](Self::Balanced).
+    ///
+    /// A function of the two numbers alone, so that a tree is the same on every machine.
+    ///
+    /// ```
+    /// use phong_bvh::Preset;
+    ///
+    /// let rays = 2 * 1920 * 1080;
+    /// assert_eq!(Preset::for_rays(20_000_000, rays), Preset::Fast);
+    /// assert_eq!(Preset::for_rays(1_000_000, rays), Preset::Balanced);
+    /// ```
+    pub const fn for_rays(primitives: u64, rays: u64) -> Self {
+        // Measured on spheres and meshes (NOTES.md): a ray loses half of the time that a primitive
+        // saves.
+        if rays / 2 < primitives { Self::Fast } else { Self::Balanced }
+    }
+}
+
+/// Why a hierarchy could not be built.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+pub enum BuildError {
+    /// More primitives than numbers, in one object or in all that are not instances: the caller's fault.
+    #[error(
+        "{0} primitives are too many: one mesh or cloud holds at most {of_one}, all that are written \
+         one by one {all}",
+        of_one = MOST_OF_ONE,
+        all = u32::MAX - 1
+    )]
+    TooMany(u64),
+    /// An infinite plane in the tree of an object, which has bounds: the caller's fault.
+    #[error("an infinite plane has no bounds: it cannot be part of an instance")]
+    Unbounded,
+    /// A part's transform flattens it, or is not finite: the caller's fault.
+    #[error("the transform of part {0} has no inverse")]
+    NoInverse(u32),
+    /// The level asked for is not one of this machine: the caller's fault.
+    #[error("this machine has no level {0:?}; leave the level out to use its fastest")]
+    NoSuchLevel(Level),
+}

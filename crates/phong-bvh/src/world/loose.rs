@@ -1,0 +1,158 @@
+//! Primitives that were written one by one: one tree over all that have bounds, and planes outside.
+
+use std::ops::Range;
+
+use glam::DVec3;
+
+use super::Best;
+use crate::{
+    Plane, Primitives, Ray, Tree,
+    build::{BuildError, BuildOptions},
+    frame::{Frame, Way},
+    level::Token,
+    local, reference,
+    traverse::{self, Meter, Planes},
+};
+
+/// All primitives written one by one.
+#[derive(Debug)]
+pub(super) struct Loose {
+    tree: Tree,
+    /// The batches that are planes.
+    planes: Vec<usize>,
+    /// The part that each batch is.
+    parts: Vec<u32>,
+    /// Where the tree stands.
+    frame: Frame,
+    /// Where the planes stand: there too, but rays are not moved along to them.
+    whole: Frame,
+}
+
+impl Loose {
+    pub(super) fn build(
+        batches: Vec<Primitives>,
+        parts: Vec<u32>,
+        center: DVec3,
+        options: BuildOptions,
+    ) -> Result<Self, BuildError> {
+        let planes = (0..batches.len()).filter(|&i| matches!(batches[i], Primitives::Plane(_)));
+        let planes = planes.collect();
+        let tree = Tree::of(batches, options)?;
+        let (frame, whole) = (Frame::about(center, tree.bounds()), Frame::about(center, None));
+        Ok(Self { tree, planes, parts, frame, whole })
+    }
+
+    pub(super) fn tree(&self) -> &Tree {
+        &self.tree
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.parts.is_empty()
+    }
+
+    pub(super) fn has_planes(&self) -> bool {
+        !self.planes.is_empty()
+    }
+
+    /// Whether anything is in the tree.
+    pub(super) fn has_tree(&self) -> bool {
+        self.tree.bounds().is_some()
+    }
+
+    /// Where the tree stands.
+    pub(super) fn frame(&self) -> &Frame {
+        &self.frame
+    }
+
+    pub(super) fn outside(&self) -> Planes<'_> {
+        Planes { geometry: self.tree.batches(), which: &self.planes, first: self.tree.first() }
+    }
+
+    /// A batch, and where it stands.
+    #[inline]
+    pub(super) fn place(&self, batch: usize) -> (&Primitives, &Frame) {
+        let primitives = &self.tree.batches()[batch];
+        let is_plane = matches!(primitives, Primitives::Plane(_));
+        (primitives, if is_plane { &self.whole } else { &self.frame })
+    }
+
+    /// The batch that a primitive of the tree is of; most often `guess`.
+    #[inline]
+    pub(super) fn batch(&self, guess: usize, number: u32) -> usize {
+        if self.numbers(guess).contains(&number) {
+            return guess;
+        }
+        self.tree.first().partition_point(|&first| first <= number) - 1
+    }
+
+    /// The numbers that a batch's primitives have in the tree.
+    #[inline]
+    pub(super) fn numbers(&self, batch: usize) -> Range<u32> {
+        self.tree.first()[batch]..self.tree.first()[batch + 1]
+    }
+
+    /// The part that a batch is.
+    #[inline]
+    pub(super) fn part(&self, batch: usize) -> u32 {
+        self.parts[batch]
+    }
+
+    fn each_plane(&self) -> impl Iterator<Item = (&Plane, u32)> {
+        self.planes.iter().filter_map(|&batch| match &self.tree.batches()[batch] {
+            Primitives::Plane(plane) => Some((plane, self.parts[batch])),
+            _ => None,
+        })
+    }
+
+    fn offer_planes(&self, ray: &Ray, best: &mut Best, meter: &mut impl Meter) {
+        if self.planes.is_empty() {
+            return;
+        }
+        let (local, _) = self.whole.ray(ray);
+        for (plane, part) in self.each_plane() {
+            meter.primitive();
+            if let Some(t) = plane.intersect(&local) {
+                best.offer(t, part, local::Hit { prim: 0, ..local::Hit::NONE });
+            }
+        }
+    }
+
+    fn offer(&self, found: local::Hit, way: Way<f64>, ray: &Ray, best: &mut Best) {
+        if found.is_some() {
+            let batch = self.batch(0, found.prim);
+            let prim = found.prim - self.numbers(batch).start;
+            best.offer(way.back(found.t, ray), self.part(batch), local::Hit { prim, ..found });
+        }
+    }
+
+    /// Offers the closest hit.
+    #[inline(never)]
+    pub(super) fn closest(&self, token: Token, ray: &Ray, best: &mut Best, meter: &mut impl Meter) {
+        self.offer_planes(ray, best, meter);
+        if self.has_tree() {
+            let (local, way) = self.frame.ray(ray);
+            let mut found = traverse::Best::new(way.reach(best.0.t, ray));
+            self.tree.rays(token).closest(&local, &mut found, meter);
+            self.offer(found.0, way, ray, best);
+        }
+    }
+
+    /// Whether anything is hit.
+    #[inline(never)]
+    pub(super) fn any(&self, token: Token, ray: &Ray) -> bool {
+        if self.has_planes() {
+            let (local, _) = self.whole.ray(ray);
+            if self.each_plane().any(|(plane, _)| plane.intersect(&local).is_some()) {
+                return true;
+            }
+        }
+        self.has_tree() && self.tree.rays(token).any(&self.frame.ray(ray).0)
+    }
+
+    /// Offers the closest hit, by trying every primitive.
+    pub(super) fn brute_force(&self, ray: &Ray, best: &mut Best) {
+        self.offer_planes(ray, best, &mut ());
+        let (local, way) = self.frame.ray(ray);
+        self.offer(reference::intersect(&self.tree, &local), way, ray, best);
+    }
+}
