@@ -106,6 +106,22 @@ impl Diagnostic {
     }
 }
 
+/// Why there is no scene: everything there is to say, at least one of it an error.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneError(pub Vec<Diagnostic>);
+
+impl std::error::Error for SceneError {}
+
+impl fmt::Display for SceneError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, diagnostic) in self.0.iter().enumerate() {
+            let separator = if i == 0 { "" } else { "\n" };
+            write!(f, "{separator}{diagnostic}")?;
+        }
+        Ok(())
+    }
+}
+
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(span) = &self.span {

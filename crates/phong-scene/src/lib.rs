@@ -28,7 +28,7 @@ mod wording;
 pub use bounds::Bounds;
 pub use camera::{Camera, CameraKind};
 pub use color::{ColorError, Rgb, srgb_decode, srgb_encode};
-pub use diagnostic::{Diagnostic, Label, Place, Severity, Span};
+pub use diagnostic::{Diagnostic, Label, Place, SceneError, Severity, Span};
 pub use format::export::{Account, File, PlyEncoding};
 pub use format::table::Format;
 pub use format::{Export, ExportOptions, read};

@@ -89,7 +89,7 @@ use glam::DAffine3;
 
 use crate::camera::Camera;
 use crate::color::Rgb;
-use crate::diagnostic::{Diagnostic, Place};
+use crate::diagnostic::{Diagnostic, Place, SceneError};
 use crate::light::Light;
 use crate::material::{Material, MaterialId};
 use crate::shape::Shape;
@@ -152,6 +152,16 @@ pub struct Reading {
     pub bare: bool,
     /// Errors and warnings, in the order of the text.
     pub diagnostics: Vec<Diagnostic>,
+}
+
+impl Reading {
+    /// The scene, for who has no use for warnings: look at [`Reading::diagnostics`] first.
+    ///
+    /// # Errors
+    /// [`SceneError`], with everything there is to say.
+    pub fn into_scene(self) -> Result<Scene, SceneError> {
+        self.scene.ok_or(SceneError(self.diagnostics))
+    }
 }
 
 /// The picture's own settings; the command line overrides them.

@@ -156,3 +156,14 @@ fn tell_mesh(text: &mut Vec<String>, mesh: &Mesh, materials: &[Material]) {
         text.push(format!("  {count} of material {:?}", materials[material as usize].name));
     }
 }
+
+#[test]
+fn where_there_is_no_scene_everything_there_is_to_say_is_the_error() {
+    let source = Memory::new().with("broken.toml", b"version = 1\nsphere = 3\nlamp = 4\n".to_vec());
+    let reading = read("broken.toml", None, &source, &Limits::default());
+    let all = reading.diagnostics.clone();
+    let error = reading.into_scene().err();
+    assert!(all.len() > 1, "{all:?}");
+    let lines = error.map(|error| error.to_string().lines().count());
+    assert_eq!(lines, Some(all.len()));
+}
