@@ -10,22 +10,22 @@ const STEPS: usize = 512;
 
 /// A filter ready to draw from.
 #[derive(Clone, Debug)]
-pub struct Filter {
+pub(crate) struct Filter {
     shape: Option<Table>,
 }
 
 /// Where a sample lies and what it weighs.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FilterSample {
+pub(crate) struct FilterSample {
     /// Offset from the pixel's centre in pixels, x to the right and y down.
-    pub offset: [f32; 2],
+    pub(crate) offset: [f32; 2],
     /// Weight, +1 or −1: the sign of the filter there. A pixel is Σ w·s / Σ w.
-    pub weight: f32,
+    pub(crate) weight: f32,
 }
 
 impl Filter {
     /// The filter of a kind.
-    pub fn new(kind: FilterKind) -> Self {
+    pub(crate) fn new(kind: FilterKind) -> Self {
         let shape = match kind {
             FilterKind::Box => None,
             FilterKind::Tent => Some(Table::new(1.0, |x| 1.0 - x)),
@@ -48,7 +48,7 @@ impl Filter {
 
     /// Draws a sample from a point of the unit square; (½, ½) is the pixel's centre.
     #[inline(always)]
-    pub fn sample(&self, [u, v]: [f32; 2]) -> FilterSample {
+    pub(crate) fn sample(&self, [u, v]: [f32; 2]) -> FilterSample {
         let Some(table) = &self.shape else {
             return FilterSample { offset: [u - 0.5, v - 0.5], weight: 1.0 };
         };

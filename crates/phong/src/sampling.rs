@@ -7,7 +7,7 @@
 
 /// What the coordinates of a pair are used for. Every use has its own, uncorrelated pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Use {
+pub(crate) enum Use {
     /// The place in the pixel.
     Pixel,
     /// The place on the lens.
@@ -18,7 +18,7 @@ pub enum Use {
 
 /// The source of the coordinates of one sample of one pixel.
 #[derive(Clone, Copy, Debug)]
-pub struct Sampler {
+pub(crate) struct Sampler {
     key: u32,
     index: u32,
     centred: bool,
@@ -27,7 +27,7 @@ pub struct Sampler {
 impl Sampler {
     /// Sample `index` of `count` at a pixel of the full picture.
     #[inline]
-    pub fn new([x, y]: [u32; 2], index: u32, count: u32, seed: u64) -> Self {
+    pub(crate) fn new([x, y]: [u32; 2], index: u32, count: u32, seed: u64) -> Self {
         let centred = count <= 1;
         let key = || {
             let seed = hash(seed as u32 ^ hash((seed >> 32) as u32));
@@ -37,20 +37,19 @@ impl Sampler {
     }
 
     /// Another sample of the same pixel.
-    #[inline]
-    #[must_use]
-    pub fn at(&self, index: u32) -> Self {
+    #[cfg(test)]
+    fn at(&self, index: u32) -> Self {
         Self { index, ..*self }
     }
 
     /// The sampler of a mirror or glass ray that left a surface: as good, but uncorrelated.
     #[must_use]
-    pub fn branch(&self, number: u32) -> Self {
+    pub(crate) fn branch(&self, number: u32) -> Self {
         Self { key: hash(self.key ^ hash(number + 1)), ..*self }
     }
 
     /// A point of the unit square [0, 1)².
-    pub fn pair(&self, purpose: Use) -> [f32; 2] {
+    pub(crate) fn pair(&self, purpose: Use) -> [f32; 2] {
         if self.centred { [0.5, 0.5] } else { self.scrambled(purpose) }
     }
 
@@ -95,7 +94,7 @@ impl Keys {
 /// Eight samplers of pictures with as many samples, side by side.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
-pub struct Samplers8 {
+pub(crate) struct Samplers8 {
     key: [u32; 8],
     index: [u32; 8],
     centred: bool,
@@ -103,26 +102,26 @@ pub struct Samplers8 {
 
 impl Samplers8 {
     /// The same one eight times.
-    pub fn splat(Sampler { key, index, centred }: Sampler) -> Self {
+    pub(crate) fn splat(Sampler { key, index, centred }: Sampler) -> Self {
         Self { key: [key; 8], index: [index; 8], centred }
     }
 
     /// Puts another into one lane, below 8, of a picture with as many samples.
     #[inline]
-    pub fn set(&mut self, lane: usize, sampler: Sampler) {
+    pub(crate) fn set(&mut self, lane: usize, sampler: Sampler) {
         (self.key[lane], self.index[lane]) = (sampler.key, sampler.index);
     }
 
     /// The one in a lane, below 8.
     #[inline]
-    pub fn get(&self, lane: usize) -> Sampler {
+    pub(crate) fn get(&self, lane: usize) -> Sampler {
         Sampler { key: self.key[lane], index: self.index[lane], centred: self.centred }
     }
 
     /// [`Sampler::at`] of each.
     #[inline]
     #[must_use]
-    pub fn at(&self, index: u32) -> Self {
+    pub(crate) fn at(&self, index: u32) -> Self {
         Self { index: [index; 8], ..*self }
     }
 

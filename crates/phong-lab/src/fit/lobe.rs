@@ -260,12 +260,12 @@ impl Lobe {
     /// from the mirror direction: in the plane of incidence away from the normal, or across it.
     /// 0 below the horizon.
     pub fn at(self, theta: f64, slice: Slice, phi: f64) -> f64 {
-        Shone::new(self, theta).at(slice, phi)
+        LitLobe::new(self, theta).at(slice, phi)
     }
 
     /// Half the width at half the peak, degrees, for light at `theta` degrees.
     pub(super) fn half_width(self, theta: f64, slice: Slice) -> Option<f64> {
-        let lobe = Shone::new(self, theta);
+        let lobe = LitLobe::new(self, theta);
         let [from, to] = slice.ends(theta);
         // The peak may lie off the mirror direction: look for it.
         let steps = 2000;
@@ -336,19 +336,24 @@ fn short(number: f64) -> String {
     if decimals == 0 { text } else { text.trim_end_matches('0').trim_end_matches('.').to_owned() }
 }
 
+/// A vector of unit length as a direction.
+fn direction(v: DVec3) -> Dir3 {
+    Dir3::from_array(v.as_vec3().to_array()).expect("made of sine and cosine of one angle")
+}
+
 /// A lobe under light from one direction.
-pub(super) struct Shone {
+pub(super) struct LitLobe {
     reflectance: Reflectance,
     light: Incident,
     mirror: DVec3,
     aside: DVec3,
 }
 
-impl Shone {
+impl LitLobe {
     /// Under white light at `theta` degrees from the normal, z, towards −x.
     pub(super) fn new(lobe: Lobe, theta: f64) -> Self {
         let (sin, cos) = libm::sincos(theta.to_radians());
-        let l = Dir3::from_unit(DVec3::new(-sin, 0.0, cos).as_vec3());
+        let l = direction(DVec3::new(-sin, 0.0, cos));
         Self {
             reflectance: lobe.reflectance(),
             light: Incident { l, c_d: Rgb::BLACK, c_s: Rgb::WHITE, color: Rgb::BLACK },
@@ -363,7 +368,7 @@ impl Shone {
             Slice::InPlane => self.aside,
             Slice::Across => DVec3::Y,
         };
-        let e = Dir3::from_unit((cos * self.mirror + sin * aside).as_vec3());
+        let e = direction(cos * self.mirror + sin * aside);
         if e.dot(Dir3::Z) <= 0.0 {
             return 0.0;
         }

@@ -15,7 +15,7 @@ use phong_scene::{
 };
 use rayon::prelude::*;
 
-use super::lobe::Shone;
+use super::lobe::LitLobe;
 use super::surface::written;
 use super::{Fit, Lobe, Slice};
 use crate::markup::data_url;
@@ -124,7 +124,7 @@ fn plot(
         )?;
     }
     for (lobe, ink, dash) in [(fit.from, INKS[0], ""), (fit.to, INKS[1], "6 4")] {
-        let shone = Shone::new(lobe, theta);
+        let shone = LitLobe::new(lobe, theta);
         let at = |i: u32| {
             let phi = reach * (2.0 * f64::from(i) / f64::from(STEPS) - 1.0);
             shone.at(slice, phi)

@@ -1,6 +1,6 @@
 //! Least squares over eyes, and a search that needs no luck.
 
-use super::lobe::{Lobe, Model, Shone, Slice};
+use super::lobe::{LitLobe, Lobe, Model, Slice};
 
 /// Eyes on either side of the mirror direction. They crowd towards it, so that lobes of a
 /// hundredth of a degree are seen as well as those of a hemisphere.
@@ -24,7 +24,7 @@ struct Profile {
 
 impl Profile {
     fn of(lobe: Lobe, theta: f64, slice: Slice) -> Self {
-        let shone = Shone::new(lobe, theta);
+        let shone = LitLobe::new(lobe, theta);
         let mut values = Vec::with_capacity(2 * EYES as usize);
         let mut shares = Vec::with_capacity(2 * EYES as usize);
         for end in slice.ends(theta) {

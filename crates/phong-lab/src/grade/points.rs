@@ -1,16 +1,14 @@
 //! What every pixel's centre ray meets: the ingredients that a renderer puts into the equation.
 
-use phong::filter::Filter;
-use phong::integrator::{Integrator, RayCounts};
+use phong::explain::listen;
 use phong::interaction::SurfaceInteraction;
 use phong::math::Dir3;
-use phong::render::{RenderOptions, camera_ray};
-use phong::sampling::Sampler;
+use phong::render::RenderOptions;
 use phong::terms::Terms;
 use phong::view::View;
 use phong::witness::{Branch, LightTold, Witness};
 use phong_bvh::Ray;
-use phong_scene::{LightKind, Rgb};
+use phong_scene::{FilterKind, LightKind, Rgb};
 use rayon::prelude::*;
 
 /// What one pixel is made of.
@@ -55,24 +53,15 @@ pub(super) struct LightPoint {
 
 /// The points of a whole picture, row by row.
 pub(super) fn gather(scene: &View, options: &RenderOptions) -> Vec<Point> {
-    let centre = options.one_sample();
-    let integrator = Integrator {
-        scene,
-        background: options.background(),
-        depth: options.depth(),
-        shadows: options.shadows(),
-        stop: None,
-    };
-    let filter = Filter::new(centre.filter());
+    // One sample is in the middle of its pixel whatever the filter, and this one is soonest made.
+    let centre = options.one_sample().with_filter(FilterKind::Box);
     let [width, height] = options.size();
     let row = |y: u32| {
-        (0..width).map(move |x| (x, y)).map(|(x, y)| {
-            let sampler = Sampler::new([x, y], 0, 1, centre.seed());
-            let drawn = camera_ray(&integrator, &centre, &filter, [x, y], sampler);
+        let centre = &centre;
+        (0..width).map(move |x| {
             let mut listener = Listener { scene, weights: Vec::new(), point: Point::default() };
-            if let Some(ray) = drawn.ray {
-                integrator.trace_one(ray, &mut RayCounts::default(), &mut listener);
-            }
+            // Within the picture, so there is nothing that can be outside.
+            let _ = listen(scene, centre, [x, y], 0, &mut listener);
             listener.point
         })
     };
@@ -96,6 +85,8 @@ impl Witness for Listener<'_> {
 
     fn met(&mut self, ray: &Ray, at: &SurfaceInteraction, terms: Terms) {
         if self.weights.is_empty() {
+            // A tangent is of unit length; whatever else it were would have no direction.
+            let tangent = self.scene.coordinates(ray, &at.hit).tangent.to_array();
             self.point.terms = terms;
             self.point.surface = Some(Surface {
                 object: self.scene.object(&at.hit),
@@ -103,7 +94,7 @@ impl Witness for Listener<'_> {
                 n: at.n,
                 ng: at.ng,
                 e: at.e,
-                tangent: Dir3::from_unit(self.scene.coordinates(ray, &at.hit).tangent),
+                tangent: Dir3::from_array(tangent).unwrap_or(Dir3::X),
                 color: at.color,
                 ambient: terms.ambient,
                 lights: Vec::with_capacity(self.scene.lights().len()),

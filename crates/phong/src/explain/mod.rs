@@ -14,10 +14,11 @@ use crate::film::Sums8;
 use crate::filter::Filter;
 use crate::integrator::{Integrator, Radiance8, RayCounts};
 use crate::math::{Dir3, wide};
-use crate::render::{RenderOptions, camera_ray};
+use crate::render::{Drawn, RenderOptions, camera_ray};
 use crate::sampling::Sampler;
 use crate::terms::Terms;
 use crate::view::View;
+use crate::witness::Witness;
 use record::Recorder;
 
 /// A pixel, explained.
@@ -219,27 +220,12 @@ pub fn explain(
     options: &RenderOptions,
     pixel: [u32; 2],
 ) -> Result<Explanation, Outside> {
-    let size = options.size();
-    if pixel[0] >= size[0] || pixel[1] >= size[1] {
-        return Err(Outside { pixel, size });
-    }
-    let integrator = Integrator {
-        scene,
-        background: options.background(),
-        depth: options.depth(),
-        shadows: options.shadows(),
-        stop: None,
-    };
-    let filter = Filter::new(options.filter());
+    let road = Road::new(scene, options, pixel)?;
     let mut sums = [Sums8::NONE];
     let mut samples = Vec::with_capacity(options.samples() as usize);
     for index in 0..options.samples() {
-        let sampler = Sampler::new(pixel, index, options.samples(), options.seed());
-        let drawn = camera_ray(&integrator, options, &filter, pixel, sampler);
         let mut recorder = Recorder::new(scene);
-        let brought = drawn.ray.map_or(Radiance8::NONE, |ray| {
-            integrator.trace_one(ray, &mut RayCounts::default(), &mut recorder)
-        });
+        let (drawn, brought) = road.trace(index, &mut recorder);
         Sums8::add(scene.world(), &mut sums, &[brought], &[[drawn.weight; 8]]);
         let place = [drawn.place.x as f32, drawn.place.y as f32];
         let terms = brought.terms.get(0);
@@ -247,7 +233,58 @@ pub fn explain(
     }
     let (terms, alpha) = sums[0].resolve(scene.world(), options.samples(), options.background());
     let (terms, alpha) = (terms.get(0), alpha[0]);
-    Ok(Explanation { pixel, size, samples, terms, linear: terms.total(), alpha })
+    Ok(Explanation { pixel, size: options.size(), samples, terms, linear: terms.total(), alpha })
+}
+
+/// Traces sample `index` (from 0) of a pixel, and tells `witness` of every step: of the ray's own
+/// road, as a picture is made of it.
+///
+/// # Errors
+/// [`Outside`].
+pub fn listen<W: Witness>(
+    scene: &View,
+    options: &RenderOptions,
+    pixel: [u32; 2],
+    index: u32,
+    witness: &mut W,
+) -> Result<(), Outside> {
+    Road::new(scene, options, pixel)?.trace(index, witness);
+    Ok(())
+}
+
+/// The samples of one pixel, traced one at a time.
+struct Road<'a> {
+    integrator: Integrator<'a>,
+    options: &'a RenderOptions,
+    filter: Filter,
+    pixel: [u32; 2],
+}
+
+impl<'a> Road<'a> {
+    fn new(scene: &'a View, options: &'a RenderOptions, pixel: [u32; 2]) -> Result<Self, Outside> {
+        let size = options.size();
+        if pixel[0] >= size[0] || pixel[1] >= size[1] {
+            return Err(Outside { pixel, size });
+        }
+        let integrator = Integrator {
+            scene,
+            background: options.background(),
+            depth: options.depth(),
+            shadows: options.shadows(),
+            stop: None,
+        };
+        Ok(Self { integrator, options, filter: Filter::new(options.filter()), pixel })
+    }
+
+    fn trace<W: Witness>(&self, index: u32, witness: &mut W) -> (Drawn, Radiance8) {
+        let Self { integrator, options, filter, pixel } = self;
+        let sampler = Sampler::new(*pixel, index, options.samples(), options.seed());
+        let drawn = camera_ray(integrator, options, filter, *pixel, sampler);
+        let brought = drawn.ray.map_or(Radiance8::NONE, |ray| {
+            integrator.trace_one(ray, &mut RayCounts::default(), witness)
+        });
+        (drawn, brought)
+    }
 }
 
 impl Explanation {

@@ -7,13 +7,13 @@ use crate::terms::{Term, TermSet, Terms8};
 
 /// A ray from the camera.
 #[derive(Clone, Copy, Debug)]
-pub struct CameraRay {
+pub(crate) struct CameraRay {
     /// The ray.
-    pub ray: Ray,
+    pub(crate) ray: Ray,
     /// Where its samples come from.
-    pub sampler: Sampler,
+    pub(crate) sampler: Sampler,
     /// Where it crosses the picture's height: 0 the upper edge, 1 the lower.
-    pub height: f32,
+    pub(crate) height: f32,
 }
 
 /// Rays from the camera that are traced together, eight side by side.
@@ -48,7 +48,7 @@ impl From<CameraRay> for Bundle {
 
 /// What eight rays brought home: nothing, where there was none.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Radiance8 {
+pub(crate) struct Radiance8 {
     /// The terms, linear and unclamped.
     pub(crate) terms: Terms8,
     /// Those that any of the rays may have brought; the others are black.
@@ -59,7 +59,7 @@ pub struct Radiance8 {
 
 impl Radiance8 {
     /// Nothing.
-    pub const NONE: Self = Self { terms: Terms8::NONE, brought: TermSet::NONE, met: 0 };
+    pub(crate) const NONE: Self = Self { terms: Terms8::NONE, brought: TermSet::NONE, met: 0 };
 
     /// Nothing again, from rays of which these met a surface.
     #[inline(always)]

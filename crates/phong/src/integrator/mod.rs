@@ -12,8 +12,8 @@ mod lights;
 mod met;
 mod optics;
 
-pub(crate) use bundle::Bundle;
-pub use bundle::{CameraRay, Radiance8, RayCounts};
+pub use bundle::RayCounts;
+pub(crate) use bundle::{Bundle, CameraRay, Radiance8};
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -33,18 +33,18 @@ use optics::{Part, Parting8};
 
 /// Traces rays through a scene.
 #[derive(Clone, Copy, Debug)]
-pub struct Integrator<'a> {
+pub(crate) struct Integrator<'a> {
     /// What rays meet.
-    pub scene: &'a View,
+    pub(crate) scene: &'a View,
     /// What rays see that meet nothing.
-    pub background: Background,
+    pub(crate) background: Background,
     /// Mirror and glass bounces; beyond it a ray brings black.
-    pub depth: u32,
+    pub(crate) depth: u32,
     /// Whether things stand in the way of lights at all.
-    pub shadows: bool,
+    pub(crate) shadows: bool,
     /// Once true, whatever is under way ends soon, and what it brought is unspecified. `None`:
     /// nothing stops it.
-    pub stop: Option<&'a AtomicBool>,
+    pub(crate) stop: Option<&'a AtomicBool>,
 }
 
 /// Room for the work on a bundle, used again for the next one.
@@ -101,7 +101,7 @@ impl Onward {
 
 impl Integrator<'_> {
     /// Traces a ray from the camera, and all that follow from it. It is in the first lane.
-    pub fn trace_one<W: Witness>(
+    pub(crate) fn trace_one<W: Witness>(
         &self,
         ray: CameraRay,
         counts: &mut RayCounts,

@@ -44,9 +44,22 @@ impl Dir3 {
         Some(Self(v / v.dot(v).sqrt()))
     }
 
+    /// Takes a vector of unit length as it is, to the bit; `None` where its length is off by more than
+    /// 1e-5, or not a number.
+    ///
+    /// ```
+    /// use phong::math::Dir3;
+    /// assert_eq!(Dir3::from_array([0.0, 0.0, 1.0]), Some(Dir3::Z));
+    /// assert_eq!(Dir3::from_array([0.0, 0.0, 1.1]), None);
+    /// ```
+    pub fn from_array(v: [f32; 3]) -> Option<Self> {
+        let v = Vec3::from(v);
+        ((v.length() - 1.0).abs() <= 1e-5).then_some(Self(v))
+    }
+
     /// Takes `v`, which the caller knows to be of unit length to rounding, as it is.
     #[inline]
-    pub const fn from_unit(v: Vec3) -> Self {
+    pub(crate) const fn from_unit(v: Vec3) -> Self {
         Self(v)
     }
 

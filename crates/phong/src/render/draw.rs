@@ -94,17 +94,17 @@ impl Samples {
 
 /// Where a sample was drawn.
 #[derive(Clone, Copy, Debug)]
-pub struct Drawn {
+pub(crate) struct Drawn {
     /// In the picture, pixels: x to the right and y down from the upper left corner.
-    pub place: DVec2,
+    pub(crate) place: DVec2,
     /// Its weight in the pixel's sum: +1, or −1 where a filter is negative.
-    pub weight: f32,
+    pub(crate) weight: f32,
     /// Its ray; `None` outside the image circle of a fisheye.
-    pub ray: Option<CameraRay>,
+    pub(crate) ray: Option<CameraRay>,
 }
 
 /// The place and the ray of one sample of a pixel, which is within `options.size`.
-pub fn camera_ray(
+pub(crate) fn camera_ray(
     integrator: &Integrator<'_>,
     options: &RenderOptions,
     filter: &Filter,

@@ -13,8 +13,9 @@ mod queue;
 mod rendering;
 mod tile;
 
-pub use draw::{Drawn, camera_ray};
+pub(crate) use draw::{Drawn, camera_ray};
 
+pub use crate::integrator::RayCounts;
 pub use cancel::Cancel;
 pub use event::{Event, Progress};
 pub use options::{OptionsError, RenderOptions};

@@ -374,11 +374,10 @@ impl<'a> Fields<'a> {
 fn unit(name: &str, value: &Json) -> Result<Dir3, String> {
     let v = three(name, value)?;
     let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
-    if (length - 1.0).abs() <= SLACK {
-        Ok(Dir3::from_unit(v.map(|c| (c / length) as f32).into()))
-    } else {
-        Err(format!("{name} is not a unit vector: its length is {length}"))
-    }
+    Some(v.map(|c| (c / length) as f32))
+        .filter(|_| (length - 1.0).abs() <= SLACK)
+        .and_then(Dir3::from_array)
+        .ok_or_else(|| format!("{name} is not a unit vector: its length is {length}"))
 }
 
 fn three(name: &str, value: &Json) -> Result<[f64; 3], String> {
