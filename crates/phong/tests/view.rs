@@ -2,13 +2,14 @@
 
 use std::sync::Arc;
 
+use glam::{DAffine3, DVec3, Vec3};
 use phong::film::{Film, LayerKind};
-use phong::geometry::{Geometry, GeometryOptions};
+use phong::geometry::{Geometry, GeometryError, GeometryOptions};
 use phong::look::Look;
 use phong::render::{Cancel, RenderOptions, render};
 use phong::terms::TermSet;
 use phong::view::{View, ViewError};
-use phong_scene::{Limits, Memory, Rgb, Scene, read};
+use phong_scene::{Group, GroupId, Limits, Memory, Mesh, Object, Rgb, Scene, Shape, read};
 
 const SCENE: &str = r##"version = 1
 [image]
@@ -90,4 +91,77 @@ fn a_scene_of_nothing_needs_no_material() {
     scene.materials.clear();
     let view = View::of(&scene).unwrap();
     assert!(film(&view, &scene).layer(LayerKind::Alpha).unwrap().values.iter().all(|v| *v == 1.0));
+}
+
+/// The scene with a mesh in a group, placed twice, and once beside it.
+fn with_meshes() -> Scene {
+    let mut scene = scene();
+    let mut ball = Mesh {
+        positions: (0..60)
+            .map(|i| {
+                let at = |step: f32| (i as f32 * step).fract() - 0.5;
+                Vec3::new(at(0.819), at(0.671), at(0.549))
+            })
+            .collect(),
+        indices: (0..20).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
+        ..Mesh::default()
+    };
+    ball.smooth(60.0);
+    scene.groups.push(Group { objects: vec![ball.clone().into()], ..Group::default() });
+    let moved = |x: f64| DAffine3::from_translation(DVec3::new(x, 1.0, 1.0));
+    for x in [-1.5, 1.5] {
+        let instance = Object::from(Shape::Instance(GroupId(0)));
+        scene.objects.push(Object { transform: moved(x), ..instance });
+    }
+    scene.objects.push(Object { transform: moved(0.0), ..ball.into() });
+    scene
+}
+
+#[test]
+fn a_mesh_has_one_tree_however_often_it_is_placed() {
+    let scene = with_meshes();
+    let geometry = Geometry::new(&scene, GeometryOptions::default()).unwrap();
+    assert_eq!((geometry.objects().len(), geometry.trees()), (5, 1));
+}
+
+#[test]
+fn an_updated_geometry_has_the_bits_of_one_built_anew() {
+    let scene = with_meshes();
+    let geometry = Geometry::new(&scene, GeometryOptions::default()).unwrap();
+    let changes: [fn(&mut Scene); 5] = [
+        |scene| scene.objects[2].transform.translation.y += 0.5,
+        |scene| scene.objects[1].transform.translation.x -= 0.25,
+        |scene| drop(scene.objects.pop()),
+        |scene| scene.objects.push(scene.objects[2].clone()),
+        |scene| {
+            let Shape::Mesh(mesh) = &mut scene.objects[4].shape else { panic!("a mesh") };
+            mesh.positions[0].y += 1.0;
+        },
+    ];
+    for change in changes {
+        let mut changed = scene.clone();
+        change(&mut changed);
+        let updated = Arc::new(geometry.update(&changed).unwrap());
+        let view = View::new(updated, Look::new(&changed)).unwrap();
+        let built_anew = View::of(&changed).unwrap();
+        assert!(bits(&film(&view, &changed)) == bits(&film(&built_anew, &changed)), "other bits");
+        assert_eq!(view.objects(), built_anew.objects());
+    }
+}
+
+#[test]
+fn arrays_that_are_shared_count_once_towards_the_memory_limit() {
+    let mut scene = with_meshes();
+    let needed = |scene: &Scene| {
+        let options = GeometryOptions { max_bytes: Some(0), ..GeometryOptions::default() };
+        match Geometry::new(scene, options) {
+            Err(GeometryError::Memory { needed, .. }) => needed,
+            other => panic!("{other:?}"),
+        }
+    };
+    let few = needed(&scene);
+    let instance = scene.objects[2].clone();
+    scene.objects.extend(std::iter::repeat_n(instance, 1000));
+    let each = (needed(&scene) - few) / 1000;
+    assert!((200..1500).contains(&each), "{each} bytes for each instance");
 }

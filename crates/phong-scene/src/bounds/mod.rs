@@ -109,6 +109,19 @@ impl Points {
     }
 }
 
+impl Shape {
+    /// The smallest box that holds it where it is placed. Empty for a plane, which has no end, and
+    /// for an instance, whose group is the scene's.
+    pub fn bounds(&self, to_world: DAffine3) -> Bounds {
+        let across = to_world.matrix3.transpose();
+        let reach = self.reach(AXES.map(|axis| across * axis), &[]);
+        reach.map_or(Bounds::EMPTY, |[a, b, c, d, e, f]| Bounds {
+            min: to_world.translation - DVec3::new(d, e, f),
+            max: to_world.translation + DVec3::new(a, b, c),
+        })
+    }
+}
+
 impl Scene {
     /// The smallest box that holds every object but the planes, which have no end; empty if there
     /// is none. Of an instance it holds the box around its group's.

@@ -38,7 +38,11 @@ impl Object {
 }
 
 impl Shape {
-    fn reach<const N: usize>(&self, along: [DVec3; N], groups: &[Bounds]) -> Option<[f64; N]> {
+    pub(super) fn reach<const N: usize>(
+        &self,
+        along: [DVec3; N],
+        groups: &[Bounds],
+    ) -> Option<[f64; N]> {
         let disc = |center: DVec3, normal: DVec3, radius: f64| {
             let axis = normal.normalize_or_zero();
             along.map(|n| center.dot(n) + radius * (n - axis * axis.dot(n)).length())

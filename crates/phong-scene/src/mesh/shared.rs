@@ -25,6 +25,12 @@ impl<T> Shared<T> {
         Arc::ptr_eq(&a.0, &b.0)
     }
 
+    /// Where the values lie in memory: the same for two exactly if both refer to one array, as long
+    /// as both are held.
+    pub fn address(shared: &Self) -> usize {
+        Arc::as_ptr(&shared.0).addr()
+    }
+
     /// Another reference to the array, as the standard library's own.
     pub fn to_arc(&self) -> Arc<Vec<T>> {
         Arc::clone(&self.0)

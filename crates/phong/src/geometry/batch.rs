@@ -1,6 +1,6 @@
 //! What belongs to the primitives of a tree's batch besides their shape.
 
-use glam::{DMat3, Vec2, Vec3};
+use glam::{DMat3, Mat3, Vec2, Vec3};
 use phong_bvh::Hit;
 use phong_scene::{NO_INDEX, Rgb, Shared};
 
@@ -14,6 +14,9 @@ pub(crate) struct Batch {
     pub(super) mesh: Option<Box<MeshAttributes>>,
     /// A colour a sphere; empty: the material's.
     pub(super) colors: Shared<Rgb>,
+    /// What turns normals of the mesh into those of the world, up to their length; `None`: they are
+    /// the same.
+    pub(super) normals_to_world: Option<Box<Mat3>>,
     /// The spheres that are turned, in order of their number, and the rotation of each.
     pub(super) rotations: Vec<(u32, DMat3)>,
 }
@@ -52,6 +55,7 @@ impl Batch {
             materials: MaterialNumbers::One(material),
             mesh: None,
             colors: Shared::default(),
+            normals_to_world: None,
             rotations: Vec::new(),
         }
     }
@@ -114,7 +118,8 @@ impl Batch {
     pub(crate) fn normal(&self, local: u32, corners: [u32; 3], hit: &Hit) -> Option<Dir3> {
         let mesh = self.mesh.as_ref()?;
         let [a, b, c] = at_corners(&mesh.normals, &mesh.normal_indices, local, corners)?;
-        Dir3::new((1.0 - hit.u - hit.v) * a + hit.u * b + hit.v * c)
+        let n = (1.0 - hit.u - hit.v) * a + hit.u * b + hit.v * c;
+        Dir3::new(self.normals_to_world.as_ref().map_or(n, |matrix| **matrix * n))
     }
 
     /// The interpolated texture coordinates; `None` where the mesh has none.

@@ -1,28 +1,34 @@
-//! Shapes become batches of primitives, and what belongs to them.
+//! Shapes become parts of a world, and what belongs to their primitives.
 
 use std::sync::Arc;
 
-use glam::{DAffine3, DMat3, DVec2, DVec3};
-use phong_bvh::{Plane, Primitives, Sphere};
-use phong_scene::{Bounds, Mesh, Object, Points, Shape, cofactor, even_scale};
-use rayon::prelude::*;
+use glam::{DAffine3, DMat3, DVec2, DVec3, Mat3};
+use phong_bvh::{BuildError, BuildOptions, Part, Plane, Primitives, Sphere};
+use phong_scene::{Bounds, Mesh, Points, Shape, cofactor, even_scale};
 
 use super::ObjectRecord;
 use super::batch::{Batch, MaterialNumbers, MeshAttributes, Objects};
+use super::flatten::Placed;
 use super::solid::{self, canonical};
+use super::trees::{Arrays, Trees};
 use crate::math::wide;
 
-/// A whole scene's batches.
+/// A whole scene's parts.
 pub(super) struct Built {
-    pub(super) primitives: Vec<Primitives>,
-    /// One for each of `primitives`.
+    pub(super) parts: Vec<Part>,
+    /// One for each of `parts`.
     pub(super) batches: Vec<Batch>,
     pub(super) objects: Vec<ObjectRecord>,
+    pub(super) trees: Trees,
 }
 
-/// The middle of the scene, rounded to a power of two about as large as the scene, so that scenes
-/// written around the origin stay as they were written, and the rest lose no digits.
-pub(super) fn center(bounds: Bounds) -> DVec3 {
+/// The middle of all that has no tree of its own, rounded to a power of two about as large as they
+/// reach, so that scenes written around the origin stay as they were written, and the rest lose no
+/// digits.
+pub(super) fn center(placed: &[Placed<'_>]) -> DVec3 {
+    let bounds = placed.iter().filter(|placed| !has_tree(&placed.object.shape));
+    let bounds = bounds.map(|placed| placed.object.shape.bounds(placed.to_world));
+    let bounds = bounds.fold(Bounds::EMPTY, Bounds::union);
     let size = bounds.size().max_element();
     if bounds.is_empty() || size == 0.0 {
         return if bounds.is_empty() { DVec3::ZERO } else { bounds.center() };
@@ -31,89 +37,84 @@ pub(super) fn center(bounds: Bounds) -> DVec3 {
     (bounds.center() / step).round() * step
 }
 
-/// Puts every object into world space moved by `−center`.
-pub(super) fn build(leaves: Vec<Object>, center: DVec3) -> Built {
+/// Whether an object has a tree of its own, which its instances share.
+fn has_tree(shape: &Shape) -> bool {
+    matches!(shape, Shape::Mesh(_) | Shape::Points(_))
+}
+
+/// Makes parts of all objects. What is written one by one goes into the world moved by `−center`;
+/// meshes and clouds become instances of trees, which are taken from `earlier` where they are there.
+pub(super) fn build(
+    placed: Vec<Placed<'_>>,
+    center: DVec3,
+    earlier: &Trees,
+    options: BuildOptions,
+) -> Result<Built, BuildError> {
     let mut out = Built {
-        primitives: Vec::new(),
-        batches: Vec::new(),
-        objects: Vec::with_capacity(leaves.len()),
+        parts: Vec::with_capacity(placed.len()),
+        batches: Vec::with_capacity(placed.len()),
+        objects: Vec::with_capacity(placed.len()),
+        trees: Trees::default(),
     };
-    for Object { name, shape, material, transform, place } in leaves {
+    let to_center = DAffine3::from_translation(-center);
+    for Placed { object, name, to_world } in placed {
         let number = out.objects.len() as u32;
-        out.objects.push(ObjectRecord { name, place });
-        let to_world = DAffine3::from_translation(-center) * transform;
-        match shape {
-            Shape::Mesh(mesh) => out.mesh(*mesh, to_world, number, material.0),
-            Shape::Points(points) => out.points(*points, to_world, number, material.0),
-            shape => out.single(&shape, to_world, number, material.0),
-        }
+        let material = object.material.0;
+        out.objects.push(ObjectRecord { name, place: object.place.clone() });
+        let (arrays, origin, batch) = match &object.shape {
+            Shape::Mesh(mesh) => {
+                let arrays = Arrays::Triangles(mesh.positions.clone(), mesh.indices.clone());
+                (arrays, mesh.origin, of_mesh(mesh, to_world.matrix3, number, material))
+            }
+            Shape::Points(points) => {
+                let batch = Batch::new(Objects::One(number), material);
+                let Points { origin, spheres, colors, .. } = &**points;
+                let batch = Batch { colors: colors.clone(), ..batch };
+                (Arrays::Spheres(spheres.clone()), *origin, batch)
+            }
+            shape => {
+                out.single(shape, to_center * to_world, number, material);
+                continue;
+            }
+        };
+        let tree = out.trees.get(arrays, earlier, options)?;
+        let to_world = to_world * DAffine3::from_translation(origin);
+        out.push(Part::Instance { tree, to_world }, batch);
     }
-    out
+    Ok(out)
+}
+
+/// What belongs to the triangles of a mesh under a transform.
+fn of_mesh(mesh: &Mesh, to_world: DMat3, object: u32, material: u32) -> Batch {
+    let mut batch = Batch::new(Objects::One(object), material);
+    if !mesh.face_materials.is_empty() {
+        batch.materials = MaterialNumbers::OneEach(mesh.face_materials.clone());
+    }
+    let Mesh { normals, normal_indices, uvs, uv_indices, colors, .. } = mesh.clone();
+    if to_world != DMat3::IDENTITY && !normals.is_empty() {
+        // Of about unit size, which f32 can hold whatever the transform's.
+        let matrix = cofactor(to_world);
+        let largest = matrix.to_cols_array().into_iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+        let matrix = if largest > 0.0 { matrix * largest.recip() } else { matrix };
+        batch.normals_to_world = Some(Box::new(Mat3::from_cols(
+            matrix.x_axis.as_vec3(),
+            matrix.y_axis.as_vec3(),
+            matrix.z_axis.as_vec3(),
+        )));
+    }
+    batch.mesh =
+        Some(Box::new(MeshAttributes { normals, normal_indices, uvs, uv_indices, colors }));
+    batch
 }
 
 impl Built {
-    fn push(&mut self, primitives: Primitives, batch: Batch) {
-        self.primitives.push(primitives);
+    fn push(&mut self, part: Part, batch: Batch) {
+        self.parts.push(part);
         self.batches.push(batch);
     }
 
-    fn mesh(&mut self, mesh: Mesh, to_world: DAffine3, object: u32, material: u32) {
-        let Mesh { origin, mut positions, mut indices, normals, face_materials, .. } = mesh;
-        let move_by = to_world * DAffine3::from_translation(origin);
-        let mut attributes = MeshAttributes {
-            normals,
-            normal_indices: mesh.normal_indices,
-            uvs: mesh.uvs,
-            uv_indices: mesh.uv_indices,
-            colors: mesh.colors,
-        };
-        if move_by != DAffine3::IDENTITY {
-            positions.par_iter_mut().with_min_len(4096).for_each(|p| {
-                *p = move_by.transform_point3(p.as_dvec3()).as_vec3();
-            });
-        }
-        if move_by.matrix3 != DMat3::IDENTITY {
-            let normal_matrix = cofactor(move_by.matrix3);
-            attributes.normals.par_iter_mut().with_min_len(4096).for_each(|n| {
-                *n = (normal_matrix * n.as_dvec3()).normalize_or_zero().as_vec3();
-            });
-        }
-        if move_by.matrix3.determinant() < 0.0 {
-            // Mirrored: the winding turns, so that geometric normals stay outward.
-            for corners in
-                [&mut indices, &mut attributes.normal_indices, &mut attributes.uv_indices]
-            {
-                corners.par_iter_mut().with_min_len(4096).for_each(|c| c.swap(1, 2));
-            }
-        }
-        let mut batch = Batch::new(Objects::One(object), material);
-        if !face_materials.is_empty() {
-            batch.materials = MaterialNumbers::OneEach(face_materials);
-        }
-        batch.mesh = Some(Box::new(attributes));
-        self.push(Primitives::triangles(positions.to_arc(), indices.to_arc()), batch);
-    }
-
-    fn points(&mut self, points: Points, to_world: DAffine3, object: u32, material: u32) {
-        let Points { origin, spheres, colors, .. } = points;
-        let move_by = to_world * DAffine3::from_translation(origin);
-        let batch = |colors| Batch { colors, ..Batch::new(Objects::One(object), material) };
-        let Some(scale) = even_scale(move_by.matrix3) else {
-            // Ellipsoids: one batch each.
-            for (i, &[x, y, z, radius]) in spheres.iter().enumerate() {
-                let center = DVec3::new(x.into(), y.into(), z.into());
-                let solid = solid::sphere(center, radius.into(), move_by);
-                let colors = colors.get(i).map(|&c| [c].into()).unwrap_or_default();
-                self.push(Primitives::Solid(solid), batch(colors));
-            }
-            return;
-        };
-        let place = |[x, y, z, radius]: [f32; 4]| Sphere {
-            center: move_by.transform_point3(DVec3::new(x.into(), y.into(), z.into())).as_vec3(),
-            radius: (f64::from(radius) * scale) as f32,
-        };
-        let spheres: Vec<_> = spheres.iter().copied().map(place).collect();
-        self.push(Primitives::spheres(spheres), batch(colors));
+    fn push_own(&mut self, primitives: Primitives, batch: Batch) {
+        self.push(Part::Own(primitives), batch);
     }
 
     /// An object that is one primitive, or a box's worth of them.
@@ -123,7 +124,7 @@ impl Built {
             Shape::Sphere { center, radius } => {
                 let Some(scale) = even_scale(to_world.matrix3) else {
                     let solid = solid::sphere(center, radius, to_world);
-                    return self.push(Primitives::Solid(solid), batch);
+                    return self.push_own(Primitives::Solid(solid), batch);
                 };
                 let rotation = to_world.matrix3 * (1.0 / scale);
                 let rotation =
@@ -135,7 +136,7 @@ impl Built {
             Shape::Plane { point, normal } => {
                 let point = to_world.transform_point3(point);
                 let normal = (cofactor(to_world.matrix3) * normal).normalize_or(DVec3::Y);
-                self.push(Primitives::Plane(Plane { point, normal }), batch);
+                self.push_own(Primitives::Plane(Plane { point, normal }), batch);
             }
             Shape::Triangle { points, normals, uv } => {
                 let to_f32 = |v: DVec3| v.as_vec3();
@@ -151,11 +152,11 @@ impl Built {
                 let batch = Batch { mesh: Some(Box::new(attributes)), ..batch };
                 let mirrored = to_world.matrix3.determinant() < 0.0;
                 let indices = vec![if mirrored { [0, 2, 1] } else { [0, 1, 2] }];
-                self.push(Primitives::triangles(positions, indices), batch);
+                self.push_own(Primitives::triangles(positions, indices), batch);
             }
             ref solid => {
                 if let Some(solid) = canonical(solid, to_world) {
-                    self.push(Primitives::Solid(solid), batch);
+                    self.push_own(Primitives::Solid(solid), batch);
                 }
             }
         }
@@ -163,8 +164,8 @@ impl Built {
 
     /// Spheres written one after another share a batch.
     fn sphere(&mut self, sphere: Sphere, rotation: Option<DMat3>, object: u32, material: u32) {
-        if let (Some(Primitives::Spheres(spheres)), Some(batch)) =
-            (self.primitives.last_mut(), self.batches.last_mut())
+        if let (Some(Part::Own(Primitives::Spheres(spheres))), Some(batch)) =
+            (self.parts.last_mut(), self.batches.last_mut())
             && let (Objects::OneEach(first), MaterialNumbers::OneEach(materials)) =
                 (batch.objects, &mut batch.materials)
             && first + spheres.len() as u32 == object
@@ -178,6 +179,6 @@ impl Built {
         let mut batch = Batch::new(Objects::OneEach(object), material);
         batch.materials = MaterialNumbers::OneEach([material].into());
         batch.rotations.extend(rotation.map(|rotation| (0, rotation)));
-        self.push(Primitives::spheres(vec![sphere]), batch);
+        self.push_own(Primitives::spheres(vec![sphere]), batch);
     }
 }

@@ -1,47 +1,56 @@
 //! How much memory a geometry takes, told before it is built.
 
+use std::collections::BTreeSet;
 use std::mem::size_of;
 
-use glam::{Vec2, Vec3};
+use glam::{DAffine3, Vec2};
 use phong_bvh::Sphere;
-use phong_scene::{Object, Rgb, Scene, Shape};
+use phong_scene::{Object, Rgb, Scene, Shape, Shared};
 
 use super::ObjectRecord;
+use super::batch::Batch;
 
-/// About how many bytes the scene takes once compiled, the build's own included.
-pub(super) fn estimate(scene: &Scene) -> u64 {
-    /// Nodes, leaves, and what the builder holds for a moment: measured, rounded up.
-    const TRIANGLE: usize = 160;
-    const SPHERE: usize = 120;
-    let bytes = |object: &Object| match &object.shape {
-        Shape::Mesh(mesh) => {
-            mesh.positions.len() * size_of::<Vec3>()
-                + mesh.indices.len() * (size_of::<[u32; 3]>() + TRIANGLE)
-                + (mesh.normals.len() + mesh.colors.len()) * size_of::<Vec3>()
-                + mesh.uvs.len() * size_of::<Vec2>()
-                + (mesh.normal_indices.len() + mesh.uv_indices.len()) * size_of::<[u32; 3]>()
-                + mesh.face_materials.len() * size_of::<u32>()
-        }
-        Shape::Points(points) => {
-            points.spheres.len() * (size_of::<Sphere>() + SPHERE)
-                + points.colors.len() * size_of::<Rgb>()
-        }
-        _ => size_of::<Object>() + size_of::<ObjectRecord>() + SPHERE,
-    };
-    // A group may hold instances of earlier groups only, so one pass in order knows them all.
-    let mut groups: Vec<u64> = Vec::with_capacity(scene.groups.len());
-    for group in &scene.groups {
-        let total = sum(&group.objects, &groups, bytes);
-        groups.push(total);
-    }
-    sum(&scene.objects, &groups, bytes) + groups.iter().fold(0_u64, |a, b| a.saturating_add(*b))
+/// Nodes and leaves of a triangle, and what the builder holds for a moment: measured, rounded up.
+const TRIANGLE: usize = 160;
+/// The same of a sphere, or of another primitive.
+const SPHERE: usize = 120;
+/// A placed tree: its two transforms, its box, and its share of the tree over all.
+const INSTANCE: usize = 4 * size_of::<DAffine3>() + SPHERE;
+
+/// About how many bytes the geometry of a scene of `count` objects takes, instances unfolded; the
+/// build's own included, and each array once however many objects share it.
+pub(super) fn estimate(scene: &Scene, count: u64) -> u64 {
+    let mut seen = BTreeSet::new();
+    let in_groups = scene.groups.iter().flat_map(|group| &group.objects);
+    let arrays = scene.objects.iter().chain(in_groups).map(|object| bytes(object, &mut seen));
+    let arrays = arrays.fold(0_u64, |sum, bytes| sum.saturating_add(bytes as u64));
+    let each = size_of::<Object>() + size_of::<ObjectRecord>() + size_of::<Batch>() + INSTANCE;
+    arrays.saturating_add(count.saturating_mul(each as u64))
 }
 
-fn sum(objects: &[Object], groups: &[u64], bytes: impl Fn(&Object) -> usize) -> u64 {
-    objects.iter().fold(0, |total, object| {
-        total.saturating_add(match object.shape {
-            Shape::Instance(group) => groups.get(group.0 as usize).copied().unwrap_or(0),
-            _ => bytes(object) as u64,
-        })
-    })
+/// Bytes that the arrays of an object take with their tree, unless they were seen before.
+fn bytes(object: &Object, seen: &mut BTreeSet<usize>) -> usize {
+    match &object.shape {
+        Shape::Mesh(mesh) => {
+            array(&mesh.positions, 0, seen)
+                + array(&mesh.indices, TRIANGLE, seen)
+                + array(&mesh.normals, 0, seen)
+                + array(&mesh.normal_indices, 0, seen)
+                + array::<Vec2>(&mesh.uvs, 0, seen)
+                + array(&mesh.uv_indices, 0, seen)
+                + array::<Rgb>(&mesh.colors, 0, seen)
+                + array(&mesh.face_materials, 0, seen)
+        }
+        Shape::Points(points) => {
+            array(&points.spheres, size_of::<Sphere>() + SPHERE, seen)
+                + array(&points.colors, 0, seen)
+        }
+        _ => 0,
+    }
+}
+
+/// Bytes of an array, and as many more for each value in it.
+fn array<T>(values: &Shared<T>, more: usize, seen: &mut BTreeSet<usize>) -> usize {
+    let new = !values.is_empty() && seen.insert(Shared::address(values));
+    if new { values.len() * (size_of::<T>() + more) } else { 0 }
 }

@@ -1,20 +1,24 @@
 //! What rays meet: the trees, and what belongs to their primitives. Nothing of the look is here.
 //!
-//! Instances are unfolded, transforms are applied in f64, and the whole scene is moved so that its
-//! middle is near the origin: far-away data keep their detail in f32.
+//! Groups are unfolded. A mesh or a cloud has a tree of its own, built once from the scene's own
+//! arrays however many objects share them; each object is an instance of it with a transform, which
+//! rays pass in f64. What is written one by one shares one tree about its middle, with transforms
+//! applied in f64.
 
 mod batch;
 mod build;
 mod estimate;
 mod flatten;
 mod solid;
+mod trees;
 
 use glam::DVec3;
-use phong_bvh::{BuildError, BuildOptions, Coordinates, Hit, Part, Preset, Primitives, Ray, World};
+use phong_bvh::{BuildError, BuildOptions, Coordinates, Hit, Preset, Primitives, Ray, World};
 use phong_scene::{Diagnostic, Place, Scene, Shape};
 use thiserror::Error;
 
 pub(crate) use batch::Batch;
+use trees::Trees;
 
 /// What rays meet: immutable, and shared freely between threads and pictures.
 ///
@@ -45,6 +49,10 @@ pub struct Geometry {
     objects: Vec<ObjectRecord>,
     /// One more than the highest number of a material; 0: nothing has a material.
     materials: u32,
+    /// The trees of meshes and clouds.
+    trees: Trees,
+    /// How it was built, and is built again.
+    options: GeometryOptions,
 }
 
 /// An object as rays meet it: for telling, not for shading.
@@ -113,43 +121,66 @@ pub(crate) fn told(diagnostics: &[Diagnostic]) -> String {
     }
 }
 
-/// The preset that takes the least time in all for so many rays.
+/// The preset that takes the least time in all for so many rays; of arrays that are shared, each
+/// object's primitives count.
 fn soonest(scene: &Scene, rays: u64) -> BuildOptions {
     let primitives = |object: &phong_scene::Object| match &object.shape {
         Shape::Mesh(mesh) => mesh.indices.len() as u64,
         Shape::Points(points) => points.spheres.len() as u64,
         _ => 1,
     };
-    let primitives = scene.objects.iter().map(primitives).sum();
+    let in_groups = scene.groups.iter().flat_map(|group| &group.objects);
+    let primitives = scene.objects.iter().chain(in_groups).map(primitives).sum();
     BuildOptions { preset: Preset::for_rays(primitives, rays), ..BuildOptions::default() }
 }
 
 impl Geometry {
-    /// Builds the trees of a scene's objects, in the current rayon pool.
+    /// Builds the trees of a scene's objects, in the current rayon pool. The scene's arrays are
+    /// shared, not copied.
     ///
     /// # Errors
     /// [`GeometryError`].
     pub fn new(scene: &Scene, options: GeometryOptions) -> Result<Self, GeometryError> {
+        let build = options.build.unwrap_or_else(|| soonest(scene, options.rays));
+        let options = GeometryOptions { build: Some(build), ..options };
+        Self::with_trees(scene, options, &Trees::default())
+    }
+
+    /// The geometry of a scene that differs in some objects: as [`Geometry::new`] would build it, to
+    /// the bit, with the same options. Trees of meshes and clouds whose arrays are the very same are
+    /// taken over, so moving, adding or removing one of those takes no time that grows with its
+    /// size, and neither does a clone of the scene.
+    ///
+    /// # Errors
+    /// [`GeometryError`].
+    pub fn update(&self, scene: &Scene) -> Result<Self, GeometryError> {
+        Self::with_trees(scene, self.options, &self.trees)
+    }
+
+    fn with_trees(
+        scene: &Scene,
+        options: GeometryOptions,
+        earlier: &Trees,
+    ) -> Result<Self, GeometryError> {
         let broken = scene.check_objects();
         if !broken.is_empty() {
             return Err(GeometryError::Scene(broken));
         }
         if let Some(limit) = options.max_bytes {
-            let needed = estimate::estimate(scene);
+            let needed = estimate::estimate(scene, flatten::count(scene));
             if needed > limit {
                 return Err(GeometryError::Memory { needed, limit });
             }
         }
-        let bounds = scene.bounds();
-        let center = build::center(bounds);
-        let options = options.build.unwrap_or_else(|| soonest(scene, options.rays));
-        let leaves = flatten::flatten(&scene.objects, &scene.groups);
-        let build::Built { primitives, batches, objects } = build::build(leaves, center);
+        let build = options.build.unwrap_or_default();
+        let placed = flatten::flatten(scene);
+        let center = build::center(&placed);
+        let built = build::build(placed, center, earlier, build)?;
+        let build::Built { parts, batches, objects, trees } = built;
         let materials = batches.iter().filter_map(Batch::highest_material).max();
         let materials = materials.map_or(0, |highest| highest.saturating_add(1));
-        let parts = primitives.into_iter().map(Part::Own).collect();
-        let world = World::build(parts, center, options)?;
-        Ok(Self { center, world, batches, objects, materials })
+        let world = World::build(parts, center, build)?;
+        Ok(Self { center, world, batches, objects, materials, trees, options })
     }
 
     /// The middle of all, about which things that are written one by one keep their detail in f32.
@@ -166,6 +197,12 @@ impl Geometry {
     #[inline]
     pub fn world(&self) -> &World {
         &self.world
+    }
+
+    /// How many trees meshes and clouds have: one for each mesh or cloud that is not a copy of
+    /// another's arrays, however many objects are made of it.
+    pub fn trees(&self) -> usize {
+        self.trees.len()
     }
 
     /// How many materials a look must have at least: one more than the highest number of one.
