@@ -12,8 +12,8 @@ use crate::args::InputArgs;
 use crate::failure::Failure;
 use crate::report::readable;
 
-/// Makes a scene ready of which `beside` bytes of memory are needed for something else.
-pub(crate) fn compile(scene: Scene, args: &InputArgs, beside: u64) -> Result<View, Failure> {
+/// Makes a scene ready beside which `beside` bytes of memory are needed for something else.
+pub(crate) fn compile(scene: &Scene, args: &InputArgs, beside: u64) -> Result<View, Failure> {
     let limit = args.max_memory.or_else(memory::total);
     let over = |needed: u64, limit: u64| {
         let (needed, limit) = (readable(needed), readable(limit));
@@ -28,10 +28,9 @@ pub(crate) fn compile(scene: Scene, args: &InputArgs, beside: u64) -> Result<Vie
         return Err(over(beside, limit));
     }
     let max_bytes = limit.map(|limit| limit - beside);
-    let options = GeometryOptions { max_bytes, ..GeometryOptions::of(&scene) };
-    let geometry = Geometry::new(&scene, options).map_err(ViewError::from);
-    let view = geometry.and_then(|geometry| View::new(Arc::new(geometry), Look::new(&scene)));
-    drop(scene);
+    let options = GeometryOptions { max_bytes, ..GeometryOptions::of(scene) };
+    let geometry = Geometry::new(scene, options).map_err(ViewError::from);
+    let view = geometry.and_then(|geometry| View::new(Arc::new(geometry), Look::new(scene)));
     view.map_err(|error| match error {
         ViewError::Geometry(GeometryError::Memory { needed, limit }) => {
             over(needed + beside, limit + beside)

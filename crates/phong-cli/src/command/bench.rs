@@ -31,7 +31,7 @@ pub(crate) fn run(Args { question: args }: &Args) -> Result<(), Failure> {
     let read = started.elapsed().as_secs_f64();
     let size = input.scene.image.size;
     let started = Instant::now();
-    let scene = compile(input.scene, &args.input, 0)?;
+    let scene = compile(&input.scene, &args.input, 0)?;
     let build = started.elapsed().as_secs_f64();
     let held = Holdings::of(scene.geometry());
     let (primitives, per_primitive) = (held.primitives(), held.bytes_per_primitive());

@@ -92,7 +92,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         let samples = options.samples();
         return Err(Failure::usage(format!("--sample {sample}: the pixel has {samples} samples")));
     }
-    let scene = compile(input.scene, &args.input, 0)?;
+    let scene = compile(&input.scene, &args.input, 0)?;
     if let (Some(x), Some(y)) = (args.x, args.y) {
         let told = explain(&scene, &options, [x, y]).map_err(|outside| {
             let [width, height] = outside.size;

@@ -33,7 +33,7 @@ pub(crate) fn run(Args { question: args }: &Args) -> Result<(), Failure> {
     let lights = input.scene.lights.len();
     let names: Vec<String> = input.scene.materials.iter().map(|m| m.name.clone()).collect();
     let started = Instant::now();
-    let scene = compile(input.scene, &args.input, 0)?;
+    let scene = compile(&input.scene, &args.input, 0)?;
     let build_seconds = started.elapsed().as_secs_f64();
     let held = Holdings::of(scene.geometry());
     std::mem::forget(scene);

@@ -43,7 +43,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let scene_sum =
         if plan.share.is_some() || args.work.resume { fingerprint(&input.scene) } else { 0 };
     let settings = Settings::of(scene_sum, &options, plan.encoding);
-    let scene = compile(input.scene, &args.input, settings.film_bytes())?;
+    let scene = compile(&input.scene, &args.input, settings.film_bytes())?;
     clock.lap("build");
 
     let checkpoint = args.work.resume.then(|| Checkpoint::beside(&plan.output, settings.clone()));

@@ -2,11 +2,14 @@
 
 use std::fmt::Write;
 use std::io::Cursor;
+use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 use phong::film::{Film, LayerKind};
 use phong::finish::{Finishing, finish};
+use phong::geometry::{Geometry, GeometryOptions};
 use phong::image::{Content, Encoding, Format, write};
+use phong::look::Look;
 use phong::render::{Cancel, RenderOptions, render};
 use phong::view::View;
 use phong_scene::{
@@ -48,8 +51,11 @@ fn draw(out: &mut String, fit: &Fit) -> std::fmt::Result {
          <title>{} and {}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>",
         names[0], names[1]
     )?;
+    // One ball on one floor for both lobes.
+    let stage = ball_on_floor(fit.from);
+    let geometry = Geometry::new(&stage, GeometryOptions::of(&stage)).ok().map(Arc::new);
     let pictures: Vec<Option<String>> =
-        [fit.from, fit.to].par_iter().map(|lobe| picture(*lobe)).collect();
+        [fit.from, fit.to].par_iter().map(|lobe| picture(geometry.as_ref()?, *lobe)).collect();
     for (i, (name, picture)) in names.iter().zip(pictures).enumerate() {
         let x = 25 + 460 * i;
         writeln!(
@@ -146,11 +152,11 @@ fn plot(
 
 /// A ball on a floor, both of this lobe over a dark Lambert, as the address of a PNG; `None` where
 /// it cannot be drawn.
-fn picture(lobe: Lobe) -> Option<String> {
+fn picture(geometry: &Arc<Geometry>, lobe: Lobe) -> Option<String> {
     let scene = ball_on_floor(lobe);
     let options = RenderOptions::of(&scene.image).and_then(|of| of.with_samples(4)).ok()?;
-    let compiled = View::of(&scene).ok()?;
-    png(&render(&compiled, &options, &|_| {}, &Cancel::new()).film)
+    let view = View::new(Arc::clone(geometry), Look::new(&scene)).ok()?;
+    png(&render(&view, &options, &|_| {}, &Cancel::new()).film)
 }
 
 fn png(film: &Film) -> Option<String> {

@@ -12,12 +12,15 @@ mod points;
 mod shade;
 mod terms;
 
+use std::sync::Arc;
+
 use phong_scene::Scene;
 use thiserror::Error;
 
 use mistakes::{Curve, Kind, Layout};
 pub use mistakes::{MISTAKES, Mistake};
 use phong::image::Picture;
+use phong::look::Look;
 use phong::render::{OptionsError, RenderOptions};
 use phong::view::{View, ViewError};
 pub use picture::Residual;
@@ -101,7 +104,7 @@ pub fn grade(scene: &Scene, picture: &Picture) -> Result<Grade, GradeError> {
         return Err(GradeError::Size { theirs: picture.size, ours });
     }
     let theirs = Theirs::new(picture).ok_or(GradeError::NoColor)?;
-    let right = Prepared::new(scene.clone())?;
+    let right = Prepared::new(View::of(scene)?, scene)?;
     let residual = right.residual(&theirs, &Fault::default());
     let terms = terms::fit(&right, &theirs);
     let broken = theirs.not_numbers().map(|broken| broken.candidate(ours[0], residual));
@@ -231,7 +234,10 @@ fn singles(scene: &Scene, right: &Prepared, theirs: &Theirs) -> Result<Vec<Tried
                 if (&changed.camera, &changed.lights) == (&scene.camera, &scene.lights) {
                     continue;
                 }
-                Prepared::new(changed)?.residual(theirs, &Fault::default())
+                // Nothing that rays meet is other.
+                let geometry = Arc::clone(right.scene.geometry());
+                let view = View::new(geometry, Look::new(&changed))?;
+                Prepared::new(view, &changed)?.residual(theirs, &Fault::default())
             }
             Kind::Acne => match acne::look(right, theirs) {
                 Some((residual, seen)) => {
@@ -280,12 +286,12 @@ fn pairs(right: &Prepared, theirs: &Theirs, singles: &[Tried]) -> Vec<Tried> {
 }
 
 impl Prepared {
-    fn new(scene: Scene) -> Result<Self, GradeError> {
+    /// `view` is what the picture of `scene` shows.
+    fn new(view: View, scene: &Scene) -> Result<Self, GradeError> {
         let options = RenderOptions::of(&scene.image)?;
-        let scene = View::of(&scene)?;
-        let points = gather(&scene, &options);
+        let points = gather(&view, &options);
         let inner = picture::inner(&points, options.size());
-        Ok(Self { scene, size: options.size(), points, inner })
+        Ok(Self { scene: view, size: options.size(), points, inner })
     }
 
     /// How far their picture is from ours, drawn with a fault.

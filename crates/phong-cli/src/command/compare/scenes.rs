@@ -1,9 +1,12 @@
 //! Two scenes, or one in two models, drawn alike and held against each other term by term.
 
-use phong::film::Film;
+use std::sync::Arc;
+
 use phong::image::Picture;
+use phong::look::Look;
 use phong::render::{Cancel, RenderOptions, render as trace};
 use phong::terms::TermSet;
+use phong::view::View;
 use phong_lab::compare::{TermDifference, terms as between};
 use phong_lab::fit::{Remodelled, Target, remodel};
 use phong_scene::Scene;
@@ -74,6 +77,7 @@ pub(super) fn render(
     let mut sides = names.map(|name| Side { name: name.clone(), model: None, changed: Vec::new() });
     let mut films = Vec::with_capacity(2);
     let mut told = ([0, 0], 1, [0, 0]);
+    let mut earlier = None;
     for (k, mut input) in [a, b].into_iter().enumerate() {
         let options = plan::settle(&alike, &ViewArgs::default(), &mut input)?.with_terms(terms);
         if let Some(target) = models[k] {
@@ -82,7 +86,9 @@ pub(super) fn render(
         }
         let corner = [options.window().x0, options.window().y0];
         told = (options.size(), options.samples(), corner);
-        films.push(draw(input.scene, &inputs[k], &options)?);
+        let view = ready(&input.scene, &inputs[k], &options, earlier.filter(|_| once))?;
+        films.push(trace(&view, &options, &|_| {}, &Cancel::new()).film);
+        earlier = Some(view);
     }
     let terms = between(&films[0], &films[1]).map_err(|e| Failure::System(e.to_string()))?;
     let pictures = [Picture::of_film(&films[0]), Picture::of_film(&films[1])];
@@ -95,12 +101,21 @@ fn remodelled(input: &mut Input, target: Target) -> Vec<(String, Remodelled)> {
     materials.filter_map(|m| Some((m.name.clone(), remodel(m, target)?))).collect()
 }
 
-fn draw(scene: Scene, args: &InputArgs, options: &RenderOptions) -> Result<Film, Failure> {
+/// Makes a scene ready to be drawn; one of which `earlier` shows another look is not built again.
+fn ready(
+    scene: &Scene,
+    args: &InputArgs,
+    options: &RenderOptions,
+    earlier: Option<View>,
+) -> Result<View, Failure> {
+    if let Some(earlier) = earlier {
+        let view = View::new(Arc::clone(earlier.geometry()), Look::new(scene));
+        return view.map_err(|error| Failure::System(error.to_string()));
+    }
     let pixels = options.window().pixels();
     // Two films with their terms, the pictures made of them, and their differences.
     let beside = pixels * 4 * (2 * 25 + 2 * 4 + 8);
-    let scene = compile(scene, args, beside)?;
-    Ok(trace(&scene, options, &|_| {}, &Cancel::new()).film)
+    compile(scene, args, beside)
 }
 
 impl Scenes {
