@@ -75,9 +75,9 @@ impl Failure {
         }
     }
 
-    /// A file could not be written once work was under way.
-    pub(crate) fn writing(path: &Path, error: &io::Error) -> Self {
-        Self::System(format!("cannot write {}: {}", path.display(), trouble(error)))
+    /// A file that is there could not be read.
+    pub(crate) fn reading(path: &Path, error: &io::Error) -> Self {
+        Self::System(format!("cannot read {}: {}", path.display(), trouble(error)))
     }
 
     /// What went wrong, in one line.

@@ -14,16 +14,20 @@ mod output;
 mod plan;
 mod progress;
 mod report;
+mod threads;
 
 use std::process::ExitCode;
 
 use clap::Parser;
 
 fn main() -> ExitCode {
-    let cli = command::Cli::parse();
     interrupt::expect();
-    match command::run(cli.command) {
-        Ok(()) => ExitCode::SUCCESS,
+    let done = match command::Cli::try_parse() {
+        Ok(cli) => command::run(cli.command).map(|()| 0),
+        Err(answer) => report::answer(&answer),
+    };
+    match done {
+        Ok(code) => ExitCode::from(code),
         Err(failure) => {
             report::failure(&failure);
             ExitCode::from(failure.code())

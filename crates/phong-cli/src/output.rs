@@ -1,14 +1,14 @@
-//! Files that are complete or absent: a temporary file in the target's folder, then a rename.
+//! What is written: files, which are complete or absent, and standard output.
 //!
-//! Whether a target can be written is known before any work is done. An interrupt takes every
-//! temporary file with it.
+//! The library writes files whole or not at all ([`Draft`]). What is added here is that an interrupt
+//! takes every temporary file with it.
 
-use std::fs::{self, File};
-use std::io::{self, BufWriter, Cursor, Seek, Write};
+use std::fs;
+use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use tempfile::NamedTempFile;
+use phong::image::{Draft, SaveError, WriteError, WriteSeek, place, remove_abandoned};
 
 use crate::failure::Failure;
 use crate::report;
@@ -17,17 +17,20 @@ use crate::report;
 /// before all of them or after.
 static TEMPORARIES: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-fn temporaries() -> MutexGuard<'static, Vec<PathBuf>> {
-    TEMPORARIES.lock().unwrap_or_else(PoisonError::into_inner)
+/// Folders in which what dead processes have left is already removed.
+static TIDY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+fn held<T>(mutex: &'static Mutex<T>) -> MutexGuard<'static, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Removes what is half-written; no file gets its name after that.
 pub(crate) fn remove_temporaries() {
-    let held = temporaries();
-    for path in held.iter() {
+    let all = held(&TEMPORARIES);
+    for path in all.iter() {
         let _ = fs::remove_file(path);
     }
-    std::mem::forget(held);
+    std::mem::forget(all);
 }
 
 /// A file, or standard output, that is being written.
@@ -39,41 +42,28 @@ pub(crate) struct Output {
 #[derive(Debug)]
 enum Target {
     Stdout(Cursor<Vec<u8>>),
-    /// A pipe or a device: nothing to rename.
-    Special(PathBuf, Cursor<Vec<u8>>),
-    File {
-        path: PathBuf,
-        temporary: Temporary,
-    },
+    File(Listed),
 }
 
-/// A temporary file, known to the interrupt handler until it has its name or is gone.
+/// A draft whose temporary file the interrupt handler knows until it has its name or is gone.
 #[derive(Debug)]
-struct Temporary(Option<NamedTempFile>);
+struct Listed(Option<Draft>);
 
-impl Temporary {
-    fn create_in(folder: &Path) -> io::Result<Self> {
-        let mut all = temporaries();
-        let file = builder().tempfile_in(folder)?;
-        all.push(file.path().to_owned());
-        Ok(Self(Some(file)))
-    }
-
-    /// Gives it its name; `all` are the temporary files.
-    fn persist(&mut self, path: &Path, all: &mut Vec<PathBuf>) -> io::Result<()> {
-        let Some(file) = self.0.take() else { return Ok(()) };
-        all.retain(|other| other != file.path());
-        // What cannot be renamed is removed with the error.
-        file.persist(path).map(drop).map_err(|error| error.error)
+impl Listed {
+    fn create(path: &Path) -> Result<Self, SaveError> {
+        let mut all = held(&TEMPORARIES);
+        let draft = Draft::create(path)?;
+        all.extend(draft.temporary().map(Path::to_owned));
+        Ok(Self(Some(draft)))
     }
 }
 
-impl Drop for Temporary {
+impl Drop for Listed {
     fn drop(&mut self) {
-        if let Some(file) = self.0.take() {
-            let mut all = temporaries();
-            all.retain(|path| path != file.path());
-            drop(file);
+        if let Some(draft) = self.0.take() {
+            let mut all = held(&TEMPORARIES);
+            all.retain(|path| Some(&**path) != draft.temporary());
+            drop(draft);
         }
     }
 }
@@ -84,100 +74,60 @@ impl Output {
         if path == Path::new("-") {
             return Ok(Self { target: Target::Stdout(Cursor::default()) });
         }
-        let cannot = |why: &str, help: &str| {
-            Failure::usage(format!("cannot write {}: {why}", path.display())).with_help(help)
-        };
-        let look = "look at its folder, or give another file to write";
-        // A link is written through.
-        let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-        match fs::metadata(&path) {
-            Ok(meta) if meta.is_dir() => return Err(cannot("it is a folder", "name a file in it")),
-            Ok(meta) if !meta.is_file() => {
-                return Ok(Self { target: Target::Special(path, Cursor::default()) });
-            }
-            Ok(meta) if meta.permissions().readonly() => {
-                return Err(cannot("it is write-protected", look));
-            }
-            _ => {}
-        }
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-        let folder = folder.unwrap_or(Path::new("."));
-        if path.file_name().is_none() {
-            return Err(cannot("it names no file", look));
-        }
-        let temporary =
-            Temporary::create_in(folder).map_err(|error| cannot(&reason(&error), look))?;
-        Ok(Self { target: Target::File { path, temporary } })
+        let draft = Listed::create(path)?;
+        tidy(draft.0.as_ref().map_or(path, Draft::path));
+        Ok(Self { target: Target::File(draft) })
     }
 
-    /// Whether this would replace `path`.
+    /// Whether this would replace `path`, under whatever name.
     pub(crate) fn is(&self, path: &Path) -> bool {
         match &self.target {
-            Target::File { path: own, .. } => fs::canonicalize(path)
-                .is_ok_and(|path| fs::canonicalize(own).is_ok_and(|own| own == path)),
+            Target::File(Listed(Some(draft))) => draft.replaces(path),
             _ => false,
         }
     }
 
     /// Writes all of the content, under no name yet.
-    pub(crate) fn write<E: Into<WriteFailure>>(
+    pub(crate) fn write<E: Into<WriteError>>(
         &mut self,
         content: impl FnOnce(&mut dyn WriteSeek) -> Result<(), E>,
     ) -> Result<(), Failure> {
-        let written = match &mut self.target {
-            Target::Stdout(memory) | Target::Special(_, memory) => {
-                content(memory).map_err(Into::into)
-            }
-            Target::File { temporary, .. } => {
-                let file = temporary.0.as_mut().map(NamedTempFile::as_file_mut);
-                file.map_or(Ok(()), |file| {
-                    let mut out = BufWriter::with_capacity(1 << 18, file);
-                    content(&mut out)
-                        .map_err(Into::into)
-                        .and_then(|()| out.flush().map_err(WriteFailure::Io))
-                })
-            }
-        };
-        written.map_err(|failure| match failure {
-            WriteFailure::Io(error) => Failure::writing(&self.path(), &error),
-            WriteFailure::Other(message) => Failure::System(message),
-        })
-    }
-
-    fn path(&self) -> PathBuf {
-        match &self.target {
-            Target::Stdout(_) => "standard output".into(),
-            Target::Special(path, _) | Target::File { path, .. } => path.clone(),
+        match &mut self.target {
+            Target::Stdout(memory) => content(memory).map_err(|error| match error.into() {
+                WriteError::Io(error) => Failure::stdout(&error),
+                WriteError::Unsuitable(message) => Failure::System(message),
+            }),
+            Target::File(Listed(Some(draft))) => Ok(draft.write(content)?),
+            Target::File(Listed(None)) => Ok(()),
         }
     }
 
     /// Gives all outputs their names, the first last: where it is, the others are, too.
     pub(crate) fn commit(outputs: Vec<Self>) -> Result<(), Failure> {
-        let mut files = Vec::new();
-        for output in outputs.into_iter().rev() {
+        let mut drafts = Vec::new();
+        for output in outputs {
             match output.target {
                 Target::Stdout(memory) => report::data(memory.get_ref())?,
-                Target::Special(path, memory) => File::options()
-                    .write(true)
-                    .open(&path)
-                    .and_then(|mut file| file.write_all(memory.get_ref()))
-                    .map_err(|error| Failure::writing(&path, &error))?,
-                Target::File { path, temporary } => files.push((path, temporary)),
+                Target::File(mut listed) => drafts.extend(listed.0.take()),
             }
         }
-        // Declared after the files, so that it is free again when they are dropped.
-        let mut all = temporaries();
-        let mut named: Vec<&Path> = Vec::new();
-        for (path, temporary) in &mut files {
-            if let Err(error) = temporary.persist(path, &mut all) {
-                for path in named {
-                    let _ = fs::remove_file(path);
-                }
-                return Err(Failure::writing(path, &error));
-            }
-            named.push(path);
-        }
-        Ok(())
+        let mut all = held(&TEMPORARIES);
+        let gone: Vec<_> =
+            drafts.iter().filter_map(|draft| draft.temporary().map(Path::to_owned)).collect();
+        let placed = place(drafts);
+        all.retain(|path| !gone.contains(path));
+        Ok(placed?)
+    }
+}
+
+/// Removes what dead processes have left beside a file, once.
+fn tidy(file: &Path) {
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let folder = folder.unwrap_or(Path::new("."));
+    let mut tidy = held(&TIDY);
+    if !tidy.iter().any(|known| known == folder) {
+        remove_abandoned(folder);
+        tidy.push(folder.to_owned());
     }
 }
 
@@ -197,78 +147,18 @@ pub(crate) fn keep_inputs_safe<'o, P: AsRef<Path>>(
     Ok(())
 }
 
-/// What file formats are written to.
-pub(crate) trait WriteSeek: Write + Seek {}
-impl<T: Write + Seek> WriteSeek for T {}
-
-/// Why content could not be written.
-#[derive(Debug)]
-pub(crate) enum WriteFailure {
-    Io(io::Error),
-    Other(String),
-}
-
-impl From<io::Error> for WriteFailure {
-    fn from(error: io::Error) -> Self {
-        Self::Io(error)
-    }
-}
-
-impl From<phong::image::WriteError> for WriteFailure {
-    fn from(error: phong::image::WriteError) -> Self {
-        match error {
-            phong::image::WriteError::Io(error) => Self::Io(error),
-            phong::image::WriteError::Unsuitable(message) => Self::Other(message),
+impl From<SaveError> for Failure {
+    fn from(error: SaveError) -> Self {
+        match &error {
+            SaveError::Place { path, .. } => {
+                let help = if path.is_dir() {
+                    "name a file in it"
+                } else {
+                    "look at its folder, or give another file to write"
+                };
+                Self::usage(error.to_string()).with_help(help)
+            }
+            _ => Self::System(error.to_string()),
         }
-    }
-}
-
-fn builder() -> tempfile::Builder<'static, 'static> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".phong-").suffix(".tmp");
-    // Like any new file: what the user's mask leaves.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder
-}
-
-fn reason(error: &io::Error) -> String {
-    match error.kind() {
-        io::ErrorKind::NotFound => "there is no such folder".to_owned(),
-        io::ErrorKind::NotADirectory => "its folder is no folder".to_owned(),
-        io::ErrorKind::PermissionDenied => "its folder may not be written to".to_owned(),
-        // Without the temporary file's name, which says nothing to anybody.
-        _ => phong_scene::trouble(error).split(" at path ").next().unwrap_or_default().to_owned(),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn written(path: &Path, text: &[u8]) -> Output {
-        let mut output = Output::create(path).unwrap();
-        output.write(|out| out.write_all(text)).unwrap();
-        output
-    }
-
-    #[test]
-    fn what_was_named_is_taken_back_where_a_later_name_cannot_be_given() {
-        let folder = tempfile::tempdir().unwrap();
-        let [first, second] = ["first", "second"].map(|name| folder.path().join(name));
-        let outputs = vec![written(&first, b"1"), written(&second, b"2")];
-        // It takes its name last, and by then a folder has it.
-        fs::create_dir(&first).unwrap();
-        assert!(matches!(Output::commit(outputs), Err(Failure::System(_))));
-        let names: Vec<_> =
-            fs::read_dir(folder.path()).unwrap().map(|e| e.unwrap().path()).collect();
-        assert_eq!(names, [first]);
-    }
-
-    #[test]
-    fn what_is_given_up_leaves_no_file() {
-        let folder = tempfile::tempdir().unwrap();
-        drop(written(&folder.path().join("a"), b"half"));
-        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
     }
 }

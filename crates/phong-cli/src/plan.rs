@@ -7,7 +7,7 @@ use phong::film::{Film, LayerKind, Window};
 use phong::finish::{Finishing, finish};
 use phong::image::{self, Bits, Content, Encoding, Format};
 use phong::part::{self, Settings};
-use phong::render::RenderOptions;
+use phong::render::{Passes, RenderOptions};
 use phong::terms::TermSet;
 use phong_scene::Image;
 
@@ -47,10 +47,7 @@ impl Outputs {
             return Err(Failure::usage("several files do not fit into standard output")
                 .with_help("--output-format exr holds all layers in one"));
         }
-        let create = |content: Content| {
-            let path = content.word().map_or_else(|| path.to_owned(), |word| beside(path, word));
-            Ok((content, Output::create(&path)?))
-        };
+        let create = |content: Content| Ok((content, Output::create(&content.path(path))?));
         let files = contents.into_iter().map(create).collect::<Result<_, Failure>>()?;
         Ok(Self::Picture(format, files))
     }
@@ -101,16 +98,6 @@ fn write_files(
     let picture = finish(film, &Finishing::default());
     files.iter_mut().try_for_each(|(content, output)| {
         output.write(|mut out| image::write(&picture, *content, format, &encoding, &mut out))
-    })
-}
-
-/// `a/b.png` and `depth` make `a/b.depth.png`.
-fn beside(path: &Path, word: &str) -> PathBuf {
-    let extension = path.extension().unwrap_or_default().to_string_lossy();
-    path.with_extension(if extension.is_empty() {
-        word.to_owned()
-    } else {
-        format!("{word}.{extension}")
     })
 }
 
@@ -165,7 +152,8 @@ impl Plan {
     ) -> Result<RenderOptions, Failure> {
         let options = settle(&args.image, &args.view, input)?;
         let terms = if self.terms { TermSet::of_scene(&input.scene) } else { TermSet::NONE };
-        let options = options.with_terms(terms).with_aovs(&self.aovs);
+        let passes = if args.work.passes { Passes::CoarseToFine } else { Passes::One };
+        let options = options.with_terms(terms).with_aovs(&self.aovs).with_passes(passes);
         Ok(match self.share {
             Some((index, count)) => options.with_share(index, count)?,
             None => options,
@@ -223,17 +211,5 @@ impl From<OutputFormat> for Format {
             OutputFormat::Pfm => Self::Pfm,
             OutputFormat::Exr => Self::Exr,
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn layers_lie_beside_their_picture() {
-        assert_eq!(beside(Path::new("a/b.png"), "depth"), Path::new("a/b.depth.png"));
-        assert_eq!(beside(Path::new("b.c.pfm"), "uv"), Path::new("b.c.uv.pfm"));
-        assert_eq!(beside(Path::new("b"), "uv"), Path::new("b.uv"));
     }
 }

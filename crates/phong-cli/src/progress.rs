@@ -1,6 +1,7 @@
 //! A bar for whoever watches; nothing in a pipe.
 
 use std::sync::{Mutex, PoisonError};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -25,7 +26,8 @@ impl Meter {
         let hidden = quiet || !report::is_watched();
         let bar = if hidden { ProgressBar::hidden() } else { ProgressBar::new_spinner() };
         bar.set_message(stage);
-        if !hidden {
+        // The bar's own thread is one that must be there; without it the bar still moves.
+        if !hidden && thread::Builder::new().spawn(|| {}).is_ok() {
             bar.enable_steady_tick(PAUSE);
         }
         Self { bar, started: Instant::now(), drawn: Mutex::new(None) }
@@ -36,8 +38,8 @@ impl Meter {
         self.bar.set_message(stage);
     }
 
-    /// From now on tiles are counted.
-    pub(crate) fn tiles(&mut self) {
+    /// From now on samples are counted.
+    pub(crate) fn samples(&mut self) {
         self.started = Instant::now();
         let style = ProgressStyle::with_template("{bar:32} {percent:>3}%  {msg}, {eta} left");
         if let Ok(style) = style {
@@ -57,8 +59,8 @@ impl Meter {
             return;
         }
         *drawn = Some(now);
-        self.bar.set_length(progress.tiles as u64);
-        self.bar.set_position(progress.tiles_done as u64);
+        self.bar.set_length(progress.samples);
+        self.bar.set_position(progress.samples_done);
         let seconds = self.started.elapsed().as_secs_f64();
         self.bar.set_message(rate(progress.rays.total(), seconds));
     }

@@ -58,6 +58,16 @@ pub(crate) fn data(bytes: &[u8]) -> Result<(), Failure> {
     out.write_all(bytes).and_then(|()| out.flush()).map_err(|e| Failure::stdout(&e))
 }
 
+/// What there is to say about the command line alone, help among it; the exit code.
+pub(crate) fn answer(answer: &clap::Error) -> Result<u8, Failure> {
+    let printed = answer.print().and_then(|()| io::stdout().flush());
+    match printed {
+        // An error is said where nobody need listen; help was asked for.
+        Err(error) if !answer.use_stderr() => Err(Failure::stdout(&error)),
+        _ => Ok(answer.exit_code() as u8),
+    }
+}
+
 /// One JSON object, to standard output.
 pub(crate) fn json(value: &serde_json::Value) -> Result<(), Failure> {
     data(format!("{value:#}\n").as_bytes())

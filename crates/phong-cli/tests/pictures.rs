@@ -9,6 +9,7 @@ use std::process::Stdio;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
+use phong::part::Part;
 use support::{BALLS, Given, Then, given};
 
 fn balls() -> Given {
@@ -165,18 +166,24 @@ fn compare_answers_with_numbers_and_an_exit_code() {
     folder.when("compare a.png small.png").is_refused(&["40x30", "20x30"]);
 }
 
-/// A render that takes some seconds; it runs until its checkpoint is there, then is interrupted.
+/// A render that runs until a file of this ending is there, and some time more, then is interrupted
+/// unless it has ended.
 #[cfg(target_os = "linux")]
-fn interrupted(folder: &Given, words: &str, until: &str) -> Then {
+fn interrupted(folder: &Given, words: &str, until: &str, time: Duration) -> Then {
     let mut command = folder.command(words);
-    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     let begun = Instant::now();
-    while !folder.names().iter().any(|name| name.ends_with(until)) {
+    while child.try_wait().unwrap().is_none()
+        && !folder.names().iter().any(|name| name.ends_with(until))
+    {
         assert!(begun.elapsed() < Duration::from_mins(1), "no {until}: {:?}", folder.names());
         sleep(Duration::from_millis(5));
     }
-    let kill = format!("kill -INT {}", child.id());
-    assert!(std::process::Command::new("sh").args(["-c", &kill]).status().unwrap().success());
+    sleep(time);
+    if child.try_wait().unwrap().is_none() {
+        let kill = format!("kill -INT {}", child.id());
+        assert!(std::process::Command::new("sh").args(["-c", &kill]).status().unwrap().success());
+    }
     Then::of(child.wait_with_output().unwrap())
 }
 
@@ -185,28 +192,56 @@ fn interrupted(folder: &Given, words: &str, until: &str) -> Then {
 fn an_interrupted_render_leaves_nothing_behind() {
     let folder = balls();
     let words = "render a.toml --size 2000x2000 --samples 1024 --terms";
-    let then = interrupted(&folder, words, ".tmp");
+    let then = interrupted(&folder, words, ".tmp", Duration::ZERO);
     assert_eq!(then.code, Some(130), "{}", then.err);
     assert_eq!(folder.names(), ["a.toml"]);
 }
 
+/// Tiles that the checkpoint has whole, and with the sums to go on from.
+#[cfg(target_os = "linux")]
+fn kept(folder: &Given, checkpoint: &str) -> (usize, usize) {
+    let part = Part::read(&mut &*folder.bytes(checkpoint), u64::MAX).unwrap();
+    let whole = part.film.done.iter().filter(|&&done| done).count();
+    (whole, part.film.film_tiles().count())
+}
+
 #[cfg(target_os = "linux")]
 #[test]
-fn an_interrupted_render_goes_on_to_the_same_bytes() {
+fn a_render_interrupted_again_and_again_ends_in_the_same_bytes() {
     let folder = balls();
-    let words = "render a.toml --size 160x120 --samples 2000 --threads 1";
-    let then = interrupted(&folder, &format!("{words} --resume -o r.png"), "r.png.part");
+    let words = "render a.toml --size 160x120 --samples 64 --threads 1";
+    folder.done(&format!("{words} -o w.png"));
+    for (name, passes) in [("p.png", "--passes"), ("r.png", "")] {
+        let resumed = format!("{words} --resume {passes} -o {name}");
+        let part = format!("{name}.part");
+        let mut before = (0, 0);
+        // Every run has more time than the one before, so that there is a last one.
+        for run in 0.. {
+            let time = Duration::from_millis(10 << run);
+            let then = interrupted(&folder, &resumed, &part, time);
+            if then.code == Some(0) {
+                break;
+            }
+            assert_eq!((then.code, then.err.as_str()), (Some(130), ""));
+            let now = kept(&folder, &part);
+            assert!(now.0 >= before.0 && now.1 >= before.1, "{before:?}, then {now:?}");
+            before = now;
+        }
+        assert_eq!(folder.bytes(name), folder.bytes("w.png"), "{passes}");
+        assert!(!folder.path(&part).exists());
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn an_interrupted_render_keeps_its_checkpoint_and_no_other_render_takes_it() {
+    let folder = balls();
+    let words = "render a.toml --size 2000x2000 --samples 1024 --resume -o r.png";
+    let then = interrupted(&folder, words, "r.png.part", Duration::ZERO);
     assert_eq!(then.code, Some(130), "{}", then.err);
     assert_eq!(folder.names(), ["a.toml", "r.png.part"]);
-
-    let other = format!("{words} --resume -o r.png --seed 7");
+    let other = format!("{words} --seed 7");
     folder.when(&other).is_refused(&["r.png.part", "seed is 0, not 7", "remove it"]);
-
-    let told = folder.done(&format!("{words} --resume -o r.png --json")).json();
-    assert!(told["rays"]["primary"].as_u64().unwrap() < 160 * 120 * 2000, "it began anew");
-    folder.done(&format!("{words} -o w.png"));
-    assert_eq!(folder.bytes("r.png"), folder.bytes("w.png"));
-    assert_eq!(folder.names(), ["a.toml", "r.png", "w.png"]);
 }
 
 #[test]

@@ -97,6 +97,11 @@ pub(crate) struct WorkArgs {
     #[arg(long, value_name = "I/N", value_parser = values::share, allow_hyphen_values = true)]
     pub(crate) tile: Option<ShareOf>,
 
+    /// Draw all of the picture coarsely first, then with 1, 2, 4, ... samples a pixel; the end is the
+    /// same. A checkpoint of --resume then holds a whole picture soon, and some 200 bytes a pixel more
+    #[arg(long)]
+    pub(crate) passes: bool,
+
     /// Keep a checkpoint OUT.part while rendering, and go on from it if there is one
     #[arg(long)]
     pub(crate) resume: bool,

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::builder::PossibleValuesParser;
 use phong_lab::figures::{self, CATALOGUE, Finish};
+use phong_scene::trouble;
 
 use crate::failure::Failure;
 use crate::output::Output;
@@ -45,7 +46,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             Failure::usage(format!("cannot make the folder {}", folder.display()))
                 .with_help("give another one with --dir, where you may write")
         }
-        _ => Failure::writing(folder, &error),
+        _ => Failure::System(format!("cannot write {}: {}", folder.display(), trouble(&error))),
     })?;
     let mut drawn = Vec::new();
     for entry in CATALOGUE.iter().filter(|entry| name == ALL || name == entry.name) {

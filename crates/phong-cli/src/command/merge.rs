@@ -3,7 +3,7 @@
 use std::io::BufReader;
 use std::path::PathBuf;
 
-use phong::part::{Join, Part};
+use phong::part::{Join, Part, PartError};
 use phong_lab::measure::memory;
 
 use crate::args::EncodingArgs;
@@ -40,8 +40,11 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     for path in &args.parts {
         let at_fault = |why: String| Failure::usage(format!("{}: {why}", path.display()));
         let file = open_file(path)?;
-        let part = Part::read(&mut BufReader::with_capacity(1 << 18, file), limit)
-            .map_err(|error| at_fault(error.to_string()))?;
+        let part = Part::read(&mut BufReader::with_capacity(1 << 18, file), limit);
+        let part = part.map_err(|error| match error {
+            PartError::Io(error) => Failure::reading(path, &error),
+            error => at_fault(error.to_string()),
+        })?;
         let joined = join.add(&path.display().to_string(), part);
         joined.map_err(|error| Failure::usage(error.to_string()))?;
     }

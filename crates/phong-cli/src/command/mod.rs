@@ -1,6 +1,6 @@
 //! What each command does: one file a command, with its arguments and its `run`.
 //!
-//! A new command is a file here, a line in [`Command`], and a line in [`run`].
+//! A new command is a file here, a line in [`Command`], and a line in [`run_here`].
 
 pub(crate) mod bench;
 pub(crate) mod check;
@@ -25,6 +25,7 @@ use clap::{Parser, Subcommand};
 
 use crate::args::RenderArgs;
 use crate::failure::Failure;
+use crate::threads;
 
 const STYLES: Styles = Styles::styled()
     .header(AnsiColor::Green.on_default().bold())
@@ -76,8 +77,16 @@ pub(crate) enum Command {
     Man(man::Args),
 }
 
-/// Does what was asked.
+/// Does what was asked, on as many threads as were asked for.
 pub(crate) fn run(command: Command) -> Result<(), Failure> {
+    let (wanted, quiet) = match &command {
+        Command::Render(args) => (args.work.threads, args.work.quiet),
+        _ => (None, false),
+    };
+    threads::on(wanted, quiet, || run_here(command))
+}
+
+fn run_here(command: Command) -> Result<(), Failure> {
     match command {
         Command::Render(args) => render::run(&args),
         Command::Explain(args) => explain::run(&args),

@@ -24,10 +24,6 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let mut clock = Clock::start();
     let plan = Plan::new(args)?;
     let quiet = args.work.quiet;
-    if let Some(threads) = args.work.threads {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads as usize);
-        pool.build_global().map_err(|e| Failure::System(format!("no {threads} threads: {e}")))?;
-    }
     // What cannot be written is known before anything is read, let alone rendered.
     let mut outputs = plan.outputs(args)?;
     keep_inputs_safe(outputs.iter(), [&args.input.input])?;
@@ -43,27 +39,30 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let scene_sum =
         if plan.share.is_some() || args.work.resume { fingerprint(&input.scene) } else { 0 };
     let settings = Settings::of(scene_sum, &options, plan.encoding);
-    let scene = compile(&input.scene, &args.input, settings.film_bytes())?;
+    let scene = compile(&input.scene, &args.input, options.film_bytes())?;
     clock.lap("build");
 
-    let checkpoint = args.work.resume.then(|| Checkpoint::beside(&plan.output, settings.clone()));
+    let beside = || Checkpoint::beside(&plan.output, settings.clone(), &options, quiet);
+    let checkpoint = args.work.resume.then(beside);
     let film = match &checkpoint {
         Some(checkpoint) => checkpoint.film()?,
         None => None,
     };
-    meter.tiles();
+    meter.samples();
     let film = film.unwrap_or_else(|| settings.empty_film());
-    let rendering = Rendering::resume(&scene, &options, film)
-        .map_err(|error| Failure::usage(error.to_string()))?;
+    let rendering = Rendering::resume(&scene, &options, film).map_err(|error| {
+        let why = error.to_string();
+        checkpoint.as_ref().map_or(Failure::System(why.clone()), |kept| kept.unusable(&why))
+    })?;
     let listen = |event: Event<'_>| {
         if let Event::Progress(progress) = event {
             meter.update(progress);
-            if let Some(checkpoint) = &checkpoint {
-                checkpoint.keep(|| rendering.film());
-            }
         }
     };
-    interrupt::heeding(|cancel| rendering.run(&listen, cancel));
+    interrupt::heeding(|cancel| match &checkpoint {
+        Some(checkpoint) => checkpoint.run(&rendering, &listen, cancel),
+        None => rendering.run(&listen, cancel),
+    });
     meter.finish();
     let Outcome { film, complete, rays } = rendering.finish();
     if !complete {
@@ -73,14 +72,13 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
 
     outputs.write(&film, &settings)?;
     outputs.commit()?;
-    let trouble = checkpoint.and_then(Checkpoint::remove);
+    if let Some(checkpoint) = checkpoint {
+        checkpoint.remove();
+    }
     clock.lap("write");
 
     // Memory goes back to the system with the process, all at once.
     std::mem::forget((scene, film));
-    if let Some(trouble) = trouble.filter(|_| !quiet) {
-        report::say(&format!("warning: {trouble}"));
-    }
     if args.work.json {
         let Window { x0, y0, x1, y1 } = options.window();
         let layer =

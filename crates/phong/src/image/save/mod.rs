@@ -113,12 +113,14 @@ impl Draft {
     pub fn create(path: &Path) -> Result<Self, SaveError> {
         let named = path;
         let path = followed(path)?;
+        if path.is_dir() {
+            return Err(SaveError::place(named, "it is a folder"));
+        }
         let name = path.as_os_str().as_encoded_bytes();
         if path.file_name().is_none() || name.ends_with(b"/") || name.ends_with(b"/.") {
             return Err(SaveError::place(named, "it names no file"));
         }
         let former = match fs::metadata(&path) {
-            Ok(meta) if meta.is_dir() => return Err(SaveError::place(named, "it is a folder")),
             Ok(meta) if !meta.is_file() => {
                 return Ok(Self { path, content: Written::Special(Cursor::default()) });
             }
