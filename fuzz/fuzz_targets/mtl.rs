@@ -62,6 +62,7 @@ fuzz_target!(|data: &[u8]| {
     let reading = read("a.obj", None, &source, &Limits::default());
     check(&reading);
     for m in reading.scene.iter().flat_map(|scene| &scene.materials) {
+        let m = &m.at(|_| phong_scene::Rgb::BLACK);
         let numbers = [m.k_a, m.k_d, m.k_s, m.shininess, m.ior];
         assert!(numbers.iter().all(|n| n.is_finite() && *n >= 0.0) && m.ior > 0.0, "{m:?}");
         let colors = [Some(m.color), m.ambient_color, m.specular_color];

@@ -84,7 +84,7 @@ fn number(text: &str) -> f64 {
 fn what_is_written_as_a_product_multiplies_out_whatever_the_model_and_dialect() {
     let mut seen = std::collections::BTreeSet::new();
     let switched = |m: &mut Material| {
-        (m.times_cosine, m.normalize) = (true, m.k_s < 0.4);
+        (m.times_cosine, m.normalize) = (true, m.k_s.constant().unwrap() < 0.4);
         m.ambient_rule = AmbientRule::Both;
     };
     for (file, change) in [

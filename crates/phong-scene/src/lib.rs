@@ -21,6 +21,7 @@ mod mesh;
 mod scene;
 mod shape;
 mod source;
+mod texture;
 mod transform;
 mod unpack;
 mod wording;
@@ -38,12 +39,15 @@ pub use keys::{reference_markdown, schema_json};
 pub use light::{Light, LightKind};
 pub use limits::Limits;
 pub use material::{
-    AmbientRule, Dialect, Distribution, Fresnel, Material, MaterialId, Model, Shadowing, Tint,
-    Viewer, WardForm,
+    AmbientRule, ConstantMaterial, Dialect, Distribution, Fresnel, Material, MaterialId, Model,
+    Shadowing, Tint, Viewer, WardForm,
 };
 pub use mesh::{Mesh, NO_INDEX, Points, Shared};
 pub use scene::{Background, FilterKind, Group, Image, Object, Reading, Scene};
 pub use shape::{GroupId, Shape};
 pub use source::{Blob, Folder, Memory, Source, trouble};
+pub use texture::{
+    Channel, Param, Texture, TextureId, TextureKind, TextureRef, TextureSpace, Textured,
+};
 pub use transform::{cofactor, even_scale};
 pub use wording::closest;

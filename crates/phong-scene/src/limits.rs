@@ -17,6 +17,8 @@ pub(crate) struct Range {
 }
 
 impl Range {
+    /// Any number.
+    pub(crate) const ANY: Self = Self::closed(-LARGEST, LARGEST);
     /// Above 0.
     pub(crate) const POSITIVE: Self =
         Self { min: 0.0, max: LARGEST, min_included: false, max_included: true };
@@ -36,6 +38,11 @@ impl Range {
     /// From `min`, not included, to `max`, included.
     pub(crate) const fn above(min: f64, max: f64) -> Self {
         Self { min, max, min_included: false, max_included: true }
+    }
+
+    /// Whether no number of a scene is outside.
+    pub(crate) fn is_any(&self) -> bool {
+        self.min <= -LARGEST && self.max >= LARGEST
     }
 
     /// Whether it holds `v`.

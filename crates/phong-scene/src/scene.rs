@@ -41,6 +41,7 @@
 //! | `ambient_occlusion` | not built yet | none | Ambient occlusion. |
 //! | `light` | a list of tables | none | The lights. |
 //! | `materials` | tables by name | none | The materials, by name. |
+//! | `textures` | tables by name | none | The textures, by name. |
 //! | `groups` | tables by name | none | Shapes to be placed together, by name. |
 //! | `sphere` | a list of tables | none | All points at `radius` from `center`; scaled unevenly, an ellipsoid. |
 //! | `plane` | a list of tables | none | An infinite plane. |
@@ -93,6 +94,7 @@ use crate::diagnostic::{Diagnostic, Place, SceneError};
 use crate::light::Light;
 use crate::material::{Material, MaterialId};
 use crate::shape::Shape;
+use crate::texture::Texture;
 
 /// A whole scene, resolved: what the renderer takes.
 ///
@@ -121,6 +123,8 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// The materials; [`MaterialId`] indexes them.
     pub materials: Vec<Material>,
+    /// The textures; [`TextureId`](crate::TextureId) indexes them.
+    pub textures: Vec<Texture>,
     /// The objects, in the order of the text, includes at their place.
     pub objects: Vec<Object>,
     /// What instances place; a group's objects are not in `objects`.
@@ -137,6 +141,7 @@ impl Default for Scene {
             ambient: Rgb::WHITE,
             lights: Vec::new(),
             materials: vec![Material::default()],
+            textures: Vec::new(),
             objects: Vec::new(),
             groups: Vec::new(),
         }

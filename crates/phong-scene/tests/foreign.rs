@@ -6,8 +6,8 @@ use std::fs;
 use std::path::Path;
 
 use phong_scene::{
-    Framing, Limits, Material, Memory, Mesh, Model, NO_INDEX, Points, Reading, Rgb, Scene, Shape,
-    Side, read,
+    ConstantMaterial, Framing, Limits, Memory, Mesh, Model, NO_INDEX, Points, Reading, Rgb, Scene,
+    Shape, Side, read,
 };
 
 fn case(name: &str) -> Vec<u8> {
@@ -61,16 +61,16 @@ fn points(reading: Reading) -> Points {
 }
 
 /// The only material of an MTL file, of which a face is made.
-fn material(mtl: &str) -> (Material, String) {
+fn material(mtl: &str) -> (ConstantMaterial, String) {
     let name = mtl.lines().find_map(|line| line.strip_prefix("newmtl ")).expect("a name");
     let obj = format!("mtllib a.mtl\nusemtl {name}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     let files = [("a.obj", obj.as_bytes()), ("a.mtl", mtl.as_bytes())];
     let reading = read_with(&files, &Limits::default());
     let told = told(&reading);
-    (scene(reading).materials.swap_remove(1), told)
+    (scene(reading).materials[1].at(|_| Rgb::BLACK), told)
 }
 
-fn case_material(name: &str) -> (Material, String) {
+fn case_material(name: &str) -> (ConstantMaterial, String) {
     material(&String::from_utf8(case(name)).expect("text"))
 }
 

@@ -43,6 +43,7 @@ pub mod reflectance;
 pub mod render;
 mod sampling;
 pub mod terms;
+pub mod texture;
 pub mod view;
 pub mod witness;
 

@@ -2,7 +2,7 @@
 //!
 //! All of it is cheap to make and to change, and nothing of it is needed to build trees.
 
-use phong_scene::{Background, Camera, Diagnostic, Image, Light, Material, Rgb, Scene};
+use phong_scene::{Background, Camera, Diagnostic, Image, Light, Material, Rgb, Scene, Texture};
 
 /// What a geometry looks like, as it was written. Each part can be replaced.
 ///
@@ -15,6 +15,8 @@ pub struct Look {
     pub lights: Vec<Light>,
     /// The materials; a surface names its own by its place here.
     pub materials: Vec<Material>,
+    /// The textures; a material names one by its place here.
+    pub textures: Vec<Texture>,
     /// The ambient light; `C_a` is this times the material's ambient colour. Linear.
     pub ambient: Rgb,
     /// What rays see that hit nothing.
@@ -28,6 +30,7 @@ impl Look {
             camera: scene.camera.clone(),
             lights: scene.lights.clone(),
             materials: scene.materials.clone(),
+            textures: scene.textures.clone(),
             ambient: scene.ambient,
             background: scene.image.background,
         }
@@ -35,9 +38,10 @@ impl Look {
     /// What is wrong with it, by the rules of [`Scene::check`].
     #[must_use]
     pub fn check(&self) -> Vec<Diagnostic> {
-        let Self { camera, lights, materials, ambient, background } = self.clone();
+        let Self { camera, lights, materials, textures, ambient, background } = self.clone();
         let image = Image { background, ..Image::default() };
-        let scene = Scene { image, camera, ambient, lights, materials, ..Scene::default() };
+        let scene =
+            Scene { image, camera, ambient, lights, materials, textures, ..Scene::default() };
         scene.check().into_iter().filter(Diagnostic::is_error).collect()
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 use phong_bvh::Lanes;
-use phong_scene::{self as scene, AmbientRule, Model, Rgb, Tint, Viewer};
+use phong_scene::{self as scene, AmbientRule, ConstantMaterial, Model, Rgb, Tint, Viewer};
 
 use crate::light::LightSample;
 use crate::math::Dir3;
@@ -14,7 +14,7 @@ use crate::reflectance::{
 use crate::terms::Terms;
 
 /// A material ready for light.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// How it answers one light.
     pub reflectance: Reflectance,
@@ -42,7 +42,7 @@ pub struct Material {
 impl Material {
     /// The material of a scene whose camera is infinitely far in direction `viewer`, for materials
     /// that see highlights from there.
-    pub fn new(material: &phong_scene::Material, viewer: Dir3) -> Self {
+    pub fn new(material: &ConstantMaterial, viewer: Dir3) -> Self {
         Self {
             reflectance: reflectance(material),
             color: material.color,
@@ -191,8 +191,8 @@ fn product<F: Lanes>(a: [F; 3], b: [F; 3]) -> [F; 3] {
     [a[0] * b[0], a[1] * b[1], a[2] * b[2]]
 }
 
-fn reflectance(material: &phong_scene::Material) -> Reflectance {
-    let &phong_scene::Material { k_d, k_s, shininess, times_cosine, normalize, .. } = material;
+fn reflectance(material: &ConstantMaterial) -> Reflectance {
+    let &ConstantMaterial { k_d, k_s, shininess, times_cosine, normalize, .. } = material;
     let switches = Switches { times_cosine, normalize };
     match material.model {
         Model::Lambert => Reflectance::Lambert(Lambert { k_d }),
@@ -239,7 +239,8 @@ mod tests {
     fn light_that_meets_two_facets_is_tinted_by_the_colour_of_the_vertex() {
         let model = Model::OrenNayar { sigma: 0.3, full: true };
         let drawn = |material: Rgb, vertex: Rgb| {
-            let written = scene::Material { model, color: material, ..scene::Material::default() };
+            let written =
+                ConstantMaterial { model, color: material, ..ConstantMaterial::default() };
             let light = LightSample {
                 l: Dir3::Z,
                 distance: 1.0,

@@ -1,6 +1,7 @@
 //! A geometry and its look together: all that a picture needs.
 
 mod shading;
+mod varied;
 
 use std::sync::Arc;
 
@@ -15,8 +16,11 @@ use crate::light::Light;
 use crate::look::Look;
 use crate::material::Material;
 use crate::math::Dir3;
+use crate::texture::Texture;
 use shading::Shading;
 pub(crate) use shading::Shading8;
+pub(crate) use varied::MadeMaterial;
+use varied::Varied;
 
 /// A geometry and its look together. Made in no time, immutable, and shared freely between threads.
 #[derive(Clone, Debug)]
@@ -25,7 +29,13 @@ pub struct View {
     look: Look,
     camera: Camera,
     lights: Vec<Light>,
+    /// The materials; of those that vary, with white for every texture.
     materials: Vec<Material>,
+    /// What varies of each.
+    varied: Vec<Varied>,
+    textures: Vec<Texture>,
+    /// Whether any material takes a value from a texture.
+    has_textures: bool,
     /// Whether rays go on from any material.
     has_bounces: bool,
     /// Whether any light has an extent.
@@ -81,16 +91,23 @@ impl View {
         let camera = Camera::new(&look.camera);
         let viewer = camera.backward();
         let lights: Vec<_> = look.lights.iter().map(|light| Light::new(light, center)).collect();
-        let materials: Vec<_> = look.materials.iter().map(|m| Material::new(m, viewer)).collect();
+        let ready = |m: &phong_scene::Material| Material::new(&m.at(|_| Rgb::WHITE), viewer);
+        let materials: Vec<_> = look.materials.iter().map(ready).collect();
+        let varied: Vec<_> = look.materials.iter().map(Varied::of).collect();
+        let bounces =
+            |m: &phong_scene::Material| !(m.reflection.is_black() && m.transmission.is_black());
         Ok(Self {
-            has_bounces: materials.iter().any(Material::bounces),
+            has_bounces: look.materials.iter().any(bounces),
             has_soft_lights: lights.iter().any(|light| light.soft),
             has_ambient_per_light: materials.iter().any(Material::takes_ambient_per_light),
+            textures: look.textures.iter().map(Texture::new).collect(),
             geometry,
             look,
             camera,
             lights,
             materials,
+            has_textures: varied.iter().any(|&varied| varied != Varied::Nothing),
+            varied,
         })
     }
 
@@ -133,7 +150,7 @@ impl View {
         &self.look.lights
     }
 
-    /// The materials, in the scene's order.
+    /// The materials, in the scene's order; of those that vary, with white for every texture.
     #[inline]
     pub fn materials(&self) -> &[Material] {
         &self.materials
@@ -200,6 +217,7 @@ impl View {
         let Surface { p, p_error, ng } = self.world().surface(ray, hit);
         let (ng, e) = (Dir3::from_unit(ng), -Dir3::from_unit(ray.dir));
         let Shading { n, material, color } = self.shading(hit, ng, e);
+        let color = color.unwrap_or_else(|| self.color_at(material, ray, hit, p));
         SurfaceInteraction { hit: *hit, material, p, p_error, ng, n, e, color }
     }
 }

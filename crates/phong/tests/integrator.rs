@@ -11,9 +11,9 @@ use phong::terms::{TermSet, Terms};
 use phong::view::{View, ViewError};
 use phong_bvh::Ray;
 use phong_scene::{
-    AmbientRule, Background, Camera, CameraKind, FilterKind, Group, GroupId, Image, Light,
-    LightKind, Material, MaterialId, Mesh, Model, Object, Place, Points, Rgb, Scene, Shape, Tint,
-    WardForm,
+    AmbientRule, Background, Camera, CameraKind, ConstantMaterial, FilterKind, Group, GroupId,
+    Image, Light, LightKind, Material, MaterialId, Mesh, Model, Object, Place, Points, Rgb, Scene,
+    Shape, Tint, WardForm,
 };
 
 /// One pixel looking down −z from (0, 0, 10) at whatever is added.
@@ -33,6 +33,7 @@ fn scene() -> Scene {
         materials: vec![Material::default()],
         objects: Vec::new(),
         groups: Vec::new(),
+        textures: Vec::new(),
     }
 }
 
@@ -177,7 +178,7 @@ fn a_light_below_the_geometric_horizon_gives_nothing_whatever_the_shading_normal
 fn a_mirror_brings_what_it_sees_times_its_weight() {
     let mut scene = scene();
     scene.image.background = Background::Color(Rgb::new(0.25, 0.5, 1.0));
-    scene.materials[0].reflection = Rgb::grey(0.5);
+    scene.materials[0].reflection = Rgb::grey(0.5).into();
     scene.objects.push(plane([0.0; 3], [1.0, 0.0, 1.0]));
     let terms = terms(scene.clone());
     assert_eq!(terms.reflection, Rgb::new(0.125, 0.25, 0.5));
@@ -190,8 +191,13 @@ fn two_facing_mirrors_end_at_the_depth() {
     let mut scene = scene();
     scene.image.depth = 3;
     scene.ambient = Rgb::WHITE;
-    scene.materials[0] =
-        Material { k_a: 1.0, color: Rgb::WHITE, reflection: Rgb::grey(0.5), ..Material::default() };
+    scene.materials[0] = ConstantMaterial {
+        k_a: 1.0,
+        color: Rgb::WHITE,
+        reflection: Rgb::grey(0.5),
+        ..ConstantMaterial::default()
+    }
+    .into();
     scene.objects.push(plane([0.0; 3], [0.0, 0.0, 1.0]));
     scene.objects.push(plane([0.0, 0.0, 11.0], [0.0, 0.0, 1.0]));
     let terms = terms(scene);
@@ -201,15 +207,16 @@ fn two_facing_mirrors_end_at_the_depth() {
 fn glass(change: fn(&mut Material)) -> Scene {
     let mut scene = scene();
     scene.image.background = Background::Color(Rgb::WHITE);
-    scene.materials[0] = Material {
+    scene.materials[0] = ConstantMaterial {
         k_a: 0.0,
         k_d: 0.0,
         k_s: 0.0,
         reflection: Rgb::WHITE,
         transmission: Rgb::WHITE,
         fresnel: true,
-        ..Material::default()
-    };
+        ..ConstantMaterial::default()
+    }
+    .into();
     change(&mut scene.materials[0]);
     scene
 }
@@ -230,7 +237,7 @@ fn glass_shares_light_by_the_exact_fresnel_reflectance() {
 fn a_ball_of_glass_without_fresnel_lets_all_light_through() {
     let mut scene = glass(|m| {
         m.fresnel = false;
-        m.reflection = Rgb::BLACK;
+        m.reflection = Rgb::BLACK.into();
         m.ior = 1.0;
     });
     scene.objects.push(sphere([0.3, 0.2, 0.0], 1.0));
@@ -243,8 +250,8 @@ fn beyond_the_critical_angle_all_light_is_mirrored() {
     for fresnel in [true, false] {
         let mut scene = glass(|_| {});
         scene.materials[0].fresnel = fresnel;
-        scene.materials[0].reflection = Rgb::grey(if fresnel { 1.0 } else { 0.25 });
-        scene.materials[0].transmission = Rgb::grey(if fresnel { 1.0 } else { 0.75 });
+        scene.materials[0].reflection = Rgb::grey(if fresnel { 1.0 } else { 0.25 }).into();
+        scene.materials[0].transmission = Rgb::grey(if fresnel { 1.0 } else { 0.75 }).into();
         scene.objects.push(plane([0.0; 3], [-1.0, 0.0, -1.0]));
         let terms = terms(scene);
         assert_eq!(terms.transmission, Rgb::BLACK);
@@ -268,7 +275,7 @@ fn ambient_per_light_goes_with_the_light_but_not_its_shadow() {
 fn an_object_tint_takes_the_object_colour_and_not_the_light() {
     let mut scene = scene();
     scene.materials[0].tint = Tint::Object;
-    scene.materials[0].color = Rgb::new(1.0, 0.5, 0.0);
+    scene.materials[0].color = Rgb::new(1.0, 0.5, 0.0).into();
     scene.objects.push(plane([0.0; 3], [0.0, 0.0, 1.0]));
     scene.lights.push(Light { specular_color: Rgb::grey(0.1), ..sun([0.0, 0.0, -1.0]) });
     let specular = terms(scene).specular;
@@ -354,7 +361,7 @@ fn the_grain_of_a_brushed_sphere_turns_with_it() {
     let tangent = |turned: bool| {
         let mut scene = scene();
         scene.materials[0].model =
-            Model::Ward { roughness_x: 0.5, roughness_y: 0.1, form: WardForm::Gmd };
+            Model::Ward { roughness_x: 0.5.into(), roughness_y: 0.1.into(), form: WardForm::Gmd };
         let mut ball = sphere([0.0; 3], 1.0);
         if turned {
             ball.transform = DAffine3::from_rotation_y(std::f64::consts::FRAC_PI_2);
@@ -401,7 +408,7 @@ fn alpha_is_the_share_of_samples_that_met_something() {
     scene.camera.kind = CameraKind::Orthographic { height: 2.0 };
     let half = Shape::Box { min: DVec3::new(-5.0, -5.0, -1.0), max: DVec3::new(0.0, 5.0, 0.0) };
     scene.objects.push(object(half));
-    scene.materials[0].k_a = 1.0;
+    scene.materials[0].k_a = 1.0.into();
     let film = film_with(scene, |options| options);
     assert_eq!(film.at(LayerKind::Alpha, 0, 0).unwrap(), [0.5]);
     close(Rgb::grey(film.at(LayerKind::Picture, 0, 0).unwrap()[0]), 0.4);

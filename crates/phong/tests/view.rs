@@ -59,7 +59,7 @@ fn a_changed_look_has_the_bits_of_a_scene_written_so() {
     let changes: [fn(&mut Scene); 4] = [
         |scene| scene.camera.eye.x = -3.0,
         |scene| scene.lights.push(scene.lights[0].clone()),
-        |scene| scene.materials[0].color = Rgb::new(0.1, 0.7, 0.2),
+        |scene| scene.materials[0].color = Rgb::new(0.1, 0.7, 0.2).into(),
         |scene| scene.ambient = Rgb::grey(0.25),
     ];
     let mut films = vec![bits(&film(&View::of(&scene).unwrap(), &scene))];

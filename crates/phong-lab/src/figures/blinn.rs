@@ -5,7 +5,7 @@ use glam::{DVec3, Vec3};
 use phong::film::LayerKind;
 use phong::math::{Dir3, wide};
 use phong::reflectance::{BlinnPhong, Incident, Phong, Reflectance, Switches};
-use phong_scene::{Material, Model, Rgb, Scene};
+use phong_scene::{ConstantMaterial, Model, Rgb, Scene};
 
 use super::drawing::Drawing;
 use super::mark::{Anchor, Ink, Point, Stroke};
@@ -122,7 +122,7 @@ fn scene(lobe: Lobe, exponent: f64) -> Scene {
         Lobe::Phong => Model::Phong,
         Lobe::Blinn => Model::BlinnPhong,
     };
-    let material = Material { model, shininess: exponent as f32, k_s: 0.7, ..plastic() };
+    let material = ConstantMaterial { model, shininess: exponent as f32, k_s: 0.7, ..plastic() };
     ball(material, vec![distant(DVec3::new(1.0, 0.55, 0.1), 1.0)], DVec3::Z)
 }
 

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use phong::math::wide;
-use phong_scene::{Material, Scene};
+use phong_scene::{ConstantMaterial, Scene};
 
 use super::drawing::Drawing;
 use super::mark::{Anchor, Point, Stroke};
@@ -40,7 +40,7 @@ pub(super) fn draw(finish: Finish) -> Plate {
 }
 
 fn scene(eye: DVec3) -> Scene {
-    ball(Material { k_a: 0.0, k_d: 1.0, ..plastic() }, vec![distant(to_light(), 1.0)], eye)
+    ball(ConstantMaterial { k_a: 0.0, k_d: 1.0, ..plastic() }, vec![distant(to_light(), 1.0)], eye)
 }
 
 /// What a pixel shows of the light that its material would send back if it faced the light.

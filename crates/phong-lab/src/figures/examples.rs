@@ -4,7 +4,8 @@ use glam::DVec3;
 use phong::film::LayerKind;
 use phong::math::wide;
 use phong_scene::{
-    Background, Camera, CameraKind, Image, Light, LightKind, Material, Object, Rgb, Scene, Shape,
+    Background, Camera, CameraKind, ConstantMaterial, Image, Light, LightKind, Object, Rgb, Scene,
+    Shape,
 };
 
 use super::drawing::Drawing;
@@ -82,16 +83,17 @@ fn scene(eye: DVec3, look_at: DVec3, fov: f64) -> Scene {
             point(DVec3::new(-5.0, 7.0, 6.0), 0.8),
             distant(DVec3::new(2.0, 3.0, 2.0), 0.35),
         ],
-        materials: vec![floor()],
+        materials: vec![floor().into()],
+        textures: Vec::new(),
         objects: vec![object(Shape::Plane { point: DVec3::ZERO, normal: DVec3::Y }, 0)],
         groups: Vec::new(),
     }
 }
 
 /// Adds shapes of one material.
-fn add(scene: &mut Scene, material: Material, shapes: impl IntoIterator<Item = Shape>) {
+fn add(scene: &mut Scene, material: ConstantMaterial, shapes: impl IntoIterator<Item = Shape>) {
     let number = scene.materials.len() as u32;
-    scene.materials.push(material);
+    scene.materials.push(material.into());
     scene.objects.extend(shapes.into_iter().map(|shape| -> Object { object(shape, number) }));
 }
 
@@ -100,18 +102,29 @@ fn point(position: DVec3, color: f32) -> Light {
     Light { kind, ..distant(DVec3::Y, color) }
 }
 
-fn floor() -> Material {
-    Material { color: Rgb::from_srgb8([0xd3, 0xda, 0xe1]), k_s: 0.0, ..plastic([0; 3], 1.0) }
+fn floor() -> ConstantMaterial {
+    ConstantMaterial {
+        color: Rgb::from_srgb8([0xd3, 0xda, 0xe1]),
+        k_s: 0.0,
+        ..plastic([0; 3], 1.0)
+    }
 }
 
-fn plastic(srgb: [u8; 3], shininess: f32) -> Material {
+fn plastic(srgb: [u8; 3], shininess: f32) -> ConstantMaterial {
     let color = Rgb::from_srgb8(srgb);
-    Material { color, k_a: 0.2, k_d: 0.75, k_s: 0.6, shininess, ..Material::default() }
+    ConstantMaterial {
+        color,
+        k_a: 0.2,
+        k_d: 0.75,
+        k_s: 0.6,
+        shininess,
+        ..ConstantMaterial::default()
+    }
 }
 
-fn metal(srgb: [u8; 3], shininess: f32) -> Material {
+fn metal(srgb: [u8; 3], shininess: f32) -> ConstantMaterial {
     let base = plastic(srgb, shininess);
-    Material { specular_color: None, k_a: 0.15, k_d: 0.4, k_s: 1.1, ..base }
+    ConstantMaterial { specular_color: None, k_a: 0.15, k_d: 0.4, k_s: 1.1, ..base }
 }
 
 fn sphere(x: f64, y: f64, z: f64, radius: f64) -> Shape {
@@ -151,9 +164,9 @@ fn solids() -> Scene {
 fn mirror_and_glass() -> Scene {
     let mut scene = scene(DVec3::new(0.0, 2.2, 9.0), DVec3::new(0.0, 0.85, 0.0), 24.0);
     let black = plastic([0x05, 0x05, 0x06], 300.0);
-    let mirror = Material { reflection: Rgb::grey(0.85), k_d: 0.1, ..black.clone() };
+    let mirror = ConstantMaterial { reflection: Rgb::grey(0.85), k_d: 0.1, ..black.clone() };
     add(&mut scene, mirror, [sphere(-1.4, 1.0, -0.3, 1.0)]);
-    let glass = Material {
+    let glass = ConstantMaterial {
         reflection: Rgb::WHITE,
         transmission: Rgb::grey(0.96),
         fresnel: true,

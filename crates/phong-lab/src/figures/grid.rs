@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use phong::film::{Film, LayerKind};
-use phong_scene::{Material, Scene};
+use phong_scene::{ConstantMaterial, Scene};
 
 use super::drawing::Drawing;
 use super::mark::{Anchor, Bitmap, Point, Stroke};
@@ -43,7 +43,7 @@ pub(super) fn draw(finish: Finish) -> Plate {
 }
 
 fn scene(k_s: f32, alpha: f32) -> Scene {
-    let material = Material { k_a: 0.15, k_d: 0.6, k_s, shininess: alpha, ..plastic() };
+    let material = ConstantMaterial { k_a: 0.15, k_d: 0.6, k_s, shininess: alpha, ..plastic() };
     ball(material, vec![distant(DVec3::new(0.8, 1.0, 1.4), 1.0)], DVec3::Z)
 }
 

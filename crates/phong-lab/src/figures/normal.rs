@@ -3,7 +3,7 @@
 use glam::DVec3;
 use phong::film::LayerKind;
 use phong::math::wide;
-use phong_scene::{Material, Rgb, Scene};
+use phong_scene::{ConstantMaterial, Rgb, Scene};
 
 use super::drawing::Drawing;
 use super::mark::{Anchor, Path, Point, Stroke, heading};
@@ -36,7 +36,8 @@ pub(super) fn draw(finish: Finish) -> Plate {
 }
 
 fn scene() -> Scene {
-    let clay = Material { color: Rgb::grey(0.72), k_s: 0.0, k_d: 0.75, k_a: 0.3, ..plastic() };
+    let clay =
+        ConstantMaterial { color: Rgb::grey(0.72), k_s: 0.0, k_d: 0.75, k_a: 0.3, ..plastic() };
     ball(clay, vec![distant(DVec3::new(-0.5, 0.8, 1.0), 0.8)], DVec3::Z)
 }
 

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use phong::film::LayerKind;
 use phong::math::{Dir3, lobe, wide};
-use phong_scene::{Material, Scene};
+use phong_scene::{ConstantMaterial, Scene};
 
 use super::drawing::Drawing;
 use super::mark::{Anchor, Path, Point, Stroke, heading};
@@ -38,7 +38,7 @@ pub(super) fn draw(finish: Finish) -> Plate {
 }
 
 fn scene(eye: DVec3) -> Scene {
-    let material = Material { k_a: 0.15, k_s: 0.7, shininess: 20.0, ..plastic() };
+    let material = ConstantMaterial { k_a: 0.15, k_s: 0.7, shininess: 20.0, ..plastic() };
     ball(material, vec![distant(to_light(), 0.9)], eye)
 }
 

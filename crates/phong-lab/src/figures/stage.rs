@@ -7,8 +7,8 @@ use phong::render::{Cancel, RenderOptions, render};
 use phong::terms::{Term, TermSet, Terms};
 use phong::view::View;
 use phong_scene::{
-    Background, Camera, CameraKind, Image, Light, LightKind, Material, MaterialId, Object, Place,
-    Rgb, Scene, Shape, srgb_encode,
+    Background, Camera, CameraKind, ConstantMaterial, Image, Light, LightKind, MaterialId, Object,
+    Place, Rgb, Scene, Shape, srgb_encode,
 };
 
 use super::Finish;
@@ -26,14 +26,14 @@ pub(super) const DIFFUSE: LayerKind = LayerKind::Term(Term::Diffuse);
 pub(super) const SPECULAR: LayerKind = LayerKind::Term(Term::Specular);
 
 /// The blue plastic of the balls.
-pub(super) fn plastic() -> Material {
-    Material {
+pub(super) fn plastic() -> ConstantMaterial {
+    ConstantMaterial {
         color: Rgb::from_srgb8([0x3d, 0x84, 0xd6]),
         k_a: 0.2,
         k_d: 0.8,
         k_s: 0.6,
         shininess: 24.0,
-        ..Material::default()
+        ..ConstantMaterial::default()
     }
 }
 
@@ -50,7 +50,7 @@ pub(super) fn distant(to_light: DVec3, color: f32) -> Light {
 }
 
 /// The unit ball at the origin, looked at from far away in the direction `eye`.
-pub(super) fn ball(material: Material, lights: Vec<Light>, eye: DVec3) -> Scene {
+pub(super) fn ball(material: ConstantMaterial, lights: Vec<Light>, eye: DVec3) -> Scene {
     let sphere = Shape::Sphere { center: DVec3::ZERO, radius: 1.0 };
     Scene {
         image: Image {
@@ -69,9 +69,10 @@ pub(super) fn ball(material: Material, lights: Vec<Light>, eye: DVec3) -> Scene 
         },
         ambient: Rgb::WHITE,
         lights,
-        materials: vec![material],
+        materials: vec![material.into()],
         objects: vec![object(sphere, 0)],
         groups: Vec::new(),
+        textures: Vec::new(),
     }
 }
 

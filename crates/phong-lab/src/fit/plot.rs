@@ -13,8 +13,8 @@ use phong::look::Look;
 use phong::render::{Cancel, RenderOptions, render};
 use phong::view::View;
 use phong_scene::{
-    Camera, CameraKind, Image, Light, LightKind, Material, MaterialId, Object, Place, Rgb, Scene,
-    Shape,
+    Camera, CameraKind, ConstantMaterial, Image, Light, LightKind, MaterialId, Object, Place, Rgb,
+    Scene, Shape,
 };
 use rayon::prelude::*;
 
@@ -196,7 +196,8 @@ fn ball_on_floor(lobe: Lobe) -> Scene {
         ambient: Rgb::WHITE,
         // One from over the shoulder, for the ball; one from beyond, low, for the floor.
         lights: vec![light(DVec3::new(0.5, -0.6, -1.0)), light(DVec3::new(0.14, -0.33, 1.0))],
-        materials: vec![material(lobe)],
+        materials: vec![material(lobe).into()],
+        textures: Vec::new(),
         objects: vec![
             object("ball", Shape::Sphere { center: DVec3::new(0.0, 1.0, 0.0), radius: 1.0 }),
             object("floor", Shape::Plane { point: DVec3::ZERO, normal: DVec3::Y }),
@@ -206,17 +207,17 @@ fn ball_on_floor(lobe: Lobe) -> Scene {
 }
 
 /// The lobe over a dark Lambert, scaled so that its peak is the same for every lobe, face on.
-fn material(lobe: Lobe) -> Material {
+fn material(lobe: Lobe) -> ConstantMaterial {
     let (model, shininess) = written(lobe);
     let peak = lobe.at(0.0, Slice::InPlane, 0.0);
-    Material {
+    ConstantMaterial {
         model,
         shininess,
         color: Rgb::new(0.1, 0.16, 0.25),
         k_a: 0.2,
         k_d: 0.6,
         k_s: (0.7 / peak) as f32,
-        ..Material::default()
+        ..ConstantMaterial::default()
     }
 }
 

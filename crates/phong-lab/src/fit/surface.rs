@@ -6,7 +6,9 @@ use std::str::FromStr;
 use phong::light::LightSample;
 use phong::material::Material;
 use phong::math::Dir3;
-use phong_scene::{self as scene, Distribution, Fresnel, Rgb, Shadowing, WardForm};
+use phong_scene::{
+    self as scene, ConstantMaterial, Distribution, Fresnel, Rgb, Shadowing, WardForm,
+};
 
 use super::lobe::Base;
 use super::{FitError, Formula, Lobe, Model, fit, formula};
@@ -96,25 +98,59 @@ impl fmt::Display for Target {
     }
 }
 
+/// The parameters that make a highlight, by their keys in the scene text.
+const HIGHLIGHT: [&str; 6] =
+    ["k_s", "specular_color", "shininess", "roughness", "roughness_x", "roughness_y"];
+
 /// Draws a material in another model: colours and weights stay, and so does the brightness of the
 /// highlight face on. `None`: it had no highlight to carry over.
 ///
-/// A material without a highlight gets none. Facets keep their Fresnel reflectance as facets; in
-/// any other model its colour face on becomes the specular colour.
+/// A material without a highlight gets none, and one whose highlight textures vary is left as it
+/// is. Facets keep their Fresnel reflectance as facets; in any other model its colour face on
+/// becomes the specular colour.
 pub fn remodel(material: &mut scene::Material, target: Target) -> Option<Remodelled> {
     let (model, number) = match target {
         Target::Lambert => {
-            (material.model, material.k_s) = (scene::Model::Lambert, 0.0);
+            material.model = scene::Model::Lambert;
+            material.k_s = 0.0.into();
             return None;
         }
         Target::OrenNayar { sigma } => {
             let sigma = sigma.to_radians() as f32;
             material.model = scene::Model::OrenNayar { sigma, full: false };
-            material.k_s = 0.0;
+            material.k_s = 0.0.into();
             return None;
         }
         Target::Highlight { model, number } => (model, number),
     };
+    if material.textured().iter().any(|(key, _)| HIGHLIGHT.contains(key)) {
+        return None;
+    }
+    // What textures vary is not the highlight's, and goes back as it was.
+    let mut constant = material.at(|_| Rgb::WHITE);
+    let told = carry_over(&mut constant, model, number)?;
+    let scene::Material { color, ambient_color, emission_color, k_a, k_d, k_e, .. } = *material;
+    let scene::Material { reflection, transmission, .. } = *material;
+    *material = scene::Material {
+        color,
+        ambient_color,
+        emission_color,
+        k_a,
+        k_d,
+        k_e,
+        reflection,
+        transmission,
+        ..constant.into()
+    };
+    Some(told)
+}
+
+/// Gives a material the highlight of another model.
+fn carry_over(
+    material: &mut ConstantMaterial,
+    model: Model,
+    number: Option<f64>,
+) -> Option<Remodelled> {
     let from = highlight(material)?;
     let formula = match number {
         Some(_) => None,
@@ -148,7 +184,7 @@ pub fn remodel(material: &mut scene::Material, target: Target) -> Option<Remodel
 }
 
 /// The lobe of a material; `None` where it has no highlight.
-fn highlight(material: &scene::Material) -> Option<Lobe> {
+fn highlight(material: &ConstantMaterial) -> Option<Lobe> {
     if material.k_s == 0.0 {
         return None;
     }
@@ -176,7 +212,7 @@ fn highlight(material: &scene::Material) -> Option<Lobe> {
 }
 
 /// The highlight of a white object, face on, under white light.
-fn peak(material: &scene::Material) -> Rgb {
+fn peak(material: &ConstantMaterial) -> Rgb {
     let light =
         LightSample { l: Dir3::Z, distance: 1.0, color: Rgb::WHITE, specular_color: Rgb::WHITE };
     let material = Material::new(material, Dir3::Z);
@@ -184,7 +220,7 @@ fn peak(material: &scene::Material) -> Rgb {
 }
 
 /// A lobe as the model of a scene, and the exponent that goes with it.
-pub(super) fn written(lobe: Lobe) -> (scene::Model, f32) {
+pub(super) fn written(lobe: Lobe) -> (scene::Model<f32>, f32) {
     let facets = |distribution, shadowing, roughness: f64| scene::Model::Microfacet {
         distribution,
         roughness: roughness as f32,
@@ -208,17 +244,30 @@ pub(super) fn written(lobe: Lobe) -> (scene::Model, f32) {
 mod tests {
     use super::*;
 
-    fn into(material: &scene::Material, target: &str) -> (scene::Material, Option<Remodelled>) {
-        let mut material = material.clone();
+    fn into(material: &ConstantMaterial, target: &str) -> (ConstantMaterial, Option<Remodelled>) {
+        let mut material: scene::Material = material.clone().into();
         let told = remodel(&mut material, target.parse().unwrap());
-        (material, told)
+        (material.at(|_| Rgb::BLACK), told)
+    }
+
+    #[test]
+    fn textures_stay_and_a_highlight_that_they_vary_is_left_as_it_is() {
+        let by = scene::TextureRef::new(scene::TextureId(0));
+        let tiles = scene::Material { color: by.into(), ..scene::Material::default() };
+        let mut changed = tiles.clone();
+        assert!(remodel(&mut changed, "ggx".parse().unwrap()).is_some());
+        assert_eq!(changed.color, tiles.color);
+        let worn = scene::Material { k_s: by.into(), ..scene::Material::default() };
+        let mut same = worn.clone();
+        assert_eq!(remodel(&mut same, "ggx".parse().unwrap()), None);
+        assert_eq!(same, worn);
     }
 
     #[test]
     fn the_highlight_is_as_bright_face_on_in_every_model() {
-        let written = scene::Material {
+        let written = ConstantMaterial {
             specular_color: Some(Rgb::new(1.0, 0.5, 0.25)),
-            ..scene::Material::default()
+            ..ConstantMaterial::default()
         };
         for model in Model::ALL {
             let (changed, told) = into(&written, model.name());
@@ -233,10 +282,10 @@ mod tests {
 
     #[test]
     fn a_number_is_by_formula_unless_it_is_given() {
-        let (matched, told) = into(&scene::Material::default(), "blinn-phong");
+        let (matched, told) = into(&ConstantMaterial::default(), "blinn-phong");
         assert!((matched.shininess - 128.69).abs() < 0.01, "{}", matched.shininess);
         assert!(told.unwrap().formula.is_some());
-        let (given, told) = into(&scene::Material::default(), "blinn-phong:32");
+        let (given, told) = into(&ConstantMaterial::default(), "blinn-phong:32");
         assert_eq!((given.shininess, told.unwrap().formula), (32.0, None));
     }
 
@@ -249,7 +298,7 @@ mod tests {
             shadowing: Shadowing::Correlated,
             fresnel,
         };
-        let gold = scene::Material { model, k_s: 1.0, ..scene::Material::default() };
+        let gold = ConstantMaterial { model, k_s: 1.0, ..ConstantMaterial::default() };
         let (facets, _) = into(&gold, "beckmann");
         assert!(
             matches!(facets.model, scene::Model::Microfacet { fresnel: f, .. } if f == fresnel)
@@ -260,14 +309,14 @@ mod tests {
 
     #[test]
     fn what_has_no_highlight_gets_none_and_matt_models_take_it() {
-        let matt = scene::Material {
+        let matt = ConstantMaterial {
             model: scene::Model::Lambert,
             k_s: 0.0,
-            ..scene::Material::default()
+            ..ConstantMaterial::default()
         };
         assert_eq!(into(&matt, "ggx"), (matt.clone(), None));
         for target in ["lambert", "oren-nayar:30"] {
-            let (changed, told) = into(&scene::Material::default(), target);
+            let (changed, told) = into(&ConstantMaterial::default(), target);
             assert_eq!((changed.k_s, told), (0.0, None));
         }
     }

@@ -17,11 +17,8 @@ const MOST_LIGHTS: usize = 5;
 /// How far the picture is off if dark points are forgiven, and what they look like; `None` if
 /// there is no such pattern.
 pub(super) fn look(right: &Prepared, theirs: &Theirs) -> Option<(Residual, String)> {
-    let ours: Vec<Rgb> = right
-        .points
-        .iter()
-        .map(|point| shade(&right.scene, point, &Wrong::default()).total())
-        .collect();
+    let ours: Vec<Rgb> =
+        right.points.iter().map(|point| shade(point, &Wrong::default()).total()).collect();
     let differs = |ours: [f32; 3], theirs: [Level; 3]| {
         ours.iter().zip(theirs).any(|(ours, theirs)| theirs.apart(*ours) > Residual::NOTICED)
     };
@@ -42,7 +39,7 @@ pub(super) fn look(right: &Prepared, theirs: &Theirs) -> Option<(Residual, Strin
                     surface.lights[light].visible = false;
                 }
             }
-            let sum = shade(&right.scene, &dark, &Wrong::default());
+            let sum = shade(&dark, &Wrong::default());
             let value = encode(sum.total(), Curve::Right);
             (!differs(value, drawn)).then_some(value)
         })

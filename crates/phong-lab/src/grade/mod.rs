@@ -297,7 +297,7 @@ impl Prepared {
     /// How far their picture is from ours, drawn with a fault.
     fn residual(&self, theirs: &Theirs, fault: &Fault) -> Residual {
         let ours = |i: usize| {
-            let total = shade(&self.scene, &self.points[i], &fault.wrong).total();
+            let total = shade(&self.points[i], &fault.wrong).total();
             encode(total, fault.curve)
         };
         picture::residual(self.size, &self.inner, ours, |i| theirs.at(i, self.size, fault.layout))

@@ -1,14 +1,18 @@
 //! What every pixel's centre ray meets: the ingredients that a renderer puts into the equation.
 
+use std::sync::Arc;
+
 use phong::explain::listen;
 use phong::interaction::SurfaceInteraction;
+use phong::material::Material;
 use phong::math::Dir3;
 use phong::render::RenderOptions;
 use phong::terms::Terms;
+use phong::texture::TexturePoint;
 use phong::view::View;
 use phong::witness::{Branch, LightTold, Witness};
 use phong_bvh::Ray;
-use phong_scene::{FilterKind, LightKind, Rgb};
+use phong_scene::{ConstantMaterial, FilterKind, LightKind, Rgb};
 use rayon::prelude::*;
 
 /// What one pixel is made of.
@@ -20,10 +24,24 @@ pub(super) struct Point {
     pub(super) surface: Option<Surface>,
 }
 
+/// A material as it is at a surface: as it was written, and ready for light.
+#[derive(Debug)]
+pub(super) struct MaterialHere {
+    pub(super) written: ConstantMaterial,
+    pub(super) ready: Material,
+}
+
+impl MaterialHere {
+    fn new(scene: &View, number: u32, point: &TexturePoint) -> Self {
+        let written = scene.written_at(number, point);
+        Self { written, ready: scene.material_at(number, point) }
+    }
+}
+
 #[derive(Clone, Debug)]
 pub(super) struct Surface {
     pub(super) object: u32,
-    pub(super) material: u32,
+    pub(super) material: Arc<MaterialHere>,
     pub(super) n: Dir3,
     /// The normal as the surface has it: what a program uses that never turns it to the ray.
     pub(super) ng: Dir3,
@@ -56,10 +74,17 @@ pub(super) fn gather(scene: &View, options: &RenderOptions) -> Vec<Point> {
     // One sample is in the middle of its pixel whatever the filter, and this one is soonest made.
     let centre = options.one_sample().with_filter(FilterKind::Box);
     let [width, height] = options.size();
+    let everywhere = |(number, written): (usize, &phong_scene::Material)| {
+        let here = || MaterialHere::new(scene, number as u32, &TexturePoint::default());
+        written.textured().is_empty().then(|| Arc::new(here()))
+    };
+    let shared: Vec<_> = scene.written_materials().iter().enumerate().map(everywhere).collect();
+    let shared = &*shared;
     let row = |y: u32| {
         let centre = &centre;
         (0..width).map(move |x| {
-            let mut listener = Listener { scene, weights: Vec::new(), point: Point::default() };
+            let mut listener =
+                Listener { scene, shared, weights: Vec::new(), point: Point::default() };
             // Within the picture, so there is nothing that can be outside.
             let _ = listen(scene, centre, [x, y], 0, &mut listener);
             listener.point
@@ -71,6 +96,8 @@ pub(super) fn gather(scene: &View, options: &RenderOptions) -> Vec<Point> {
 /// Listens to the first hit of one ray.
 struct Listener<'a> {
     scene: &'a View,
+    /// The materials that are the same everywhere.
+    shared: &'a [Option<Arc<MaterialHere>>],
     /// Weights of the rays on their way below the camera's.
     weights: Vec<Rgb>,
     point: Point,
@@ -90,7 +117,10 @@ impl Witness for Listener<'_> {
             self.point.terms = terms;
             self.point.surface = Some(Surface {
                 object: self.scene.object(&at.hit),
-                material: at.material,
+                material: self.shared[at.material as usize].clone().unwrap_or_else(|| {
+                    let point = self.scene.texture_point_of(ray, at);
+                    Arc::new(MaterialHere::new(self.scene, at.material, &point))
+                }),
                 n: at.n,
                 ng: at.ng,
                 e: at.e,
@@ -108,8 +138,8 @@ impl Witness for Listener<'_> {
         else {
             return;
         };
-        let material = &self.scene.materials()[surface.material as usize];
-        surface.ambient += material.ambient_of_light(surface.color, self.scene.ambient(), &sample);
+        surface.ambient +=
+            surface.material.ready.ambient_of_light(surface.color, self.scene.ambient(), &sample);
         let endless = told.shadow.map(|ray| Ray { t_max: f32::INFINITY, ..ray });
         let point_light =
             !matches!(self.scene.written_lights()[told.light].kind, LightKind::Distant { .. });

@@ -6,10 +6,9 @@ use phong::light::LightSample;
 use phong::math::{Dir3, lobe, pow};
 use phong::reflectance::{blinn_phong, phong as phong_model};
 use phong::terms::Terms;
-use phong::view::View;
 use phong_scene::{Model, Rgb};
 
-use super::points::{LightPoint, Point, Surface};
+use super::points::{LightPoint, MaterialHere, Point, Surface};
 
 /// What may be wrong with a renderer's sum.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -107,7 +106,7 @@ impl Default for Wrong {
 }
 
 /// The sum at a point, computed with a mistake.
-pub(super) fn shade(scene: &View, point: &Point, wrong: &Wrong) -> Terms {
+pub(super) fn shade(point: &Point, wrong: &Wrong) -> Terms {
     let Some(surface) = &point.surface else {
         return point.terms;
     };
@@ -117,7 +116,7 @@ pub(super) fn shade(scene: &View, point: &Point, wrong: &Wrong) -> Terms {
     }
     let lights = if wrong.first_light { 1 } else { surface.lights.len() };
     for light in surface.lights.iter().take(lights) {
-        let (mut diffuse, mut specular) = one_light(scene, surface, light, wrong);
+        let (mut diffuse, mut specular) = one_light(surface, light, wrong);
         if wrong.clamped_lights {
             diffuse = diffuse.map(|v| v.min(1.0));
             let total = (diffuse + specular).map(|v| v.min(1.0));
@@ -150,7 +149,7 @@ fn ambient(surface: &Surface, wrong: &Wrong) -> Rgb {
 }
 
 /// Diffuse and specular of one light.
-fn one_light(scene: &View, surface: &Surface, light: &LightPoint, wrong: &Wrong) -> (Rgb, Rgb) {
+fn one_light(surface: &Surface, light: &LightPoint, wrong: &Wrong) -> (Rgb, Rgb) {
     let seen = match wrong.shadows {
         Shadows::Right => light.visible,
         Shadows::Missing => light.above,
@@ -176,8 +175,7 @@ fn one_light(scene: &View, surface: &Surface, light: &LightPoint, wrong: &Wrong)
         color: light.color * factor,
         specular_color: light.specular_color * factor,
     };
-    let material = &scene.materials()[surface.material as usize];
-    let written = &scene.written_materials()[surface.material as usize];
+    let MaterialHere { written, ready: material } = &*surface.material;
     let n = if wrong.inside_out { -surface.ng } else { surface.n };
     if !matches!(
         written.model,

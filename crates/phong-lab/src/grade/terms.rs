@@ -35,7 +35,7 @@ pub(super) fn fit(right: &Prepared, theirs: &Theirs) -> Vec<(String, Option<f64>
         if !right.inner[i] || point.surface.is_none() {
             continue;
         }
-        let sum = shade(&right.scene, point, &Wrong::default());
+        let sum = shade(point, &Wrong::default());
         let mut columns = Terms::default();
         for (term, value) in sum.iter() {
             if let Some(column) = counted_as(term) {

@@ -12,7 +12,7 @@ use phong::explain::{End, Explanation, Lit, Onward, RayTold, Surface, explain};
 use phong::render::{Cancel, Cancelled, RenderOptions};
 use phong::terms::Term;
 use phong::view::View;
-use phong_scene::{AmbientRule, Model, Rgb};
+use phong_scene::{AmbientRule, ConstantMaterial, Model, Rgb};
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
@@ -83,25 +83,6 @@ struct Shared<'a> {
 impl Shared<'_> {
     fn json(&self) -> Value {
         let scene = self.scene;
-        let material = |m: &phong_scene::Material| {
-            let lobe = match m.model {
-                Model::Phong => Some("R·E"),
-                Model::BlinnPhong | Model::BlinnFast => Some("N·H"),
-                _ => None,
-            };
-            json!({
-                "name": m.name,
-                "model": described(m),
-                "k_d": number(m.k_d),
-                "k_s": number(m.k_s),
-                "shininess": number(m.shininess),
-                "lobe": lobe,
-                "fast": m.model == Model::BlinnFast,
-                "norm": product::normalization(m).map(number),
-                "cosine": m.times_cosine,
-                "per_light": m.ambient_rule == AmbientRule::PerLight,
-            })
-        };
         // Numbered from 1, so that 0 is nothing.
         let mut objects = vec![Value::Null];
         objects.extend(scene.objects().iter().map(|o| json!([o.name, o.place.to_string()])));
@@ -113,7 +94,12 @@ impl Shared<'_> {
                 .iter()
                 .map(|l| json!([l.name, l.place.to_string()]))
                 .collect::<Vec<_>>(),
-            "materials": scene.written_materials().iter().map(material).collect::<Vec<_>>(),
+            // Where textures vary one, each surface brings its own.
+            "materials": scene
+                .written_materials()
+                .iter()
+                .map(|m| material(&m.at(|_| Rgb::WHITE)))
+                .collect::<Vec<_>>(),
         })
     }
 
@@ -155,6 +141,9 @@ impl Shared<'_> {
                 .collect::<Vec<_>>(),
             "lights": s.lights.iter().map(|lit| light(s, lit)).collect::<Vec<_>>(),
         });
+        if !s.textures.is_empty() {
+            out["mat"] = material(&s.material);
+        }
         if let Some(element) = s.element {
             out["el"] = json!(element + 1);
         }
@@ -235,6 +224,27 @@ fn light(s: &Surface, lit: &Lit) -> Value {
         }
     }
     Value::Object(out)
+}
+
+/// What the page must know of a material.
+fn material(m: &ConstantMaterial) -> Value {
+    let lobe = match m.model {
+        Model::Phong => Some("R·E"),
+        Model::BlinnPhong | Model::BlinnFast => Some("N·H"),
+        _ => None,
+    };
+    json!({
+        "name": m.name,
+        "model": described(m),
+        "k_d": number(m.k_d),
+        "k_s": number(m.k_s),
+        "shininess": number(m.shininess),
+        "lobe": lobe,
+        "fast": m.model == Model::BlinnFast,
+        "norm": product::normalization(m).map(number),
+        "cosine": m.times_cosine,
+        "per_light": m.ambient_rule == AmbientRule::PerLight,
+    })
 }
 
 /// Text, deflated with zlib's frame, in base 64.

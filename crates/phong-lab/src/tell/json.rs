@@ -1,9 +1,11 @@
 //! An explanation for programs.
 
-use phong::explain::{Blocker, End, Explanation, Lit, Onward, RayTold, Sample, Surface};
+use phong::explain::{
+    Blocker, End, Explanation, Lit, Onward, RayTold, Sample, Surface, TextureTold,
+};
 use phong::math::Dir3;
 use phong::terms::Terms;
-use phong_scene::{Place, Rgb};
+use phong_scene::{ConstantMaterial, Place, Rgb, TextureSpace};
 use serde_json::{Map, Value, json};
 
 use super::text::hidden;
@@ -66,6 +68,7 @@ fn ray_into(out: &mut Map<String, Value>, told: &RayTold) {
             put("emission", rgb(s.terms.emission));
             put("c_e", rgb(s.c_e()));
             put("material", material(&s.material));
+            put("textures", s.textures.iter().map(texture).collect());
             put("lights", s.lights.iter().map(light).collect());
             put("reflection", s.reflection.as_ref().map_or(Value::Null, onward));
             put("transmission", s.transmission.as_ref().map_or(Value::Null, onward));
@@ -89,7 +92,7 @@ fn hit(s: &Surface) -> Value {
     })
 }
 
-fn material(m: &phong_scene::Material) -> Value {
+fn material(m: &ConstantMaterial) -> Value {
     json!({
         "name": m.name,
         "model": super::text::described(m),
@@ -99,6 +102,20 @@ fn material(m: &phong_scene::Material) -> Value {
         "k_e": number(m.k_e),
         "shininess": number(m.shininess),
         "at": at(&m.place),
+    })
+}
+
+fn texture(told: &TextureTold) -> Value {
+    json!({
+        "parameter": told.parameter,
+        "texture": told.texture,
+        "space": match told.space {
+            TextureSpace::Object => "object",
+            TextureSpace::World => "world",
+            TextureSpace::Uv => "uv",
+        },
+        "place": told.place.to_array(),
+        "value": rgb(told.value),
     })
 }
 

@@ -5,7 +5,7 @@ use phong::math::lobe;
 use phong::reflectance::blinn_phong::{self, rational_lobe};
 use phong::reflectance::phong as phong_model;
 use phong::terms::Term;
-use phong_scene::{AmbientRule, Material, Model, Rgb};
+use phong_scene::{AmbientRule, ConstantMaterial, Model, Rgb};
 
 /// A term: its factors in the order they are written, and what they come to, as it is in the sum.
 pub(super) struct Product {
@@ -60,7 +60,7 @@ pub(super) fn own_terms(s: &Surface) -> Vec<(Term, Product)> {
         let factors = vec![one("k_a", "k_a", m.k_a), color("C_a", "C_a", s.c_a)];
         terms.push((Term::Ambient, Product { factors, value: s.ambient }));
     }
-    if m.glows() {
+    if m.k_e > 0.0 {
         let factors = vec![one("k_e", "k_e", m.k_e), color("C_e", "C_e", s.c_e())];
         terms.push((Term::Emission, Product { factors, value: s.terms.emission }));
     }
@@ -125,7 +125,7 @@ fn brdf(answer: Rgb, known: f32) -> Factor {
 }
 
 /// The lobe of Phong's and Blinn's models.
-fn highlight(m: &Material, lit: &Lit) -> Factor {
+fn highlight(m: &ConstantMaterial, lit: &Lit) -> Factor {
     let exponent = m.shininess;
     let power = |name: &str, latex, cosine: f32| Factor {
         words: format!("({name})^{exponent}"),
@@ -145,7 +145,7 @@ fn highlight(m: &Material, lit: &Lit) -> Factor {
 }
 
 /// What a normalised lobe is multiplied by; `None` where it is not normalised.
-pub(super) fn normalization(m: &Material) -> Option<f32> {
+pub(super) fn normalization(m: &ConstantMaterial) -> Option<f32> {
     m.normalize.then(|| match m.model {
         Model::Phong => phong_model::normalization(m.shininess, m.times_cosine),
         _ => blinn_phong::normalization(m.shininess, m.times_cosine),

@@ -2,9 +2,11 @@
 
 use std::fmt::{self, Write};
 
-use phong::explain::{Encoded, End, Explanation, Lit, Onward, RayTold, Sample, Surface};
+use phong::explain::{
+    Encoded, End, Explanation, Lit, Onward, RayTold, Sample, Surface, TextureTold,
+};
 use phong::terms::Terms;
-use phong_scene::{AmbientRule, Model, Viewer};
+use phong_scene::{AmbientRule, ConstantMaterial, Model, TextureSpace, Viewer};
 
 use super::numbers::{Color, Digits, Direction, Position, columns};
 use super::product::{self, Factor, Number, Power, Product};
@@ -111,6 +113,15 @@ impl Page {
             s.t
         ));
         self.line(format_args!("material {}: {}", s.material.name, described(&s.material)));
+        for told in &s.textures {
+            let TextureTold { parameter, texture, space, place, value } = told;
+            let space = spaced(*space);
+            self.line(format_args!(
+                "texture  {parameter}: {texture} at {} in {space} is {}",
+                Position(*place),
+                Color(*value)
+            ));
+        }
         self.line(format_args!("uv       ({}, {})", s.uv[0], s.uv[1]));
         self.table(&[
             ("colour  ", Color(s.color).to_string()),
@@ -279,7 +290,7 @@ pub(super) fn hidden(lit: &Lit) -> Option<&'static str> {
 }
 
 /// A term in letters, and step by step in numbers.
-fn product(name: &str, m: &phong_scene::Material, product: &Product) -> (String, Vec<String>) {
+fn product(name: &str, m: &ConstantMaterial, product: &Product) -> (String, Vec<String>) {
     let letters: Vec<&str> = product.factors.iter().map(|factor| &*factor.words).collect();
     let mut letters = format!("{name:<8} = {}", letters.join(" "));
     if name == "specular" && m.model == Model::BlinnFast {
@@ -305,8 +316,17 @@ fn product(name: &str, m: &phong_scene::Material, product: &Product) -> (String,
     (letters, steps)
 }
 
+/// The space that a texture lies in.
+fn spaced(space: TextureSpace) -> &'static str {
+    match space {
+        TextureSpace::Object => "the object's space",
+        TextureSpace::World => "the world",
+        TextureSpace::Uv => "uv",
+    }
+}
+
 /// A material's model and numbers in a few words.
-pub(super) fn described(m: &phong_scene::Material) -> String {
+pub(super) fn described(m: &ConstantMaterial) -> String {
     match m.model {
         Model::Lambert => format!("Lambert, k_a {}, k_d {}", m.k_a, m.k_d),
         Model::Phong | Model::BlinnPhong | Model::BlinnFast => {

@@ -9,8 +9,8 @@ use phong::render::{Cancel, RenderOptions, render};
 use phong::terms::{Term, TermSet, Terms};
 use phong::view::View;
 use phong_scene::{
-    Camera, CameraKind, Image, Light, LightKind, Material, MaterialId, Model, Object, Place, Rgb,
-    Scene, Shape,
+    Camera, CameraKind, ConstantMaterial, Image, Light, LightKind, Material, MaterialId, Model,
+    Object, Place, Rgb, Scene, Shape,
 };
 
 const SIZE: u32 = 48;
@@ -35,14 +35,18 @@ fn ball(lights: Vec<Light>) -> Scene {
         },
         ambient: Rgb::WHITE,
         lights,
-        materials: vec![Material {
-            color: Rgb::new(1.0, 0.5, 0.1),
-            k_a: 0.125,
-            k_d: 0.5,
-            k_s: 0.25,
-            shininess: 9.0,
-            ..Material::default()
-        }],
+        materials: vec![
+            ConstantMaterial {
+                color: Rgb::new(1.0, 0.5, 0.1),
+                k_a: 0.125,
+                k_d: 0.5,
+                k_s: 0.25,
+                shininess: 9.0,
+                ..ConstantMaterial::default()
+            }
+            .into(),
+        ],
+        textures: Vec::new(),
         objects: vec![Object {
             name: "ball".to_owned(),
             shape: Shape::Sphere { center: CENTER, radius: RADIUS },
@@ -253,6 +257,7 @@ fn moving_the_eye_moves_the_highlight_but_not_the_shade() {
 fn the_highlight_shrinks_with_shininess_and_keeps_its_peak() {
     let shiny = |shininess: f32, k_s: f32| {
         let mut scene = ball(vec![sun()]);
+        let (shininess, k_s) = (shininess.into(), k_s.into());
         scene.materials[0] = Material { shininess, k_s, ..scene.materials[0].clone() };
         film(scene)
     };
@@ -274,7 +279,9 @@ fn blinn_phong_with_a_higher_exponent_looks_like_phong() {
     let area = |model, shininess| {
         let mut scene = ball(vec![sun()]);
         scene.image.size = [96, 96];
-        scene.materials[0] = Material { model, shininess, k_s: 1.0, ..Material::default() };
+        let constant =
+            ConstantMaterial { model, shininess, k_s: 1.0, ..ConstantMaterial::default() };
+        scene.materials[0] = constant.into();
         let film = film(scene);
         let values = film.layer(SPECULAR).unwrap().values.chunks(3).map(|v| v[0]);
         values.filter(|&v| v > 0.5).count() as f64

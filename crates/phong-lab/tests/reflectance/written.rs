@@ -146,7 +146,7 @@ fn written(row: &Row, n: f32) -> Material {
     let reading = phong_scene::read("scene.toml", None, &source, &Limits::default());
     let scene = reading.scene.unwrap_or_else(|| panic!("{dialect}: {:?}", reading.diagnostics));
     let material = scene.materials.iter().find(|m| m.name == "m").unwrap();
-    Material::new(material, Dir3::Z)
+    Material::new(&material.at(|_| Rgb::BLACK), Dir3::Z)
 }
 
 #[test]

@@ -9,6 +9,7 @@ pub(crate) mod material;
 pub(crate) mod settings;
 pub(crate) mod shape;
 mod suspicion;
+pub(crate) mod texture;
 
 use self::fault::{Fault, Faults};
 pub(crate) use self::groups::MOST_OBJECTS;
@@ -120,7 +121,12 @@ impl<'s> Judge<'s> {
         }
         for (i, material) in scene.materials.iter().enumerate() {
             let name = || named("materials", i, &material.name, &material.place);
-            self.judge(&material.place, name, |f| material::material(material, f));
+            let textures = Some(&*scene.textures);
+            self.judge(&material.place, name, |f| material::material(material, textures, f));
+        }
+        for (i, texture) in scene.textures.iter().enumerate() {
+            let name = || named("textures", i, &texture.name, &texture.place);
+            self.judge(&texture.place, name, |f| texture::texture(texture, f));
         }
     }
 

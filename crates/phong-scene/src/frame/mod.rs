@@ -15,6 +15,7 @@ use crate::light::{Light, LightKind};
 use crate::mesh::Points;
 use crate::scene::{Background, Group, Object, Scene};
 use crate::shape::Shape;
+use crate::texture::Param;
 
 /// Share of the picture that the model's box may fill, along the tighter direction.
 const FILL: f64 = 0.9;
@@ -89,7 +90,7 @@ pub enum Side {
 pub(crate) fn frame(fragment: Fragment, framing: &Framing, place: &Place) -> Scene {
     let mut materials = fragment.materials;
     if let Some(plain) = materials.first_mut() {
-        plain.k_a = 1.0;
+        plain.k_a = Param::Constant(1.0);
         plain.place = place.clone();
     }
     let mut numbers = BTreeMap::new();
@@ -164,7 +165,8 @@ impl Scene {
             bottom: Rgb::from_srgb8([0x8e, 0x99, 0xa6]),
         };
         if let Some(material) = self.materials.first_mut() {
-            material.color = framing.color.unwrap_or(Rgb::from_srgb8([0xd9, 0xcf, 0xc2]));
+            let color = framing.color.unwrap_or(Rgb::from_srgb8([0xd9, 0xcf, 0xc2]));
+            material.color = color.into();
         }
         said
     }
@@ -438,7 +440,7 @@ mod tests {
             frame(fragment, &Framing { color: Some(Rgb::BLACK), ..Framing::default() }, &place);
         assert_eq!(
             (scene.materials[0].color, scene.materials[1].name.as_str()),
-            (Rgb::BLACK, "red")
+            (Rgb::BLACK.into(), "red")
         );
         assert_eq!((scene.objects[0].name.as_str(), scene.lights.len()), ("mesh 1", 2));
         let Shape::Mesh(mesh) = &scene.objects[0].shape else { panic!("{:?}", scene.objects) };

@@ -38,6 +38,8 @@ pub(crate) enum Kind {
     Material,
     /// The name of a group.
     Group,
+    /// The name of a texture.
+    Texture,
     /// `[width, height]`, whole numbers from 1 to 1,048,576.
     Size,
     /// `[c, l, q]`, none negative, not all 0.
@@ -56,6 +58,10 @@ pub(crate) enum Kind {
     Rotate,
     /// Four rows of four numbers, applied to column vectors; the last row is `[0, 0, 0, 1]`.
     Matrix,
+    /// Two colours.
+    TwoColors,
+    /// A list of `[t, colour]`, t from 0 to 1 and never falling; at least one.
+    Stops,
     /// A table.
     Table(&'static Table),
     /// Any number of tables, in order: `[[name]]`.
@@ -76,6 +82,7 @@ impl Kind {
             }
             Self::Integer(min, max) if min == max => min.to_string(),
             Self::Integer(min, max) => format!("a whole number from {min} to {max}"),
+            Self::Number(range) if range.is_any() => "a number".to_owned(),
             Self::Number(range) => format!("a number {}", range.words()),
             Self::Point => "three numbers, `[x, y, z]`".to_owned(),
             Self::Direction => "three numbers, `[x, y, z]`, not all 0".to_owned(),
@@ -93,6 +100,7 @@ impl Kind {
             Self::File => "the path of a file, in quotes".to_owned(),
             Self::Material => "the name of a material, in quotes".to_owned(),
             Self::Group => "the name of a group, in quotes".to_owned(),
+            Self::Texture => "the name of a texture, in quotes".to_owned(),
             Self::Size => {
                 format!("`[width, height]`, whole numbers from 1 to {}", Image::LARGEST)
             }
@@ -104,6 +112,8 @@ impl Kind {
             Self::Scale => "a number or `[x, y, z]`, none 0".to_owned(),
             Self::Rotate => "`[ax, ay, az, degrees]`, or a list of them".to_owned(),
             Self::Matrix => "four rows of four numbers".to_owned(),
+            Self::TwoColors => "two colours, `[A, B]`".to_owned(),
+            Self::Stops => "a list of `[t, colour]`, t from 0 to 1 and never falling".to_owned(),
             Self::Table(_) => "a table".to_owned(),
             Self::Tables(_) => "a list of tables".to_owned(),
             Self::Named(_) => "tables by name".to_owned(),

@@ -37,33 +37,39 @@ pub(crate) static MATERIAL: Table = Table {
             Kind::Color,
             Default::Number(0.8),
             "Diffuse colour; the colours of vertices and points replace it.",
-        ),
-        Key::new("ambient_color", Kind::Color, Default::Said("`color`"), "Ambient colour."),
+        )
+        .varies(),
+        Key::new("ambient_color", Kind::Color, Default::Said("`color`"), "Ambient colour.")
+            .varies(),
         Key::new(
             "specular_color",
             Kind::ColorOrObject,
             Default::Number(1.0),
             "Colour of the highlight; `\"object\"`: `color`, as metal has it.",
         )
+        .varies()
         .only(GLOSSY),
         Key::new(
             "k_a",
             Kind::Number(Range::NOT_NEGATIVE),
             Default::Number(0.1),
             "Weight of the ambient term.",
-        ),
+        )
+        .varies(),
         Key::new(
             "k_d",
             Kind::Number(Range::NOT_NEGATIVE),
             Default::Number(0.7),
             "Weight of the diffuse term.",
-        ),
+        )
+        .varies(),
         Key::new(
             "k_s",
             Kind::Number(Range::NOT_NEGATIVE),
             Default::Number(0.3),
             "Weight of the specular term.",
         )
+        .varies()
         .only(GLOSSY),
         Key::new(
             "shininess",
@@ -72,6 +78,7 @@ pub(crate) static MATERIAL: Table = Table {
             "α, always the exponent that is applied; for cook-torrance with Blinn's \
              distribution, above 0.",
         )
+        .varies()
         .only(&["phong", "blinn-phong", "blinn-fast", "cook-torrance"]),
         Key::new(
             "distribution",
@@ -87,6 +94,7 @@ pub(crate) static MATERIAL: Table = Table {
             "Beckmann's m or GGX's α, as they stand in the formulas (not squared); Blinn's \
              distribution takes `shininess` instead.",
         )
+        .varies()
         .only(FACETS),
         Key::new(
             "shadowing",
@@ -146,6 +154,7 @@ pub(crate) static MATERIAL: Table = Table {
             Default::Number(0.2),
             "Roughness along the tangent.",
         )
+        .varies()
         .only(&["ward"]),
         Key::new(
             "roughness_y",
@@ -153,6 +162,7 @@ pub(crate) static MATERIAL: Table = Table {
             Default::Said("`roughness_x`"),
             "Roughness across the tangent.",
         )
+        .varies()
         .only(&["ward"]),
         Key::new(
             "form",
@@ -166,15 +176,19 @@ pub(crate) static MATERIAL: Table = Table {
             Kind::Number(Range::NOT_NEGATIVE),
             Default::Number(0.0),
             "Weight of the emission term: light of the surface's own, seen and not shed on others.",
-        ),
+        )
+        .varies(),
         Key::new(
             "emission_color",
             Kind::Color,
             Default::Said("`color`"),
             "Colour of the surface's own light.",
-        ),
-        Key::new("reflection", Kind::Color, Default::Number(0.0), "Weight of the mirror ray."),
-        Key::new("transmission", Kind::Color, Default::Number(0.0), "Weight of the refracted ray."),
+        )
+        .varies(),
+        Key::new("reflection", Kind::Color, Default::Number(0.0), "Weight of the mirror ray.")
+            .varies(),
+        Key::new("transmission", Kind::Color, Default::Number(0.0), "Weight of the refracted ray.")
+            .varies(),
         Key::new(
             "ior",
             Kind::Number(Material::IOR),

@@ -11,6 +11,7 @@ mod reference;
 mod scene;
 mod schema;
 mod shape;
+mod texture;
 
 pub(crate) use kind::{Default, Kind};
 pub(crate) use light::LIGHT;
@@ -19,6 +20,7 @@ pub use reference::reference_markdown;
 pub(crate) use scene::{BACKGROUND, INCLUDE, SCENE};
 pub use schema::schema_json;
 pub(crate) use shape::GROUP;
+pub(crate) use texture::{TEXTURE, TEXTURED};
 
 /// One table of the scene text, such as `[camera]` or `[[sphere]]`.
 #[derive(Debug)]
@@ -46,17 +48,37 @@ pub(crate) struct Key {
     pub(crate) only: &'static [&'static str],
     /// What it means, with its unit.
     pub(crate) doc: &'static str,
+    /// Whether a texture may stand for the value.
+    pub(crate) varies: bool,
+    /// Words that are known but not built yet.
+    pub(crate) later: &'static [&'static str],
 }
 
 impl Key {
     /// A key for all kinds of its table.
     const fn new(name: &'static str, kind: Kind, default: Default, doc: &'static str) -> Self {
-        Self { name, kind, default, only: &[], doc }
+        Self { name, kind, default, only: &[], doc, varies: false, later: &[] }
     }
 
     /// The same, for these kinds alone.
     const fn only(self, only: &'static [&'static str]) -> Self {
         Self { only, ..self }
+    }
+
+    /// The same, for whose value a texture may stand.
+    const fn varies(self) -> Self {
+        Self { varies: true, ..self }
+    }
+
+    /// The same, of whose words these are not built yet.
+    const fn later(self, later: &'static [&'static str]) -> Self {
+        Self { later, ..self }
+    }
+
+    /// What may stand as its value, for the reference.
+    pub(crate) fn words(&self) -> String {
+        let words = self.kind.words();
+        if self.varies { format!("{words}; or `{{ texture = .. }}`") } else { words }
     }
 
     /// Whether it applies where the selecting key says `word` (`None`: that is not known).

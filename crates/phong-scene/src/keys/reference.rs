@@ -1,7 +1,7 @@
 //! The reference of the scene text, for people: one table of keys after another, in Markdown.
 
 use super::shape::{MADE_OF, PLACED};
-use super::{BACKGROUND, Key, Kind, SCENE, Table};
+use super::{BACKGROUND, Key, Kind, SCENE, TEXTURED, Table};
 
 /// The reference of the scene text in Markdown: every table, key, kind, range and default.
 ///
@@ -25,6 +25,9 @@ pub fn reference_markdown() -> String {
         sections.push(section(Some(&header), table));
         if key.name == "image" {
             sections.push(section(Some("background = { .. }"), &BACKGROUND));
+        }
+        if key.name == "textures" {
+            sections.push(section(Some("{ texture = .. }"), &TEXTURED));
         }
     }
     let any = "## Any shape\n\nEvery shape takes these as well, an instance all but `material`. \
@@ -54,8 +57,8 @@ pub(super) fn rows(keys: &[&Key]) -> String {
             [] => String::new(),
             only => format!(" ({})", only.join(", ")),
         };
-        let Key { name, kind, default, doc, .. } = key;
-        format!("| `{name}`{only} | {} | {default} | {doc} |\n", kind.words())
+        let Key { name, default, doc, .. } = key;
+        format!("| `{name}`{only} | {} | {default} | {doc} |\n", key.words())
     };
     keys.iter().map(row).fold(head.to_owned(), |rows, row| rows + &row)
 }
@@ -66,14 +69,15 @@ mod tests {
     use crate::keys::camera::CAMERA;
     use crate::keys::scene::{AMBIENT, IMAGE};
     use crate::keys::shape::SHAPES;
-    use crate::keys::{INCLUDE, LIGHT, MATERIAL};
+    use crate::keys::{INCLUDE, LIGHT, MATERIAL, TEXTURE};
 
-    const CONCEPTS: [(&str, &str); 5] = [
+    const CONCEPTS: [(&str, &str); 6] = [
         ("camera.rs", include_str!("../camera.rs")),
         ("light.rs", include_str!("../light.rs")),
         ("material.rs", include_str!("../material.rs")),
         ("scene.rs", include_str!("../scene.rs")),
         ("shape.rs", include_str!("../shape.rs")),
+        ("texture.rs", include_str!("../texture.rs")),
     ];
 
     /// The module's doc, as Markdown.
@@ -95,6 +99,8 @@ mod tests {
         assert_doc_holds("camera.rs", &own_keys(&CAMERA));
         assert_doc_holds("light.rs", &own_keys(&LIGHT));
         assert_doc_holds("material.rs", &own_keys(&MATERIAL));
+        assert_doc_holds("texture.rs", &own_keys(&TEXTURE));
+        assert_doc_holds("texture.rs", &own_keys(&TEXTURED));
         for table in [&SCENE, &IMAGE, &BACKGROUND, &AMBIENT, &INCLUDE] {
             assert_doc_holds("scene.rs", &own_keys(table));
         }

@@ -4,6 +4,7 @@ use super::camera::CAMERA;
 use super::light::LIGHT;
 use super::material::MATERIAL;
 use super::shape::{GROUP, SHAPES};
+use super::texture::TEXTURE;
 use super::{Default, Key, Kind, Table};
 use crate::scene::Image;
 
@@ -50,6 +51,12 @@ pub(crate) static SCENE: Table = Table {
                 Kind::Named(&MATERIAL),
                 Default::Said("none"),
                 "The materials, by name.",
+            ),
+            Key::new(
+                "textures",
+                Kind::Named(&TEXTURE),
+                Default::Said("none"),
+                "The textures, by name.",
             ),
             Key::new(
                 "groups",

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::{BACKGROUND, Default, Key, Kind, SCENE, Table};
+use super::{BACKGROUND, Default, Key, Kind, SCENE, TEXTURED, Table};
 use crate::limits::{LARGEST, Range};
 use crate::scene::Image;
 
@@ -83,6 +83,9 @@ fn conditions(table: &Table, select: &str) -> Value {
 /// What may stand as a key's value, with its meaning and default.
 fn value(key: &Key) -> Value {
     let mut schema = kind(key.kind);
+    if key.varies {
+        schema = json!({ "anyOf": [schema, object(&TEXTURED)] });
+    }
     if let Value::Object(schema) = &mut schema {
         schema.insert("description".into(), json!(key.doc));
         let default = match key.default {
@@ -111,7 +114,7 @@ fn kind(kind: Kind) -> Value {
         Kind::Reflectance => color(1.0),
         Kind::Background => json!({ "anyOf": [color(LARGEST), object(&BACKGROUND)] }),
         Kind::Word(words) => json!({ "enum": words }),
-        Kind::Text | Kind::File | Kind::Material | Kind::Group => text(),
+        Kind::Text | Kind::File | Kind::Material | Kind::Group | Kind::Texture => text(),
         Kind::Size => {
             list(&json!({ "type": "integer", "minimum": 1, "maximum": Image::LARGEST }), 2)
         }
@@ -127,6 +130,17 @@ fn kind(kind: Kind) -> Value {
             json!({ "anyOf": [rotation, { "type": "array", "items": rotation }] })
         }
         Kind::Matrix => list(&list(&any_number(), 4), 4),
+        Kind::TwoColors => list(&color(LARGEST), 2),
+        Kind::Stops => json!({
+            "type": "array",
+            "minItems": 1,
+            "items": {
+                "type": "array",
+                "items": [number(&Range::closed(0.0, 1.0)), color(LARGEST)],
+                "minItems": 2,
+                "maxItems": 2,
+            },
+        }),
         Kind::Table(table) => Value::Object(object(table)),
         Kind::Tables(table) => json!({ "type": "array", "items": object(table) }),
         Kind::Named(table) => json!({ "type": "object", "additionalProperties": object(table) }),

@@ -2,8 +2,9 @@
 
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 use phong_scene::{
-    Background, Camera, CameraKind, Fresnel, Group, GroupId, Image, Light, LightKind, Material,
-    MaterialId, Mesh, Model, NO_INDEX, Object, Points, Rgb, Scene, Shape,
+    Background, Camera, CameraKind, ConstantMaterial, Fresnel, Group, GroupId, Image, Light,
+    LightKind, Material, MaterialId, Mesh, Model, NO_INDEX, Object, Points, Rgb, Scene, Shape,
+    Texture, TextureId, TextureKind, TextureRef,
 };
 use proptest::prelude::*;
 
@@ -150,7 +151,7 @@ prop_compose! {
     fn material()(
         color in color(), ambient_color in prop::option::of(color()), k in prop::array::uniform4(single()),
         ior in single(), reflection in color(), sigma in single(), kind in 0..4, f0 in color(),
-    ) -> Material {
+    ) -> ConstantMaterial {
         let [k_a, k_d, k_s, shininess] = k;
         let model = match kind {
             0 => Model::Phong,
@@ -163,11 +164,41 @@ prop_compose! {
                 fresnel: Fresnel::Schlick { f0 },
             },
         };
-        Material {
+        ConstantMaterial {
             color, ambient_color, k_a, k_d, k_s, shininess, ior, reflection, model,
             transmission: f0,
-            ..Material::default()
+            ..ConstantMaterial::default()
         }
+    }
+}
+
+prop_compose! {
+    fn texture()(
+        a in color(), b in color(), scale in single(), axis in vector(), length in length(), kind in 0..3,
+    ) -> Texture {
+        let kind = match kind {
+            0 => TextureKind::Checker { colors: [a, b], scale: scale.into() },
+            1 => TextureKind::Gradient { axis, from: 0.0, to: length, stops: vec![(0.0, a), (scale, b)] },
+            _ => TextureKind::Gradient { axis, from: 1.0, to: length, stops: Vec::new() },
+        };
+        Texture { kind, ..Texture::default() }
+    }
+}
+
+prop_compose! {
+    /// Most have a texture for their colour or their highlight, not all of which there are.
+    fn any_material()(
+        constant in material(), texture in 0..4_u32, what in 0..4, scale in single(),
+    ) -> Material {
+        let mut material = Material::from(constant);
+        let by = TextureRef { scale, ..TextureRef::new(TextureId(texture)) };
+        match what {
+            0 => material.color = by.into(),
+            1 => material.k_s = by.into(),
+            2 => material.shininess = by.into(),
+            _ => {}
+        }
+        material
     }
 }
 
@@ -177,7 +208,8 @@ prop_compose! {
         depth in 0..9_u32,
         camera in (vector(), vector(), vector(), length(), length()),
         ambient in color(), top in color(), lights in list(light()),
-        materials in prop::collection::vec(material(), 2..5),
+        materials in prop::collection::vec(any_material(), 2..5),
+        textures in prop::collection::vec(texture(), 0..4),
         objects in objects(), groups in prop::collection::vec(objects(), 0..4),
     ) -> Scene {
         let (eye, look_at, up, fov, aperture) = camera;
@@ -187,7 +219,7 @@ prop_compose! {
         Scene {
             image: Image { size, samples, depth, background, ..Image::default() },
             camera: Camera { kind, eye, look_at, up, aperture, focus: None },
-            ambient, lights, materials, objects, groups,
+            ambient, lights, materials, textures, objects, groups,
         }
     }
 }

@@ -41,6 +41,7 @@ cases! {
     inline_and_dotted_tables_are_tables
     meshes_keep_their_normals_or_are_smoothed_or_flat
     objects_are_numbered_by_kind_in_the_order_of_the_text
+    parameters_vary_by_textures
     points_are_spheres_of_the_radius_given
     shapes_are_scaled_then_turned_then_moved
     the_scene_of_the_interface
@@ -67,6 +68,7 @@ cases! {
     a_scene_without_objects_is_a_warning
     a_spot_shines_somewhere_and_ends_outside
     a_table_and_a_list_of_one_name_are_told
+    a_texture_that_nothing_uses_is_a_warning
     a_transform_must_be_invertible
     a_version_that_is_not_given_is_a_warning
     a_very_long_line_is_cut_around_the_place
@@ -90,6 +92,7 @@ cases! {
     nan_and_infinity_are_wrong_everywhere
     one_table_and_several_are_not_the_same
     shapes_that_are_none_are_told
+    textures_that_are_not_there_or_do_not_fit
     the_only_version_is_one
     three_js_leaves_no_choice_of_its_switches
     up_must_not_be_antiparallel_to_the_view_along_z

@@ -2,9 +2,10 @@
 
 use glam::{DAffine3, DMat3, DVec2, DVec3, Vec2, Vec3};
 use phong_scene::{
-    AmbientRule, Background, Camera, CameraKind, Dialect, Distribution, FilterKind, Fresnel, Group,
-    GroupId, Image, Light, LightKind, Material, MaterialId, Mesh, Model, NO_INDEX, Object, Place,
-    Points, Rgb, Scene, Shadowing, Shape, Tint, Viewer, WardForm,
+    AmbientRule, Background, Camera, CameraKind, Channel, ConstantMaterial as Material, Dialect,
+    Distribution, FilterKind, Fresnel, Group, GroupId, Image, Light, LightKind, MaterialId, Mesh,
+    Model, NO_INDEX, Object, Place, Points, Rgb, Scene, Shadowing, Shape, Texture, TextureId,
+    TextureKind, TextureRef, TextureSpace, Tint, Viewer, WardForm,
 };
 use proptest::prelude::*;
 
@@ -77,7 +78,13 @@ impl Make {
     }
 
     fn scene(&mut self) -> Scene {
-        let materials: Vec<_> = (0..=self.below(5)).map(|i| self.material(i)).collect();
+        let textures: Vec<_> = (0..self.below(4)).map(|i| self.texture(i)).collect();
+        let materials: Vec<_> = (0..=self.below(5))
+            .map(|i| {
+                let material = self.material(i).into();
+                self.textured(material, textures.len())
+            })
+            .collect();
         let mut groups: Vec<Group> = Vec::new();
         for i in 0..self.below(3) {
             let objects = self.objects(materials.len(), i);
@@ -86,7 +93,7 @@ impl Make {
         let objects = self.objects(materials.len(), groups.len());
         let lights = (0..self.below(4)).map(|i| self.light(i + 1)).collect();
         let (image, camera, ambient) = (self.image(), self.camera(), self.color());
-        Scene { image, camera, ambient, lights, materials, objects, groups }
+        Scene { image, camera, ambient, lights, materials, textures, objects, groups }
     }
 
     fn image(&mut self) -> Image {
@@ -154,7 +161,7 @@ impl Make {
         }
     }
 
-    fn model(&mut self) -> Model {
+    fn model(&mut self) -> Model<f32> {
         use Shadowing::{Correlated, Implicit, Separable, VCavity};
         match self.below(7) {
             0 => Model::Lambert,
@@ -196,12 +203,65 @@ impl Make {
         }
     }
 
+    fn texture(&mut self, number: usize) -> Texture {
+        let kind = if self.flag() {
+            TextureKind::Checker { colors: [self.color(), self.color()], scale: self.number() }
+        } else {
+            let stops = [0.0, 0.25, 0.25, 0.3, 1.0].map(|t| (t, self.color()));
+            let axis = DVec3::new(self.number(), -2.0, 0.0);
+            let from = self.number();
+            TextureKind::Gradient { axis, from, to: from - self.number(), stops: stops.into() }
+        };
+        Texture {
+            name: format!("{} {number}", self.name()),
+            kind,
+            space: self.one(&[TextureSpace::Object, TextureSpace::World, TextureSpace::Uv]),
+            transform: match self.below(4) {
+                0 => DAffine3::from_translation(self.point()),
+                1 => DAffine3::from_scale(DVec3::new(self.number(), -2.0, 1.0)),
+                2 => DAffine3::from_mat3(DMat3::from_cols(DVec3::Y, -DVec3::X, DVec3::Z)),
+                _ => DAffine3::IDENTITY,
+            },
+            place: Place::default(),
+        }
+    }
+
+    /// The material with textures for some of its parameters, if there are any textures.
+    fn textured(
+        &mut self,
+        material: phong_scene::Material,
+        textures: usize,
+    ) -> phong_scene::Material {
+        let mut material = material;
+        for what in 0..6 {
+            if textures == 0 || self.flag() {
+                continue;
+            }
+            let by = TextureRef {
+                texture: TextureId(self.below(textures) as u32),
+                scale: self.one(&[1.0, 0.5, 0.1]),
+                offset: self.one(&[0.0, 0.25]),
+                channel: self.one(&[None, Some(Channel::Red), Some(Channel::Blue)]),
+            };
+            match what {
+                0 => material.color = by.into(),
+                1 => material.k_a = by.into(),
+                2 => material.reflection = by.into(),
+                3 => material.emission_color = Some(by.into()),
+                4 => material.k_e = by.into(),
+                _ => material.ambient_color = Some(by.into()),
+            }
+        }
+        material
+    }
+
     fn material(&mut self, number: usize) -> Material {
         let model = self.model();
         let lobe = matches!(model, Model::Phong | Model::BlinnPhong | Model::BlinnFast);
         let glossy = !matches!(model, Model::Lambert | Model::OrenNayar { .. });
         // A material of three.js is read as facets, of which every test above holds some.
-        let suits = |d: &Dialect| *d != Dialect::ThreeJs && d.allows(&model);
+        let written = phong_scene::Material::from(Material { model, ..Material::default() }).model;
+        let suits = |d: &Dialect| *d != Dialect::ThreeJs && d.allows(&written);
         let dialects: Vec<_> = Dialect::ALL.into_iter().filter(suits).collect();
         let dialect = self.one(&dialects);
         let preset = dialect.switches();

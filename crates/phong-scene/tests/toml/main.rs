@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 
 use phong_scene::{
     Camera, Folder, Image, Light, Limits, Material, Mesh, Object, Points, Reading, Scene, Shape,
-    read,
+    Texture, read,
 };
 
 use crate::differing::differing;
@@ -63,7 +63,7 @@ fn bad(name: &str) {
 
 /// Everything in a scene that is not as by default, a line a thing.
 fn summary(scene: &Scene) -> String {
-    let Scene { image, camera, ambient, lights, materials, objects, groups } = scene;
+    let Scene { image, camera, ambient, lights, materials, textures, objects, groups } = scene;
     let mut lines = vec![
         differing(image, &Image::default()),
         differing(camera, &Camera::default()),
@@ -71,6 +71,7 @@ fn summary(scene: &Scene) -> String {
     ];
     lines.extend(lights.iter().map(|light| differing(light, &Light::default())));
     lines.extend(materials.iter().map(|material| differing(material, &Material::default())));
+    lines.extend(textures.iter().map(|texture| differing(texture, &Texture::default())));
     lines.extend(objects.iter().map(object_line));
     for group in groups {
         lines.push(format!("group {}", group.name));

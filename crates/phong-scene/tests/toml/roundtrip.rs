@@ -35,6 +35,7 @@ pub(crate) fn written_and_read(scene: Scene) -> (String, Scene) {
 pub(crate) fn seen(mut scene: Scene) -> String {
     scene.lights.iter_mut().for_each(|light| light.place = Place::default());
     scene.materials.iter_mut().for_each(|material| material.place = Place::default());
+    scene.textures.iter_mut().for_each(|texture| texture.place = Place::default());
     let in_groups = scene.groups.iter_mut().flat_map(|group| &mut group.objects);
     for object in scene.objects.iter_mut().chain(in_groups) {
         plain(object);

@@ -7,7 +7,7 @@
 mod record;
 
 use glam::DVec3;
-use phong_scene::{Place, Rgb, srgb_encode};
+use phong_scene::{ConstantMaterial, Place, Rgb, TextureSpace, srgb_encode};
 use thiserror::Error;
 
 use crate::film::Sums8;
@@ -82,8 +82,10 @@ pub struct Surface {
     pub at: Place,
     /// The face of a mesh, or the point of a cloud, from 0; `None` where the object is one thing.
     pub element: Option<u32>,
-    /// The material, as it was written.
-    pub material: phong_scene::Material,
+    /// The material as it was written, with the values here of what textures vary.
+    pub material: ConstantMaterial,
+    /// What takes its value from a texture.
+    pub textures: Vec<TextureTold>,
     /// Its number in the scene, from 0.
     pub material_number: u32,
     /// Distance along the ray.
@@ -116,6 +118,21 @@ pub struct Surface {
     pub transmission: Option<Onward>,
     /// All terms here, summed in the integrator's order.
     pub terms: Terms,
+}
+
+/// A parameter of a material that takes its value from a texture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TextureTold {
+    /// The parameter's key in the scene text.
+    pub parameter: &'static str,
+    /// The texture's name.
+    pub texture: String,
+    /// The space that the texture lies in.
+    pub space: TextureSpace,
+    /// The point in that space: of texture coordinates u, v and 0.
+    pub place: DVec3,
+    /// The texture's value there, not yet scaled nor shifted. Linear.
+    pub value: Rgb,
 }
 
 /// What one light did at a surface.

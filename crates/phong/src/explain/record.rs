@@ -1,13 +1,15 @@
 //! Writes down what the integrator tells.
 
 use phong_bvh::Ray;
-use phong_scene::Rgb;
+use phong_scene::{Rgb, TextureRef};
 
-use super::{Blocker, End, Lit, Onward, RayTold, Surface};
+use super::{Blocker, End, Lit, Onward, RayTold, Surface, TextureTold};
 use crate::interaction::SurfaceInteraction;
+use crate::material::Material;
 use crate::math::Dir3;
 use crate::reflectance::Incident;
 use crate::terms::Terms;
+use crate::texture::{Texture, TexturePoint};
 use crate::view::View;
 use crate::witness::{Branch, LightTold, Witness};
 
@@ -20,7 +22,8 @@ pub(super) struct Recorder<'a> {
 
 struct Open {
     told: Option<RayTold>,
-    at: Option<SurfaceInteraction>,
+    /// The surface that was met, and its material there.
+    at: Option<(SurfaceInteraction, Material)>,
     sent: Option<(Rgb, Option<f32>)>,
 }
 
@@ -34,7 +37,7 @@ impl<'a> Recorder<'a> {
         self.open.pop().and_then(|open| open.told)
     }
 
-    fn tell(&mut self, ray: &Ray, at: Option<SurfaceInteraction>, end: End) {
+    fn tell(&mut self, ray: &Ray, at: Option<(SurfaceInteraction, Material)>, end: End) {
         let told = RayTold { origin: ray.origin, dir: Dir3::from_unit(ray.dir), end };
         if let Some(open) = self.open.last_mut() {
             open.told = Some(told);
@@ -84,13 +87,16 @@ impl Witness for Recorder<'_> {
         let object = scene.object(&at.hit);
         let record = &scene.objects()[object as usize];
         let coordinates = scene.coordinates(ray, &at.hit);
-        let material = &scene.written_materials()[at.material as usize];
+        let point = scene.texture_point_of(ray, at);
+        let material = scene.written_at(at.material, &point);
+        let c_a = scene.ambient() * material.ambient_color.unwrap_or(at.color);
         let surface = Surface {
             object: record.name.clone(),
             object_number: object,
             at: record.place.clone(),
             element: scene.element(&at.hit),
-            material: material.clone(),
+            material,
+            textures: textures(scene, at.material, &point),
             material_number: at.material,
             t: at.hit.t,
             p: at.p,
@@ -101,22 +107,24 @@ impl Witness for Recorder<'_> {
             uv: coordinates.uv.to_array(),
             from_outside: at.from_outside(),
             color: at.color,
-            c_a: scene.ambient() * material.ambient_color.unwrap_or(at.color),
+            c_a,
             ambient: terms.ambient,
             lights: Vec::with_capacity(scene.lights().len()),
             reflection: None,
             transmission: None,
             terms,
         };
-        self.tell(ray, Some(*at), End::Surface(Box::new(surface)));
+        let met = (*at, scene.material_at(at.material, &point));
+        self.tell(ray, Some(met), End::Surface(Box::new(surface)));
     }
 
     fn lit(&mut self, told: &LightTold) {
-        let Some(at) = self.open.last().and_then(|open| open.at) else { return };
+        let Some((at, material)) = self.open.last().and_then(|open| open.at.clone()) else {
+            return;
+        };
         let scene = self.scene;
         let written = &scene.written_lights()[told.light];
         let l = told.sample.map(|sample| sample.l);
-        let material = &scene.materials()[at.material as usize];
         let e = material.eye(at.e);
         let r = l.map(|l| at.n.mirror(l));
         let h = l.and_then(|l| l.halfway(e));
@@ -176,4 +184,21 @@ impl Witness for Recorder<'_> {
     fn cut(&mut self, branch: Branch, weight: Rgb, fresnel: Option<f32>) {
         self.goes_on(branch, Onward { weight, fresnel, ray: None, light: Rgb::BLACK });
     }
+}
+
+/// What a material takes from textures at a point.
+fn textures(scene: &View, material: u32, point: &TexturePoint) -> Vec<TextureTold> {
+    let look = scene.look();
+    let told = |(parameter, by): (&'static str, TextureRef)| {
+        let written = look.textures.get(by.texture.0 as usize)?;
+        let texture = Texture::new(written);
+        Some(TextureTold {
+            parameter,
+            texture: written.name.clone(),
+            space: written.space,
+            place: texture.place(point),
+            value: texture.value(point),
+        })
+    };
+    look.materials[material as usize].textured().into_iter().filter_map(told).collect()
 }

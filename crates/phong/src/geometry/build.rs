@@ -19,6 +19,8 @@ pub(super) struct Built {
     /// One for each of `parts`.
     pub(super) batches: Vec<Batch>,
     pub(super) objects: Vec<ObjectRecord>,
+    /// From the world to their own space, of the objects that have one.
+    pub(super) own_spaces: Vec<(u32, DAffine3)>,
     pub(super) trees: Trees,
 }
 
@@ -55,12 +57,16 @@ pub(super) fn build(
         batches: Vec::with_capacity(placed.len()),
         objects: Vec::with_capacity(placed.len()),
         trees: Trees::default(),
+        own_spaces: Vec::new(),
     };
     let to_center = DAffine3::from_translation(-center);
     for Placed { object, name, to_world } in placed {
         let number = out.objects.len() as u32;
         let material = object.material.0;
         out.objects.push(ObjectRecord { name, place: object.place.clone() });
+        if to_world != DAffine3::IDENTITY {
+            out.own_spaces.push((number, to_world.inverse()));
+        }
         let (arrays, origin, batch) = match &object.shape {
             Shape::Mesh(mesh) => {
                 let arrays = Arrays::Triangles(mesh.positions.clone(), mesh.indices.clone());

@@ -12,7 +12,7 @@ mod flatten;
 mod solid;
 mod trees;
 
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 use phong_bvh::{BuildError, BuildOptions, Coordinates, Hit, Preset, Primitives, Ray, World};
 use phong_scene::{Diagnostic, Place, Scene, Shape};
 use thiserror::Error;
@@ -47,6 +47,8 @@ pub struct Geometry {
     /// What belongs to the primitives of each part of the world.
     batches: Vec<Batch>,
     objects: Vec<ObjectRecord>,
+    /// From the world to their own space, of the objects that have one, in the order of numbers.
+    own_spaces: Vec<(u32, DAffine3)>,
     /// One more than the highest number of a material; 0: nothing has a material.
     materials: u32,
     /// The trees of meshes and clouds.
@@ -176,11 +178,11 @@ impl Geometry {
         let placed = flatten::flatten(scene);
         let center = build::center(&placed);
         let built = build::build(placed, center, earlier, build)?;
-        let build::Built { parts, batches, objects, trees } = built;
+        let build::Built { parts, batches, objects, own_spaces, trees } = built;
         let materials = batches.iter().filter_map(Batch::highest_material).max();
         let materials = materials.map_or(0, |highest| highest.saturating_add(1));
         let world = World::build(parts, center, build)?;
-        Ok(Self { center, world, batches, objects, materials, trees, options })
+        Ok(Self { center, world, batches, objects, own_spaces, materials, trees, options })
     }
 
     /// The middle of all, about which things that are written one by one keep their detail in f32.
@@ -222,6 +224,17 @@ impl Geometry {
     /// If `hit` is none.
     pub fn object(&self, hit: &Hit) -> u32 {
         self.batch(hit.part).object(hit.prim)
+    }
+
+    /// A point of the world in the own space of the object hit: before its transform, and that of
+    /// the instance that it is part of.
+    ///
+    /// # Panics
+    /// If `hit` is none.
+    pub fn own_point(&self, hit: &Hit, world: DVec3) -> DVec3 {
+        let object = self.object(hit);
+        let place = self.own_spaces.binary_search_by_key(&object, |&(object, _)| object);
+        place.map_or(world, |place| self.own_spaces[place].1.transform_point3(world))
     }
 
     /// Where on its surface a hit of `ray` is: a mesh's own texture coordinates, if it has some.

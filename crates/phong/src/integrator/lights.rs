@@ -6,7 +6,7 @@ use phong_scene::Rgb;
 
 use super::Integrator;
 use super::bundle::Radiance8;
-use super::met::{Met, is_above, same_material, to_eye};
+use super::met::{Met, is_above, material, same_material, to_eye};
 use crate::light::{Light, LightSample, Reach};
 use crate::math::Dir3;
 use crate::math::lanes::{Lanes3, direction, dot, get, load3, select3, store3};
@@ -104,11 +104,12 @@ impl Integrator<'_> {
         self.shade(number, rays, met, from, &mut alone);
         for (i, (sent, ways)) in from.sent.iter().zip(&from.ways).enumerate() {
             for lane in lanes(met.hits[i].met) {
-                let at = met.at(rays, i, lane);
+                let at = met.at(rays, i, lane, self.scene.materials().len());
                 let has = |mask: u32| mask >> lane & 1 != 0;
                 let sample = sent.sample(ways, light, lane);
                 let Terms { diffuse, specular, .. } = alone[i].terms.get(lane);
-                let material = self.material(&at);
+                let of = met.dressed[i].material[lane] as usize;
+                let material = material(self.scene, &met.made, of);
                 witness.lit(&LightTold {
                     light: number,
                     sample,
@@ -134,7 +135,8 @@ impl Integrator<'_> {
         for ((i, sent), out) in from.sent.iter().enumerate().zip(out) {
             for lane in lanes(met.hits[i].met) {
                 let dressed = &met.dressed[i];
-                let material = &self.scene.materials()[dressed.material[lane] as usize];
+                let number = dressed.material[lane] as usize;
+                let material = material(self.scene, &met.made, number);
                 if material.takes_ambient_per_light()
                     && let Some(sample) = sent.sample(&from.ways[i], light, lane)
                 {
@@ -167,7 +169,7 @@ impl Kernel for Send<'_> {
         let Self { light, purpose, casts, rays, met, samplers, sent, ways } = self;
         let brightest = f32x8::splat(simd, light.brightest());
         let mut count = 0;
-        let Met { hits, surfaces, dressed } = met;
+        let Met { hits, surfaces, dressed, .. } = met;
         let eights = rays.iter().zip(hits).zip(surfaces).zip(dressed).zip(sent).zip(ways);
         for (i, (((((rays, hits), surface), dressed), sent), ways)) in eights.enumerate() {
             (sent.above, sent.seen, ways.there) = (0, 0, 0);
@@ -218,7 +220,7 @@ impl Kernel for Shade<'_> {
                 // Neighbours are mostly of one material.
                 let (number, same) = same_material(simd, &dressed.material, left);
                 left &= !same;
-                let material = &integrator.scene.materials()[number];
+                let material = material(integrator.scene, &met.made, number);
                 let (n, l) = (load3(simd, &dressed.n), load3(simd, &ways.dir));
                 let e = material.eye_of(to_eye(simd, &rays[i]));
                 if let Some([diffuse, specular]) = material.reflectance.weights(n, e, l) {

@@ -8,9 +8,10 @@ use phong_scene::{Background, Rgb};
 use super::Integrator;
 use super::bundle::Radiance8;
 use crate::interaction::SurfaceInteraction;
+use crate::material::Material;
 use crate::math::lanes::{direction, dot, get, load3, select3, set, splat3, store3};
 use crate::terms::{Term, TermSet};
-use crate::view::{Shading8, View};
+use crate::view::{MadeMaterial, Shading8, View};
 
 /// The surfaces that the rays of a bundle met; eight for eight rays. Where a ray met nothing, the
 /// numbers are of no account.
@@ -19,6 +20,8 @@ pub(super) struct Met {
     pub(super) hits: Vec<Hits8>,
     pub(super) surfaces: Vec<Surfaces8>,
     pub(super) dressed: Vec<Shading8>,
+    /// Materials made for surfaces that textures vary, numbered behind those of the view.
+    pub(super) made: Vec<MadeMaterial>,
 }
 
 impl Met {
@@ -35,18 +38,27 @@ impl Met {
         self.hits.resize(rays.len(), Hits8::NONE);
         self.surfaces.resize(rays.len(), Surfaces8::default());
         self.dressed.resize(rays.len(), Shading8::NONE);
+        self.made.clear();
         out.resize(rays.len(), Radiance8::NONE);
         scene.world().intersect_eights(rays, &mut self.hits);
         scene.world().surface_eights(rays, &self.hits, &mut self.surfaces);
         scene.world().run(Begin { scene, background, height, rays, met: self, out });
     }
 
-    /// The surface that one ray met.
-    pub(super) fn at(&self, rays: &[Rays8], i: usize, lane: usize) -> SurfaceInteraction {
+    /// The surface that one ray met. `materials` are as many as the view has.
+    pub(super) fn at(
+        &self,
+        rays: &[Rays8],
+        i: usize,
+        lane: usize,
+        materials: usize,
+    ) -> SurfaceInteraction {
         let (surface, dressed) = (&self.surfaces[i], &self.dressed[i]);
+        let number = dressed.material[lane];
+        let made = (number as usize).checked_sub(materials).map(|made| &self.made[made]);
         SurfaceInteraction {
             hit: self.hits[i].get(lane),
-            material: dressed.material[lane],
+            material: made.map_or(number, |made| made.number),
             p: DVec3::from_array(surface.p.map(|all| all[lane])),
             p_error: Vec3::from(get(&surface.p_error, lane)),
             ng: direction(&surface.ng, lane),
@@ -73,6 +85,17 @@ pub(super) fn same_material<S: Simd>(simd: S, material: &[u32; 8], left: u32) ->
     (number as usize, same & left)
 }
 
+/// The material of this number: one of the view's, or one made for surfaces that textures vary.
+#[inline(always)]
+pub(super) fn material<'m>(
+    view: &'m View,
+    made: &'m [MadeMaterial],
+    number: usize,
+) -> &'m Material {
+    let own = view.materials();
+    own.get(number).unwrap_or_else(|| &made[number - own.len()].material)
+}
+
 struct Begin<'a> {
     scene: &'a View,
     background: Background,
@@ -90,7 +113,7 @@ impl Kernel for Begin<'_> {
         /// What lights add to in any case, and the ambient term.
         const LOCAL: TermSet = TermSet::of(&[Term::Ambient, Term::Diffuse, Term::Specular]);
         let Self { scene, background, height, rays, met, out } = self;
-        let Met { hits, surfaces, dressed } = met;
+        let Met { hits, surfaces, dressed, made } = met;
         let eights = rays.iter().zip(hits).zip(surfaces).zip(dressed).zip(out);
         for (i, ((((rays, hits), surface), dressed), out)) in eights.enumerate() {
             let met = hits.met;
@@ -120,12 +143,16 @@ impl Kernel for Begin<'_> {
             }
             let (ng, e) = (load3(simd, &surface.ng), to_eye(simd, rays));
             scene.shading8(simd, hits, ng, e, dressed);
+            if scene.has_textures() {
+                scene.vary(rays, hits, surface, dressed, made);
+            }
             out.brought = out.brought.or(LOCAL);
             let mut left = met;
             while left != 0 {
                 let (number, same) = same_material(simd, &dressed.material, left);
                 left &= !same;
-                let (material, color) = (&scene.materials()[number], load3(simd, &dressed.color));
+                let material = material(scene, made, number);
+                let color = load3(simd, &dressed.color);
                 let same = mask32x8::from_bitmask(simd, same.into());
                 let ambient = &mut out.terms[Term::Ambient];
                 let own = material.ambient_of(color, scene.ambient());
@@ -192,10 +219,14 @@ mod tests {
             let (n, ng) = (load3(simd, &dressed.n), load3(simd, &surface.ng));
             let mask = is_above(l8, n, ng, to_eye(simd, &rays)).to_bitmask();
             let origins = offset_origins(simd, &surface, l8);
-            let met =
-                Met { hits: vec![Hits8::NONE], surfaces: vec![surface], dressed: vec![dressed] };
+            let met = Met {
+                hits: vec![Hits8::NONE],
+                surfaces: vec![surface],
+                dressed: vec![dressed],
+                made: Vec::new(),
+            };
             for lane in 0..8 {
-                let (at, l) = (met.at(&[rays], 0, lane), direction(&l, lane));
+                let (at, l) = (met.at(&[rays], 0, lane, 1), direction(&l, lane));
                 let is_above = l.dot(at.n) > 0.0 && l.dot(at.facing_ng()) > 0.0;
                 assert_eq!(mask >> lane & 1 != 0, is_above);
                 let start = at.spawn(l, 1.0).origin.to_array();

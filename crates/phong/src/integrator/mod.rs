@@ -20,8 +20,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use phong_bvh::{Ray, Rays8, lanes};
 use phong_scene::{Background, Rgb};
 
-use crate::interaction::SurfaceInteraction;
-use crate::material::Material;
 use crate::math::lanes::set;
 use crate::sampling::{Sampler, Samplers8};
 use crate::view::View;
@@ -148,7 +146,11 @@ impl Integrator<'_> {
                 for lane in lanes(rays8.there) {
                     let terms = out.terms.get(lane);
                     if out.met >> lane & 1 != 0 {
-                        witness.met(&rays8.get(lane), &met.at(rays, i, lane), terms);
+                        witness.met(
+                            &rays8.get(lane),
+                            &met.at(rays, i, lane, self.scene.materials().len()),
+                            terms,
+                        );
                     } else {
                         witness.missed(&rays8.get(lane), terms.background);
                     }
@@ -197,11 +199,6 @@ impl Integrator<'_> {
 
     fn is_stopped(&self) -> bool {
         self.stop.is_some_and(|stop| stop.load(Ordering::Relaxed))
-    }
-
-    #[inline]
-    fn material(&self, at: &SurfaceInteraction) -> &Material {
-        &self.scene.materials()[at.material as usize]
     }
 
     /// The mirror rays, or the refracted ones, that go on from the surfaces met.

@@ -5,7 +5,7 @@ use glam::DVec3;
 use phong_bvh::{Kernel, Lanes, Ray, Rays8, offset_origins};
 use phong_scene::Rgb;
 
-use super::met::{Met, same_material, to_eye};
+use super::met::{Met, material, same_material, to_eye};
 use crate::material::Material;
 use crate::math::lanes::{
     Lanes3, dot, get, load3, mirror, neg, normalize, scale, select3, splat3, store3,
@@ -71,7 +71,7 @@ impl Kernel for Part<'_> {
             while left != 0 {
                 let (number, same) = same_material(simd, &dressed.material, left);
                 left &= !same;
-                let material = &scene.materials()[number];
+                let material = material(scene, &met.made, number);
                 if !material.bounces() {
                     continue;
                 }
@@ -224,12 +224,12 @@ mod tests {
         let dir = |i: usize, k: usize| unit(DVec3::new(x(i, k), x(i, k + 1), x(i, k + 2)));
         let material = |fresnel| {
             let (reflection, transmission) = (Rgb::grey(0.25), Rgb::new(0.5, 0.75, 0.0));
-            let written = phong_scene::Material {
+            let written = phong_scene::ConstantMaterial {
                 reflection,
                 transmission,
                 fresnel,
                 ior: 1.5,
-                ..phong_scene::Material::default()
+                ..phong_scene::ConstantMaterial::default()
             };
             Material::new(&written, Dir3::Z)
         };

@@ -4,13 +4,13 @@ use std::fmt::{self, Write as _};
 
 use crc32fast::Hasher;
 use glam::{Vec2, Vec3};
-use phong_scene::{Group, Material, Mesh, Object, Place, Points, Scene, Shape};
+use phong_scene::{Group, Material, Mesh, Object, Place, Points, Scene, Shape, Texture};
 
 /// A checksum of everything in a scene but its picture settings and the places it was written at:
 /// the same scene has the same one on every machine, whatever its files are called.
 pub fn fingerprint(scene: &Scene) -> u32 {
     // Taken apart without `..`: what a scene gains must be thought of here.
-    let Scene { image: _, camera, ambient, lights, materials, objects, groups } = scene;
+    let Scene { image: _, camera, ambient, lights, materials, textures, objects, groups } = scene;
     let mut sum = Sum(Hasher::new());
     sum.debug(&(camera, ambient));
     for light in lights {
@@ -20,6 +20,9 @@ pub fn fingerprint(scene: &Scene) -> u32 {
     }
     for material in materials {
         sum.debug(&Material { place: Place::default(), ..material.clone() });
+    }
+    for texture in textures {
+        sum.debug(&Texture { place: Place::default(), ..texture.clone() });
     }
     sum.objects(objects);
     for Group { name, objects } in groups {

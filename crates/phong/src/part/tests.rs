@@ -204,6 +204,7 @@ fn a_scene_is_known_by_what_it_holds_and_not_by_where_it_was_written() {
         lights: Vec::new(),
         materials: vec![Material::default()],
         objects: vec![object],
+        textures: Vec::new(),
         groups: Vec::new(),
     };
     let mut elsewhere = scene.clone();
@@ -214,6 +215,6 @@ fn a_scene_is_known_by_what_it_holds_and_not_by_where_it_was_written() {
     other.objects[0].shape = Shape::Sphere { center: DVec3::ZERO, radius: 1.000_000_1 };
     assert_ne!(fingerprint(&other), fingerprint(&scene));
     let mut other = scene.clone();
-    other.materials[0].shininess = 33.0;
+    other.materials[0].shininess = 33.0.into();
     assert_ne!(fingerprint(&other), fingerprint(&scene));
 }

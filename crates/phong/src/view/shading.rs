@@ -14,8 +14,8 @@ pub(super) struct Shading {
     pub(super) n: Dir3,
     /// Number of the material.
     pub(super) material: u32,
-    /// The diffuse colour.
-    pub(super) color: Rgb,
+    /// The diffuse colour, if the geometry brings one.
+    pub(super) color: Option<Rgb>,
 }
 
 /// What shading needs of eight surfaces besides their geometry, number by number.
@@ -41,14 +41,20 @@ impl View {
         let local = hit.prim;
         let batch = self.geometry.batch(hit.part);
         let material = batch.material(local);
-        let own = self.materials[material as usize].color;
         let corners = self.geometry.corners(hit.part, local);
         let n = corners.and_then(|c| batch.normal(local, c, hit)).unwrap_or(ng);
-        let color = batch.color(local, corners, hit).unwrap_or(own);
+        let color = batch.color(local, corners, hit);
         Shading { n: n.facing(e), material, color }
     }
 
-    /// [`View::shading`] of those of eight surfaces that were met: the same bits.
+    /// Whether the geometry brings the colour at a hit, which counts before the material's.
+    pub(super) fn has_own_color(&self, hit: &Hit) -> bool {
+        let corners = self.geometry.corners(hit.part, hit.prim);
+        self.geometry.batch(hit.part).color(hit.prim, corners, hit).is_some()
+    }
+
+    /// [`View::shading`] of those of eight surfaces that were met: the same bits, with the
+    /// material's colour where the geometry brings none.
     #[inline(always)]
     pub(crate) fn shading8<S: Simd>(
         &self,

@@ -8,6 +8,7 @@ use glam::{DAffine3, DMat3, DVec2, DVec3, Vec3};
 use crate::color::Rgb;
 use crate::diagnostic::Diagnostic;
 use crate::format::origin::origin_of;
+use crate::material::Material;
 use crate::mesh::{Mesh, NO_INDEX, Points};
 use crate::scene::{Group, Object, Scene};
 use crate::shape::Shape;
@@ -155,8 +156,7 @@ pub(crate) fn merge(mut scene: Scene, colors: bool, bare: bool) -> Merged {
             }
         }
         if colors {
-            let own =
-                scene.materials.get(object.material.0 as usize).map_or(Rgb::WHITE, |m| m.color);
+            let own = scene.materials.get(object.material.0 as usize).map_or(Rgb::WHITE, own_color);
             let count = mesh.positions.len() - mesh.colors.len().min(mesh.positions.len());
             out.mesh
                 .colors
@@ -178,6 +178,11 @@ fn take_only(scene: &mut Scene, colors: bool, bare: bool) -> Option<(String, Mes
         && colors != mesh.colors.is_empty()
         && materials != mesh.face_materials.is_empty();
     as_is.then(|| (object.name.clone(), std::mem::take(&mut **mesh)))
+}
+
+/// The colour of what has none of its own; a texture cannot be written, so a grey stands for it.
+fn own_color(material: &Material) -> Rgb {
+    material.color.constant().unwrap_or(Rgb::grey(0.5))
 }
 
 /// Whether a bare model's object has materials from its file.
@@ -296,8 +301,7 @@ pub(crate) fn spheres(scene: &Scene, colors: bool, uneven: &mut BTreeMap<String,
             [x, y, z, (f64::from(radius) * scale) as f32]
         }));
         if colors {
-            let own =
-                scene.materials.get(object.material.0 as usize).map_or(Rgb::WHITE, |m| m.color);
+            let own = scene.materials.get(object.material.0 as usize).map_or(Rgb::WHITE, own_color);
             let count = points.spheres.len() - points.colors.len().min(points.spheres.len());
             out.colors.extend(points.colors.iter().copied().chain(std::iter::repeat_n(own, count)));
         }

@@ -4,7 +4,7 @@ use crate::color::Rgb;
 use crate::diagnostic::Span;
 use crate::format::text::Findings;
 use crate::limits::LARGEST;
-use crate::material::{Dialect, Material, Model};
+use crate::material::{ConstantMaterial, Dialect, Material, Model};
 
 /// What the statements behind one `newmtl` say.
 #[derive(Debug)]
@@ -59,7 +59,7 @@ impl Draft {
     }
 
     /// The material, as the module's tables say.
-    pub(super) fn finish(&self, findings: &mut Findings) -> Material {
+    pub(super) fn finish(&self, findings: &mut Findings) -> ConstantMaterial {
         self.warn_of_bright_colors(findings);
         let k_s = self.specular.unwrap_or(Rgb::BLACK);
         let highlight = !k_s.is_black() && !self.has_no_highlight(findings);
@@ -85,7 +85,7 @@ impl Draft {
         };
         // White is what programs write that have no ambient colour to give.
         let ambient = self.ambient.filter(|&color| color != Rgb::WHITE);
-        Material {
+        ConstantMaterial {
             name: self.name.clone(),
             model: if highlight { Model::BlinnPhong } else { Model::Lambert },
             color: diffuse.unwrap_or(Rgb::grey(0.8)),
@@ -101,7 +101,7 @@ impl Draft {
             fresnel: matches!(illum, 5 | 7),
             dialect: Dialect::Mtl,
             place: self.span.place.clone(),
-            ..Material::default()
+            ..ConstantMaterial::default()
         }
     }
 

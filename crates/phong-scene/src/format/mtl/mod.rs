@@ -125,7 +125,7 @@ impl Library {
         }
         let draft = &mut self.drafts[number];
         self.findings.append(std::mem::take(&mut draft.findings));
-        Some(draft.finish(&mut self.findings))
+        Some(draft.finish(&mut self.findings).into())
     }
 
     /// Everything there is to say about what was asked for.

@@ -6,7 +6,9 @@ use super::draft::Draft;
 use crate::color::Rgb;
 use crate::diagnostic::Span;
 use crate::format::text::Findings;
-use crate::material::{AmbientRule, Distribution, Fresnel, Material, Model, Shadowing, Tint};
+use crate::material::{
+    AmbientRule, ConstantMaterial, Distribution, Fresnel, Material, Model, Shadowing, Tint,
+};
 
 /// A difference between a material and what its statements mean.
 #[derive(Debug, PartialEq)]
@@ -21,6 +23,11 @@ pub(crate) enum Difference {
 /// as any reader of this module reads them, so nothing can be lost without being noticed.
 pub(crate) fn write(material: &Material, name: &str, text: &mut String) -> Vec<Difference> {
     let mut differences = Vec::new();
+    for (key, _) in material.textured() {
+        let what = format!("the texture of `{key}`, for which 0.5 stands");
+        differences.push(Difference::Lost(what));
+    }
+    let material = &material.at(|_| Rgb::grey(0.5));
     let draft = draft(material, name, &mut differences);
     // Writing to a string does not fail.
     let _ = writeln!(text, "newmtl {name}");
@@ -45,7 +52,7 @@ pub(crate) fn write(material: &Material, name: &str, text: &mut String) -> Vec<D
 }
 
 /// The statements that come nearest to a material.
-fn draft(m: &Material, name: &str, differences: &mut Vec<Difference>) -> Draft {
+fn draft(m: &ConstantMaterial, name: &str, differences: &mut Vec<Difference>) -> Draft {
     let mut draft = Draft::new(name.to_owned(), Span::default());
     let sees_through = !m.transmission.is_black();
     let refracts = sees_through && (m.fresnel || m.ior != 1.0);
@@ -95,7 +102,7 @@ fn draft(m: &Material, name: &str, differences: &mut Vec<Difference>) -> Draft {
 }
 
 /// `d`: what an MTL file's material was read from if it was, else what is not let through.
-fn dissolve(m: &Material) -> f32 {
+fn dissolve(m: &ConstantMaterial) -> f32 {
     if m.k_d > 0.0 && m.k_d < 1.0 {
         return m.k_d;
     }
@@ -104,7 +111,7 @@ fn dissolve(m: &Material) -> f32 {
 
 /// `Ns` of a highlight that is about as wide; `None`: there is none. With α² = 2/(n + 2), and a
 /// fourth of the exponent where the mirrored direction is compared instead of the halfway one.
-fn exponent(m: &Material, differences: &mut Vec<Difference>) -> Option<f32> {
+fn exponent(m: &ConstantMaterial, differences: &mut Vec<Difference>) -> Option<f32> {
     let of_roughness = |a2: f32| (2.0 / a2 - 2.0).max(0.0);
     let (exponent, how) = match m.model {
         Model::Lambert | Model::OrenNayar { .. } => return None,
@@ -128,7 +135,7 @@ fn exponent(m: &Material, differences: &mut Vec<Difference>) -> Option<f32> {
 }
 
 /// Says in what `back`, which was read from the statements, differs from `m`.
-fn compare(m: &Material, back: &Material, differences: &mut Vec<Difference>) {
+fn compare(m: &ConstantMaterial, back: &ConstantMaterial, differences: &mut Vec<Difference>) {
     let mut lost = |what: &str| differences.push(Difference::Lost(what.to_owned()));
     let no_highlight = m.k_s == 0.0 || m.specular_color.is_some_and(Rgb::is_black);
     if !no_highlight && (m.model == Model::BlinnFast) {
@@ -146,7 +153,7 @@ fn compare(m: &Material, back: &Material, differences: &mut Vec<Difference>) {
         }
     }
     if !no_highlight {
-        let specular = |m: &Material| m.k_s * m.specular_color.unwrap_or(m.color);
+        let specular = |m: &ConstantMaterial| m.k_s * m.specular_color.unwrap_or(m.color);
         if !near(specular(m), specular(back)) {
             lost("the weight of the highlight");
         }
@@ -156,21 +163,21 @@ fn compare(m: &Material, back: &Material, differences: &mut Vec<Difference>) {
         if m.tint != Tint::Light {
             lost("the tint of the highlight");
         }
-        if m.viewer != Material::default().viewer {
+        if m.viewer != ConstantMaterial::default().viewer {
             lost("a viewer infinitely far away");
         }
     }
     if m.ambient_rule != AmbientRule::Once && m.k_a > 0.0 {
         lost("ambient light per light");
     }
-    let ambient = |m: &Material| m.k_a * m.ambient_color.unwrap_or(m.color);
+    let ambient = |m: &ConstantMaterial| m.k_a * m.ambient_color.unwrap_or(m.color);
     if !near(ambient(m), ambient(back)) {
         lost("the ambient colour");
     }
     if !near(m.k_d * m.color, back.k_d * back.color) {
         lost("the diffuse colour");
     }
-    if m.glows() {
+    if m.k_e > 0.0 {
         lost("the light of its own");
     }
     if !near(m.reflection, back.reflection) {

@@ -80,7 +80,8 @@ fn work_in(merged: &mut Merged, materials: &[Material], account: &mut Account) {
     let mesh = &mut merged.mesh;
     let mut weights = vec![1.0; mesh.positions.len()];
     for (triangle, material) in mesh.indices.iter().zip(&mesh.face_materials) {
-        let weight = materials.get(*material as usize).map_or(1.0, |m| m.k_d);
+        let weight =
+            materials.get(*material as usize).map_or(1.0, |m| m.k_d.constant().unwrap_or(0.5));
         for &i in triangle {
             weights[i as usize] = weight;
         }

@@ -2,22 +2,29 @@
 
 use super::notes::Notes;
 use super::table::Values;
+use super::texture::TextureNames;
 use crate::check::material as judge;
 use crate::color::Rgb;
 use crate::material::{
     AmbientRule, Dialect, Distribution, Fresnel, Material, Model, Shadowing, Tint, Viewer, WardForm,
 };
+use crate::texture::Param;
 
 /// A material; what is wrong with it has been said.
-pub(super) fn material(v: &Values, name: &str, notes: &mut Notes) -> Option<Material> {
+pub(super) fn material(
+    v: &Values,
+    name: &str,
+    textures: &mut TextureNames,
+    notes: &mut Notes,
+) -> Option<Material> {
     let model = match v.word("model")? {
         "lambert" => Model::Lambert,
         "blinn-phong" => Model::BlinnPhong,
         "blinn-fast" => Model::BlinnFast,
-        "cook-torrance" => cook_torrance(v, notes)?,
+        "cook-torrance" => cook_torrance(v, textures, notes)?,
         "ggx" => Model::Microfacet {
             distribution: Distribution::Ggx,
-            roughness: v.number("roughness")? as f32,
+            roughness: textures.number(v, "roughness")?,
             shadowing: shadowing(v)?,
             fresnel: fresnel(v, notes)?,
         },
@@ -26,10 +33,10 @@ pub(super) fn material(v: &Values, name: &str, notes: &mut Notes) -> Option<Mate
             full: v.word("form")? == "full",
         },
         "ward" => {
-            let roughness_x = v.number("roughness_x")? as f32;
+            let roughness_x = textures.number(v, "roughness_x")?;
             Model::Ward {
                 roughness_x,
-                roughness_y: v.number("roughness_y").map_or(roughness_x, |r| r as f32),
+                roughness_y: textures.number(v, "roughness_y").unwrap_or(roughness_x),
                 form: if v.word("form")? == "gmd" { WardForm::Gmd } else { WardForm::Ward },
             }
         }
@@ -38,24 +45,24 @@ pub(super) fn material(v: &Values, name: &str, notes: &mut Notes) -> Option<Mate
     let dialect = dialect(v, &model, notes)?;
     let preset = dialect.switches();
     let plain = Material::default();
-    let transmission = v.color("transmission")?;
+    let transmission = textures.color(v, "transmission")?;
     let material = Material {
         name: name.to_owned(),
         model,
-        color: v.color("color")?,
-        ambient_color: v.color("ambient_color"),
+        color: textures.color(v, "color")?,
+        ambient_color: textures.color(v, "ambient_color"),
         // White where a model has no highlight, which the key is then an error for.
         specular_color: match v.word("specular_color") {
             Some(_) => None,
-            None => Some(v.color("specular_color").unwrap_or(Rgb::WHITE)),
+            None => Some(textures.color(v, "specular_color").unwrap_or(Rgb::WHITE.into())),
         },
-        k_a: v.number("k_a")? as f32,
-        k_d: v.number("k_d")? as f32,
-        k_s: v.number("k_s").unwrap_or(0.0) as f32,
-        k_e: v.number("k_e")? as f32,
-        emission_color: v.color("emission_color"),
-        shininess: v.number("shininess").map_or(plain.shininess, |n| n as f32),
-        reflection: v.color("reflection")?,
+        k_a: textures.number(v, "k_a")?,
+        k_d: textures.number(v, "k_d")?,
+        k_s: textures.number(v, "k_s").unwrap_or(Param::Constant(0.0)),
+        k_e: textures.number(v, "k_e")?,
+        emission_color: textures.color(v, "emission_color"),
+        shininess: textures.number(v, "shininess").unwrap_or(plain.shininess),
+        reflection: textures.color(v, "reflection")?,
         transmission,
         ior: v.number("ior")? as f32,
         fresnel: v.flag("fresnel").unwrap_or(!transmission.is_black()),
@@ -88,7 +95,7 @@ pub(super) fn material(v: &Values, name: &str, notes: &mut Notes) -> Option<Mate
                     `transmission` as it is written";
         notes.warning(v.spot_of("transmission"), message).help = Some(help.to_owned());
     }
-    if !notes.judge(|key| v.spot_of(key), |faults| judge::material(&material, faults)) {
+    if !notes.judge(|key| v.spot_of(key), |faults| judge::material(&material, None, faults)) {
         return None;
     }
     if material.dialect == Dialect::ThreeJs && material.model == Model::BlinnPhong {
@@ -108,19 +115,28 @@ fn three_js(v: &Values, material: Material, notes: &mut Notes) -> Option<Materia
             return None;
         }
     }
-    let f0 = material.k_s * material.specular_color.unwrap_or(material.color);
+    let specular = material.specular_color.unwrap_or(material.color);
+    let (Some(k_s), Some(specular)) = (material.k_s.constant(), specular.constant()) else {
+        let key = if material.k_s.constant().is_none() { "k_s" } else { "specular_color" };
+        let message = "the dialect three-js takes one highlight for the whole surface";
+        notes.error(v.spot_of(key), message).help =
+            Some("leave the texture out, or the dialect".to_owned());
+        return None;
+    };
+    let f0 = k_s * specular;
     let model = Model::Microfacet {
         distribution: Distribution::Blinn,
         roughness: material.shininess,
         shadowing: Shadowing::Implicit,
         fresnel: Fresnel::Schlick { f0 },
     };
-    Some(Material { model, k_s: 1.0, specular_color: Some(Rgb::WHITE), ..material })
+    let (k_s, white) = (Param::Constant(1.0), Param::Constant(Rgb::WHITE));
+    Some(Material { model, k_s, specular_color: Some(white), ..material })
 }
 
 /// Cook and Torrance's model: the exponent goes with Blinn's distribution, the roughness with
 /// the others.
-fn cook_torrance(v: &Values, notes: &mut Notes) -> Option<Model> {
+fn cook_torrance(v: &Values, textures: &mut TextureNames, notes: &mut Notes) -> Option<Model> {
     let (distribution, takes, other) = match v.word("distribution")? {
         "blinn" => (Distribution::Blinn, "shininess", "roughness"),
         "ggx" => (Distribution::Ggx, "roughness", "shininess"),
@@ -132,7 +148,7 @@ fn cook_torrance(v: &Values, notes: &mut Notes) -> Option<Model> {
         let help = format!("`distribution = \"{word}\"` takes `{takes}`");
         notes.error(v.spot_of(other), message).help = Some(help);
     }
-    let roughness = v.number(takes)? as f32;
+    let roughness = textures.number(v, takes)?;
     Some(Model::Microfacet {
         distribution,
         roughness,

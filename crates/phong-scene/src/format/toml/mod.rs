@@ -22,6 +22,7 @@ mod shape;
 mod syntax;
 mod table;
 mod text;
+mod texture;
 mod value;
 pub(crate) mod write;
 

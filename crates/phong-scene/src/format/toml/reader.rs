@@ -12,6 +12,7 @@ use super::notes::Notes;
 use super::path::normal;
 use super::table::{Values, say_unknown};
 use super::text::{Spot, Text};
+use super::texture::{self, TextureNames};
 use super::{light, material, reuse, settings, shape, syntax};
 use crate::camera::Camera;
 use crate::color::Rgb;
@@ -23,6 +24,7 @@ use crate::limits::Limits;
 use crate::material::Material;
 use crate::scene::{Image, Scene};
 use crate::source::Source;
+use crate::texture::Texture;
 use crate::wording::quoted;
 
 /// Reads a scene's files; names between them are looked up when all are read.
@@ -38,6 +40,9 @@ pub(super) struct Reader<'a> {
     pub(super) lights: Vec<Light>,
     light_count: usize,
     pub(super) materials: Named<Material>,
+    pub(super) textures: Named<Texture>,
+    /// The textures that materials name.
+    pub(super) texture_names: TextureNames,
     /// The materials that shapes name, and where.
     pub(super) material_names: Vec<(String, Spot)>,
     /// The materials of fragments but for their number 0, a list a fragment.
@@ -58,6 +63,7 @@ pub(super) struct Reader<'a> {
 /// What is read in the order of the text.
 enum Item<'t> {
     Material(&'t str, &'t DeTable<'t>),
+    Texture(&'t str, &'t DeTable<'t>),
     Light(&'t DeTable<'t>),
     Shape(&'static Table, &'t DeTable<'t>, Option<u32>),
     Include(&'t DeTable<'t>),
@@ -77,6 +83,8 @@ impl<'a> Reader<'a> {
             lights: Vec::new(),
             light_count: 0,
             materials: Named::new(),
+            textures: Named::new(),
+            texture_names: TextureNames::default(),
             material_names: Vec::new(),
             fragments: Vec::new(),
             read: reuse::Models::default(),
@@ -149,7 +157,10 @@ impl<'a> Reader<'a> {
                 Kind::Named(_) if key.name == "groups" => self.groups(value, file, &mut items),
                 Kind::Named(_) => {
                     for (name, text, spot) in self.named(key.name, value, file) {
-                        items.push((spot, Item::Material(name, text)));
+                        items.push(match key.name {
+                            "textures" => (spot, Item::Texture(name, text)),
+                            _ => (spot, Item::Material(name, text)),
+                        });
                     }
                 }
                 Kind::NotYet => {
@@ -229,10 +240,19 @@ impl<'a> Reader<'a> {
         match *item {
             Item::Material(name, text) => {
                 let values = Values::read(&keys::MATERIAL, text, spot, &mut self.notes);
-                let read = material::material(&values, name, &mut self.notes);
+                let names = &mut self.texture_names;
+                let read = material::material(&values, name, names, &mut self.notes);
                 let declared = self.materials.declare("material", name, spot, &mut self.notes);
                 if let Some(number) = declared {
                     self.materials.items[number as usize].2 = read;
+                }
+            }
+            Item::Texture(name, text) => {
+                let values = Values::read(&keys::TEXTURE, text, spot, &mut self.notes);
+                let read = texture::texture(&values, name, &mut self.notes);
+                let declared = self.textures.declare("texture", name, spot, &mut self.notes);
+                if let Some(number) = declared {
+                    self.textures.items[number as usize].2 = read;
                 }
             }
             Item::Light(text) => {

@@ -11,12 +11,22 @@ use crate::diagnostic::Diagnostic;
 use crate::material::{Material, MaterialId};
 use crate::scene::{Group, Object, Scene};
 use crate::shape::{GroupId, Shape};
+use crate::texture::Texture;
 use crate::wording::quoted;
 
 impl Reader<'_> {
     /// The scene, unless there was an error, and everything there is to say.
     pub(super) fn resolve(self) -> (Option<Scene>, Vec<Diagnostic>) {
-        let Self { mut notes, materials: named, fragments, groups: mut texts, drafts, .. } = self;
+        let Self { mut notes, materials: mut named, fragments, groups: mut texts, drafts, .. } =
+            self;
+        let textures: Vec<Texture> =
+            self.textures.items.iter().map(|(.., t)| t.clone().unwrap_or_default()).collect();
+        let textures_used = self.texture_names.look_up(&self.textures, &mut notes);
+        for (.., material) in &mut named.items {
+            let names = &self.texture_names;
+            let settle = |m: Material| names.settle(&m, &self.textures, &textures, &mut notes);
+            *material = material.take().map(settle);
+        }
         let named_by_shapes: Vec<_> = self
             .material_names
             .iter()
@@ -53,6 +63,7 @@ impl Reader<'_> {
             ambient: self.ambient,
             lights: self.lights,
             materials,
+            textures,
             objects,
             groups,
         });
@@ -64,6 +75,12 @@ impl Reader<'_> {
                 &named,
                 used,
                 |name| format!("no shape is of the material {name}"),
+                &mut notes,
+            );
+            say_unused(
+                &self.textures,
+                |number| textures_used.contains(&(number as u32)),
+                |name| format!("no material uses the texture {name}"),
                 &mut notes,
             );
             let used = |number: usize| resolver.group_used[number];

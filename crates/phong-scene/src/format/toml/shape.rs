@@ -69,6 +69,11 @@ pub(super) fn transform(v: &Values, notes: &mut Notes) -> Option<DAffine3> {
         return Some(DAffine3::IDENTITY);
     }
     let scale = if v.has("scale") { v.vector("scale")? } else { DVec3::ONE };
+    placement(v, scale, notes)
+}
+
+/// This scale, then `rotate`, then `translate`.
+pub(super) fn placement(v: &Values, scale: DVec3, notes: &mut Notes) -> Option<DAffine3> {
     let rotations = if v.has("rotate") { v.rotations("rotate")? } else { Vec::new() };
     let mut matrix = DMat3::from_diagonal(scale);
     for rotation in rotations {

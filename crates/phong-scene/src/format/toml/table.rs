@@ -5,10 +5,10 @@ use toml::de::{DeTable, DeValue};
 
 use super::notes::Notes;
 use super::text::Spot;
-use super::value::{Value, ValueReader};
+use super::value::{TexturedValue, Value, ValueReader};
 use crate::color::Rgb;
 use crate::diagnostic::Severity;
-use crate::keys::{BACKGROUND, Default, Key, Kind, Table};
+use crate::keys::{BACKGROUND, Default, Key, Kind, TEXTURED, Table};
 use crate::scene::Background;
 use crate::wording::{closest, list};
 use glam::{DAffine3, DVec2, DVec3, DVec4};
@@ -37,6 +37,16 @@ fn read_value(
             let ends = Values::read(&BACKGROUND, inside, spot, notes);
             let (top, bottom) = (ends.color("top")?, ends.color("bottom")?);
             Some(Value::Background(Background::Gradient { top, bottom }))
+        }
+        (_, DeValue::Table(inside)) if key.varies => {
+            let spot = Spot::new(file, value.span());
+            let by = Values::read(&TEXTURED, inside, spot, notes);
+            Some(Value::Textured(TexturedValue {
+                texture: by.text("texture")?,
+                scale: by.number("scale")?,
+                offset: by.number("offset")?,
+                channel: by.word("channel"),
+            }))
         }
         _ => ValueReader { notes, file, key }.read(value),
     }
@@ -204,6 +214,23 @@ impl Values {
             Value::Color(color) => Some(Background::Color(color)),
             _ => None,
         }
+    }
+
+    pub(super) fn colors(&self, name: &str) -> Option<[Rgb; 2]> {
+        let Value::Colors(colors) = self.get(name)? else { return None };
+        Some(colors)
+    }
+
+    pub(super) fn stops(&self, name: &str) -> Option<Vec<(f32, Rgb)>> {
+        let Value::Stops(stops) = self.get(name)? else { return None };
+        Some(stops)
+    }
+
+    /// The texture that stands for the value, and where; `None`: none does.
+    pub(super) fn textured(&self, name: &str) -> Option<(TexturedValue, Spot)> {
+        let entry = self.entry(name)?;
+        let Some(Value::Textured(by)) = &entry.value else { return None };
+        Some((by.clone(), entry.spot))
     }
 
     pub(super) fn word(&self, name: &str) -> Option<&'static str> {

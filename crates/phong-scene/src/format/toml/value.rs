@@ -29,6 +29,19 @@ pub(super) enum Value {
     Background(Background),
     Word(&'static str),
     Text(String),
+    Colors([Rgb; 2]),
+    Stops(Vec<(f32, Rgb)>),
+    Textured(TexturedValue),
+}
+
+/// What a texture stands for, as it is written.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct TexturedValue {
+    pub(super) texture: String,
+    pub(super) scale: f64,
+    pub(super) offset: f64,
+    /// `None`: it is not written.
+    pub(super) channel: Option<&'static str>,
 }
 
 /// What was found, as the end of "…; this is …".
@@ -82,7 +95,11 @@ impl ValueReader<'_> {
             Kind::Color | Kind::ColorOrObject => self.color(value, LARGEST).map(Value::Color),
             Kind::Background => self.background(value).map(Value::Background),
             Kind::Word(words) => self.word(value, words).map(Value::Word),
-            Kind::Text | Kind::File | Kind::Material | Kind::Group => self.text(value),
+            Kind::Text | Kind::File | Kind::Material | Kind::Group | Kind::Texture => {
+                self.text(value)
+            }
+            Kind::TwoColors => self.two_colors(value).map(Value::Colors),
+            Kind::Stops => self.stops(value).map(Value::Stops),
             Kind::Size => self.size(value).map(Value::Size),
             Kind::Attenuation => self.attenuation(value).map(Value::Vector),
             Kind::Points => self
@@ -109,9 +126,12 @@ impl ValueReader<'_> {
 
     /// Says what the key wants and what it got.
     fn mismatch<T>(&mut self, value: &Spanned<DeValue<'_>>) -> Option<T> {
-        let Key { name, kind, .. } = self.key;
-        let message =
-            format!("`{name}` must be {}; this is {}", kind.words(), found(value.get_ref()));
+        let message = format!(
+            "`{}` must be {}; this is {}",
+            self.key.name,
+            self.key.kind.words(),
+            found(value.get_ref())
+        );
         let spot = self.spot(value);
         self.notes.error(spot, message);
         None
@@ -226,6 +246,44 @@ impl ValueReader<'_> {
         Some(Rgb::from(channels.map(|channel| channel as f32)))
     }
 
+    fn two_colors(&mut self, value: &Spanned<DeValue<'_>>) -> Option<[Rgb; 2]> {
+        let [a, b] = self.items::<2>(value)?;
+        let (a, b) = (self.color(a, LARGEST), self.color(b, LARGEST));
+        Some([a?, b?])
+    }
+
+    /// At least one `[t, colour]`, t from 0 to 1 and never falling.
+    fn stops(&mut self, value: &Spanned<DeValue<'_>>) -> Option<Vec<(f32, Rgb)>> {
+        let DeValue::Array(items) = value.get_ref() else { return self.mismatch(value) };
+        if items.is_empty() {
+            return self.wrong(value, "is empty; a gradient has at least one stop");
+        }
+        let (mut stops, mut good) = (Vec::with_capacity(items.len()), true);
+        let mut before = 0.0;
+        for item in items.iter() {
+            let Some([t, color]) = self.items::<2>(item) else {
+                good = false;
+                continue;
+            };
+            match (self.number(t), self.color(color, LARGEST)) {
+                (Some(at), _) if !(0.0..=1.0).contains(&at) => {
+                    good = false;
+                    self.wrong::<()>(t, "have t from 0 to 1");
+                }
+                (Some(at), _) if at < before => {
+                    good = false;
+                    self.wrong::<()>(t, "must not fall: each t is at least the one before");
+                }
+                (Some(at), Some(color)) => {
+                    before = at;
+                    stops.push((at as f32, color));
+                }
+                _ => good = false,
+            }
+        }
+        good.then_some(stops)
+    }
+
     fn background(&mut self, value: &Spanned<DeValue<'_>>) -> Option<Background> {
         match value.get_ref() {
             DeValue::String(text) if text == "transparent" => Some(Background::Transparent),
@@ -242,11 +300,17 @@ impl ValueReader<'_> {
         if let Some(word) = words.iter().find(|&&word| word == text) {
             return Some(word);
         }
-        let Key { name, kind, .. } = self.key;
-        let message = format!("`{name}` must be {}; this is {}", kind.words(), quoted(text));
+        let Key { name, kind, later, .. } = self.key;
         let spot = self.spot(value);
-        self.notes.error(spot, message).help =
-            closest(text, words.iter().copied()).map(|word| format!("did you mean `{word}`?"));
+        if later.contains(&text) {
+            let message = format!("`{name} = {}` is not built yet", quoted(text));
+            self.notes.error(spot, message).help =
+                Some(format!("so far there is {}", kind.words()));
+            return None;
+        }
+        let message = format!("`{name}` must be {}; this is {}", kind.words(), quoted(text));
+        self.notes.error(spot, message).help = closest(text, words.iter().chain(*later).copied())
+            .map(|word| format!("did you mean `{word}`?"));
         None
     }
 

@@ -7,13 +7,14 @@ use glam::{DAffine3, DMat3, DVec3};
 use super::text::{degrees, short};
 use crate::camera::{Camera, CameraKind};
 use crate::color::Rgb;
-use crate::format::toml::value::Value;
+use crate::format::toml::value::{TexturedValue, Value};
 use crate::light::{Light, LightKind};
 use crate::material::{
     AmbientRule, Dialect, Distribution, Fresnel, Material, Model, Shadowing, Tint, Viewer, WardForm,
 };
 use crate::scene::{Background, FilterKind, Image};
 use crate::shape::Shape;
+use crate::texture::{Channel, Param, Texture, TextureKind, TextureRef, TextureSpace, Textured};
 
 pub(super) fn image(image: &Image, key: &str) -> Option<Value> {
     Some(match key {
@@ -108,26 +109,82 @@ pub(super) fn material_model(material: &Material) -> &'static str {
     }
 }
 
-pub(super) fn material(material: &Material, key: &str) -> Option<Value> {
+pub(super) fn texture_kind(texture: &Texture) -> &'static str {
+    match texture.kind {
+        TextureKind::Checker { .. } => "checker",
+        TextureKind::Gradient { .. } => "gradient",
+    }
+}
+
+pub(super) fn texture(texture: &Texture, key: &str) -> Option<Value> {
+    use TextureKind::{Checker, Gradient};
+    Some(match (key, &texture.kind) {
+        ("kind", _) => Value::Word(texture_kind(texture)),
+        ("colors", Checker { colors, .. }) => Value::Colors(*colors),
+        ("scale", Checker { scale, .. }) => Value::Number(*scale),
+        ("axis", Gradient { axis, .. }) => Value::Vector(*axis),
+        ("from", Gradient { from, .. }) => Value::Number(*from),
+        ("to", Gradient { to, .. }) => Value::Number(*to),
+        ("stops", Gradient { stops, .. }) => Value::Stops(stops.clone()),
+        ("space", _) => Value::Word(match texture.space {
+            TextureSpace::Object => "object",
+            TextureSpace::World => "world",
+            TextureSpace::Uv => "uv",
+        }),
+        // A checker's `scale` counts squares, so any other one is in the matrix.
+        (_, Checker { .. }) if !is_shift(&texture.transform) => match key {
+            "matrix" => Value::Matrix(texture.transform),
+            _ => return None,
+        },
+        _ => return placed(&texture.transform, key),
+    })
+}
+
+fn is_shift(transform: &DAffine3) -> bool {
+    transform.matrix3 == DMat3::IDENTITY
+}
+
+/// A parameter, with the names of the scene's textures.
+fn parameter<T: Textured>(
+    parameter: Param<T>,
+    textures: &[String],
+    constant: impl Fn(T) -> Value,
+) -> Value {
+    match parameter {
+        Param::Constant(value) => constant(value),
+        Param::Textured(TextureRef { texture, scale, offset, channel }) => {
+            Value::Textured(TexturedValue {
+                texture: textures.get(texture.0 as usize).cloned().unwrap_or_default(),
+                scale: short(scale),
+                offset: short(offset),
+                channel: channel.map(Channel::name),
+            })
+        }
+    }
+}
+
+/// `textures` are the names of the scene's textures.
+pub(super) fn material(material: &Material, textures: &[String], key: &str) -> Option<Value> {
     let m = material;
-    let number = |x: f32| Value::Number(short(x));
+    let number = |x: Param<f32>| parameter(x, textures, |x| Value::Number(short(x)));
+    let color = |c: Param<Rgb>| parameter(c, textures, Value::Color);
     let preset = m.dialect.switches();
     Some(match key {
         "model" => Value::Word(material_model(m)),
-        "color" => Value::Color(m.color),
-        "ambient_color" => Value::Color(m.ambient_color?),
+        "color" => color(m.color),
+        "ambient_color" => color(m.ambient_color?),
         "specular_color" => match three_js_f0(m) {
             Some(f0) => Value::Color(f0),
-            None => m.specular_color.map_or(Value::Word("object"), Value::Color),
+            None => m.specular_color.map_or(Value::Word("object"), color),
         },
         "k_a" => number(m.k_a),
         "k_d" => number(m.k_d),
         "k_s" => number(m.k_s),
         "k_e" => number(m.k_e),
-        "emission_color" => Value::Color(m.emission_color?),
-        "reflection" => Value::Color(m.reflection),
-        "transmission" => Value::Color(m.transmission),
-        "ior" => number(m.ior),
+        "emission_color" => color(m.emission_color?),
+        "reflection" => color(m.reflection),
+        "transmission" => color(m.transmission),
+        "ior" => Value::Number(short(m.ior)),
         "fresnel" if m.fresnel == m.transmission.is_black() => Value::Flag(m.fresnel),
         "dialect" => Value::Word(m.dialect.name()),
         "times_cosine" if m.times_cosine != preset.times_cosine => Value::Flag(m.times_cosine),
@@ -148,7 +205,7 @@ pub(super) fn material(material: &Material, key: &str) -> Option<Value> {
             Viewer::Local => "local",
             Viewer::Distant => "distant",
         }),
-        _ => return model(m, key),
+        _ => return model(m, textures, key),
     })
 }
 
@@ -165,8 +222,8 @@ fn three_js_f0(material: &Material) -> Option<Rgb> {
 }
 
 /// The keys of particular models.
-fn model(material: &Material, key: &str) -> Option<Value> {
-    let number = |x: f32| Value::Number(short(x));
+fn model(material: &Material, textures: &[String], key: &str) -> Option<Value> {
+    let number = |x: Param<f32>| parameter(x, textures, |x| Value::Number(short(x)));
     Some(match (key, material.model) {
         (
             "shininess",

@@ -22,6 +22,7 @@ use crate::material::{Material, MaterialId};
 use crate::mesh::Mesh;
 use crate::scene::{Object, Scene};
 use crate::shape::Shape;
+use crate::texture::Texture;
 
 /// The scene as the text of `file` and the files that it names, in the order of the text.
 ///
@@ -41,13 +42,14 @@ pub(crate) fn write_toml(
              narrower shape cuts off its sides"
         ));
     }
-    let Scene { image, camera, ambient, lights, materials, objects, groups } = scene;
+    let Scene { image, camera, ambient, lights, materials, textures, objects, groups } = scene;
     let stem = file.strip_suffix(".toml").unwrap_or(file).to_owned();
     let group_names = groups.iter().map(|group| group.name.clone()).collect();
     let mut out = Writer {
         text: "version = 1\n".to_owned(),
         stem,
         materials: Materials::new(materials, account),
+        texture_names: texture_names(&textures, account),
         group_names,
         counts: BTreeMap::new(),
         files: Vec::new(),
@@ -81,6 +83,7 @@ pub(crate) fn write_toml(
     let objects = split_all(objects, out.account);
     let in_groups = groups.iter().flat_map(|(_, objects)| objects);
     out.materials.say_used(in_groups.chain(&objects));
+    out.textures(&textures);
     out.all_materials();
     for (name, objects) in groups {
         let name = text::name(&name);
@@ -99,6 +102,7 @@ struct Writer<'a> {
     /// What the names of files begin with.
     stem: String,
     materials: Materials,
+    texture_names: Vec<String>,
     group_names: Vec<String>,
     /// How many shapes of each kind are written, as the reader counts them.
     counts: BTreeMap<&'static str, usize>,
@@ -178,6 +182,15 @@ impl Writer<'_> {
         self.trouble.get_or_insert_with(|| Diagnostic::error(message, None));
     }
 
+    fn textures(&mut self, textures: &[Texture]) {
+        for (number, texture) in textures.iter().enumerate() {
+            let header = format!("[textures.{}]", text::name(&self.texture_names[number]));
+            let kind = Some(concepts::texture_kind(texture));
+            self.table(&header, &keys::TEXTURE, kind, |key| concepts::texture(texture, key));
+            self.account.carry("texture", 1);
+        }
+    }
+
     fn all_materials(&mut self) {
         let materials = std::mem::take(&mut self.materials.all);
         for (i, material) in materials.iter().enumerate() {
@@ -186,7 +199,10 @@ impl Writer<'_> {
             }
             let header = format!("[materials.{}]", text::name(&self.materials.names[i]));
             let model = Some(concepts::material_model(material));
-            self.table(&header, &keys::MATERIAL, model, |key| concepts::material(material, key));
+            let names = std::mem::take(&mut self.texture_names);
+            let say = |key: &str| concepts::material(material, &names, key);
+            self.table(&header, &keys::MATERIAL, model, say);
+            self.texture_names = names;
             self.account.carry("material", 1);
         }
     }
@@ -269,6 +285,20 @@ fn sidecar(object: &mut Object, name: &str, ply: PlyEncoding) -> Option<File> {
         object.transform.translation = object.transform.transform_point3(origin);
     }
     Some(file)
+}
+
+/// A name of its own for every texture.
+fn texture_names(textures: &[Texture], account: &mut Account) -> Vec<String> {
+    let mut taken = BTreeSet::new();
+    let mut name = |texture: &Texture| {
+        let base = if texture.name.is_empty() { "unnamed" } else { &texture.name };
+        let name = free_name(base, &mut taken);
+        if name != texture.name {
+            account.map(format!("a second texture `{}` is called `{name}`", texture.name));
+        }
+        name
+    };
+    textures.iter().map(&mut name).collect()
 }
 
 /// The materials and their names in the text.

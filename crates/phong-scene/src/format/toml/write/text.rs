@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use glam::{DVec2, DVec3};
 
 use crate::color::{Rgb, srgb_encode};
-use crate::format::toml::value::Value;
+use crate::format::toml::value::{TexturedValue, Value};
 use crate::keys::{BACKGROUND, Kind};
 use crate::scene::Background;
 
@@ -36,7 +36,29 @@ pub(super) fn value(value: &Value, kind: Kind) -> String {
         }
         Value::Word(word) => quoted(word),
         Value::Text(text) => quoted(text),
+        Value::Colors(colors) => list(colors.iter().map(|&c| color(c))),
+        Value::Stops(stops) => {
+            list(stops.iter().map(|&(t, c)| format!("[{}, {}]", number(short(t)), color(c))))
+        }
+        Value::Textured(by) => textured(by),
     }
+}
+
+/// What a texture stands for: the keys that are not as by default.
+fn textured(by: &TexturedValue) -> String {
+    let TexturedValue { texture, scale, offset, channel } = by;
+    let mut text = format!("{{ texture = {}", quoted(texture));
+    // Writing to a string does not fail.
+    if *scale != 1.0 {
+        let _ = write!(text, ", scale = {}", number(*scale));
+    }
+    if *offset != 0.0 {
+        let _ = write!(text, ", offset = {}", number(*offset));
+    }
+    if let Some(channel) = channel {
+        let _ = write!(text, ", channel = {}", quoted(channel));
+    }
+    text + " }"
 }
 
 /// The shortest decimal of a number, with an exponent where zeros would be many.

@@ -1,0 +1,135 @@
+//! `[textures.NAME]`, and what takes its values from one.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use glam::{DAffine3, DVec3};
+
+use super::draft::{Named, say_unknown_name};
+use super::notes::Notes;
+use super::shape;
+use super::table::Values;
+use super::text::Spot;
+use super::value::TexturedValue;
+use crate::check::{material as judge, texture as texture_judge};
+use crate::color::Rgb;
+use crate::material::Material;
+use crate::texture::{Channel, Param, Texture, TextureId, TextureKind, TextureRef, TextureSpace};
+
+/// A texture; what is wrong with it has been said.
+pub(super) fn texture(v: &Values, name: &str, notes: &mut Notes) -> Option<Texture> {
+    let kind = match v.word("kind")? {
+        "checker" => {
+            TextureKind::Checker { colors: v.colors("colors")?, scale: v.number("scale")? }
+        }
+        _ => TextureKind::Gradient {
+            axis: v.vector("axis")?,
+            from: v.number("from")?,
+            to: v.number("to")?,
+            stops: v.stops("stops")?,
+        },
+    };
+    let space = match v.word("space")? {
+        "world" => TextureSpace::World,
+        "uv" => TextureSpace::Uv,
+        _ => TextureSpace::Object,
+    };
+    let transform = place(v, &kind, notes)?;
+    let place = notes.place(v.spot);
+    let texture = Texture { name: name.to_owned(), kind, space, transform, place };
+    let sound =
+        notes.judge(|key| v.spot_of(key), |faults| texture_judge::texture(&texture, faults));
+    sound.then_some(texture)
+}
+
+/// Where it lies in its space. The `scale` of a checker counts squares and is none of it.
+fn place(v: &Values, kind: &TextureKind, notes: &mut Notes) -> Option<DAffine3> {
+    match kind {
+        TextureKind::Gradient { .. } => shape::transform(v, notes),
+        TextureKind::Checker { .. } if v.has("matrix") => {
+            if let Some(other) = ["rotate", "translate"].into_iter().find(|key| v.has(key)) {
+                notes.error(v.spot_of(other), format!("`{other}` stands beside `matrix`")).help =
+                    Some("write the matrix alone, or none".to_owned());
+                return None;
+            }
+            v.matrix("matrix")
+        }
+        TextureKind::Checker { .. } => shape::placement(v, DVec3::ONE, notes),
+    }
+}
+
+/// The textures that materials name, in the order of the text. Until they are looked up, a
+/// material's textures are numbered by this list.
+#[derive(Default)]
+pub(super) struct TextureNames(Vec<TextureName>);
+
+struct TextureName {
+    name: String,
+    /// Where the parameter's value stands.
+    spot: Spot,
+}
+
+impl TextureNames {
+    /// A material's number, or its default; `None` as [`Values::number`] has it.
+    pub(super) fn number(&mut self, v: &Values, key: &str) -> Option<Param<f32>> {
+        match v.textured(key) {
+            Some(textured) => Some(self.take(textured).into()),
+            None => v.number(key).map(|number| (number as f32).into()),
+        }
+    }
+
+    /// A material's colour, or its default; `None` as [`Values::color`] has it.
+    pub(super) fn color(&mut self, v: &Values, key: &str) -> Option<Param<Rgb>> {
+        match v.textured(key) {
+            Some(textured) => Some(self.take(textured).into()),
+            None => v.color(key).map(Param::Constant),
+        }
+    }
+
+    fn take(&mut self, (value, spot): (TexturedValue, Spot)) -> TextureRef {
+        let TexturedValue { texture: name, scale, offset, channel } = value;
+        let by = TextureRef {
+            texture: TextureId(self.0.len() as u32),
+            scale: scale as f32,
+            offset: offset as f32,
+            channel: channel.and_then(Channel::from_name),
+        };
+        self.0.push(TextureName { name, spot });
+        by
+    }
+
+    /// Says of every texture named that is not there; which of them are named.
+    pub(super) fn look_up(&self, textures: &Named<Texture>, notes: &mut Notes) -> BTreeSet<u32> {
+        let mut used = BTreeSet::new();
+        for TextureName { name, spot } in &self.0 {
+            match textures.find(name) {
+                Some(number) => drop(used.insert(number)),
+                None => say_unknown_name(notes, "texture", name, textures.names(), *spot),
+            }
+        }
+        used
+    }
+
+    /// Gives a material its textures, and says of every value that a parameter cannot have. Where
+    /// one of them is not there, which has been said, the first of the scene stands in.
+    pub(super) fn settle(
+        &self,
+        material: &Material,
+        named: &Named<Texture>,
+        textures: &[Texture],
+        notes: &mut Notes,
+    ) -> Material {
+        let spots: BTreeMap<_, _> = material
+            .textured()
+            .into_iter()
+            .map(|(key, by)| (key, &self.0[by.texture.0 as usize]))
+            .collect();
+        let number = |TextureId(at): TextureId| named.find(&self.0[at as usize].name);
+        let settled = material.renumber_textures(|id| TextureId(number(id).unwrap_or(0)));
+        let all_there = spots.values().all(|TextureName { name, .. }| named.find(name).is_some());
+        if let (Some(first), true) = (spots.values().next(), all_there) {
+            let spot_of = |key: &str| spots.get(key).map_or(first.spot, |name| name.spot);
+            notes.judge(spot_of, |faults| judge::material(&settled, Some(textures), faults));
+        }
+        settled
+    }
+}

@@ -1,0 +1,97 @@
+//! The textures' keys, and those of what names one.
+
+use super::{Default, Key, Kind, Table};
+use crate::limits::Range;
+
+/// `[textures.NAME]`.
+pub(crate) static TEXTURE: Table = Table {
+    name: "texture",
+    doc: "Values that vary over a surface.",
+    select: Some("kind"),
+    keys: &[&[
+        Key::new("kind", Kind::Word(&["checker", "gradient"]), Default::Required, "What it is.")
+            .later(&["image", "noise", "marble", "wood", "bricks"]),
+        Key::new(
+            "colors",
+            Kind::TwoColors,
+            Default::Required,
+            "A where ⌊x⌋ + ⌊y⌋ + ⌊z⌋ is even, B where it is odd; a coordinate less than 1e-4 \
+             below a border counts as above it.",
+        )
+        .only(&["checker"]),
+        Key::new("scale", Kind::Number(Range::POSITIVE), Default::Number(1.0), "Squares a unit.")
+            .only(&["checker"]),
+        Key::new(
+            "axis",
+            Kind::Direction,
+            Default::Vector([0.0, 1.0, 0.0]),
+            "Along which it runs; any length.",
+        )
+        .only(&["gradient"]),
+        Key::new(
+            "from",
+            Kind::Number(Range::ANY),
+            Default::Number(0.0),
+            "Where t is 0: a distance along the axis.",
+        )
+        .only(&["gradient"]),
+        Key::new("to", Kind::Number(Range::ANY), Default::Number(1.0), "Where t is 1.")
+            .only(&["gradient"]),
+        Key::new(
+            "stops",
+            Kind::Stops,
+            Default::Required,
+            "Its colours; between two stops they run linearly, beyond the last they stay.",
+        )
+        .only(&["gradient"]),
+        Key::new(
+            "scale",
+            Kind::Scale,
+            Default::Said("1"),
+            "First of its place: a factor, or one along each axis.",
+        )
+        .only(&["gradient"]),
+        Key::new(
+            "space",
+            Kind::Word(&["object", "world", "uv"]),
+            Default::Word("object"),
+            "The space it lies in.",
+        ),
+        Key::new(
+            "rotate",
+            Kind::Rotate,
+            Default::Said("none"),
+            "Turns it: right-handed about an axis; or a list of them, in order.",
+        ),
+        Key::new("translate", Kind::Point, Default::Vector([0.0; 3]), "Then: shifts it."),
+        Key::new(
+            "matrix",
+            Kind::Matrix,
+            Default::Said("those above"),
+            "Instead of all that place it: four rows of four, for column vectors.",
+        ),
+    ]],
+};
+
+/// `{ texture = .. }`.
+pub(crate) static TEXTURED: Table = Table {
+    name: "texture reference",
+    doc: "Instead of a material's number or colour: the values of a texture.",
+    select: None,
+    keys: &[&[
+        Key::new("texture", Kind::Texture, Default::Required, "Where the values come from."),
+        Key::new(
+            "scale",
+            Kind::Number(Range::ANY),
+            Default::Number(1.0),
+            "What they are multiplied by.",
+        ),
+        Key::new("offset", Kind::Number(Range::ANY), Default::Number(0.0), "What is added then."),
+        Key::new(
+            "channel",
+            Kind::Word(&crate::texture::Channel::NAMES),
+            Default::Said("all three; of a number `r`"),
+            "The channel that is taken.",
+        ),
+    ]],
+};

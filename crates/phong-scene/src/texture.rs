@@ -1,0 +1,312 @@
+//! Textures: values that vary over a surface.
+//!
+//! ```toml
+//! [textures.tiles]
+//! kind = "checker"
+//! colors = ["#e8e4da", 0.1]
+//! scale = 2
+//!
+//! [textures.dusk]
+//! kind = "gradient"
+//! to = 3
+//! stops = [[0, "darkorange"], [0.4, "indigo"], [1, 0]]
+//!
+//! [materials.floor]
+//! color = { texture = "tiles" }
+//! k_s = { texture = "tiles", scale = 0.5 }
+//! ```
+//!
+//! A material's colour or number that is a table takes its values from a texture. Where the text
+//! says `space = "object"`, a texture is carved out of the object's own space and moves with it;
+//! in `"world"` it stands still; in `"uv"` it lies on the surface, with u and v for x and y.
+//!
+//! | key | value | default | meaning |
+//! |---|---|---|---|
+//! | `kind` | `checker` or `gradient` | required | What it is. |
+//! | `colors` (checker) | two colours, `[A, B]` | required | A where ⌊x⌋ + ⌊y⌋ + ⌊z⌋ is even, B where it is odd; a coordinate less than 1e-4 below a border counts as above it. |
+//! | `scale` (checker) | a number above 0 | `1` | Squares a unit. |
+//! | `axis` (gradient) | three numbers, `[x, y, z]`, not all 0 | `[0, 1, 0]` | Along which it runs; any length. |
+//! | `from` (gradient) | a number | `0` | Where t is 0: a distance along the axis. |
+//! | `to` (gradient) | a number | `1` | Where t is 1. |
+//! | `stops` (gradient) | a list of `[t, colour]`, t from 0 to 1 and never falling | required | Its colours; between two stops they run linearly, beyond the last they stay. |
+//! | `scale` (gradient) | a number or `[x, y, z]`, none 0 | 1 | First of its place: a factor, or one along each axis. |
+//! | `space` | `object`, `world` or `uv` | `"object"` | The space it lies in. |
+//! | `rotate` | `[ax, ay, az, degrees]`, or a list of them | none | Turns it: right-handed about an axis; or a list of them, in order. |
+//! | `translate` | three numbers, `[x, y, z]` | `[0, 0, 0]` | Then: shifts it. |
+//! | `matrix` | four rows of four numbers | those above | Instead of all that place it: four rows of four, for column vectors. |
+//!
+//! Instead of a material's number or colour, where the table of materials says so:
+//!
+//! | key | value | default | meaning |
+//! |---|---|---|---|
+//! | `texture` | the name of a texture, in quotes | required | Where the values come from. |
+//! | `scale` | a number | `1` | What they are multiplied by. |
+//! | `offset` | a number | `0` | What is added then. |
+//! | `channel` | `r`, `g` or `b` | all three; of a number `r` | The channel that is taken. |
+
+use std::fmt;
+
+use glam::{DAffine3, DVec3};
+
+use crate::color::Rgb;
+use crate::diagnostic::Place;
+
+/// Index into [`Scene::textures`](crate::Scene::textures).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct TextureId(pub u32);
+
+/// A number or colour of a material: the same everywhere, or varying over the surface.
+///
+/// ```
+/// use phong_scene::{Param, Rgb, TextureId, TextureRef};
+/// let red: Param<Rgb> = Rgb::new(1.0, 0.0, 0.0).into();
+/// assert_eq!(red.constant(), Some(Rgb::new(1.0, 0.0, 0.0)));
+/// let tiles: Param<Rgb> = TextureRef::new(TextureId(0)).into();
+/// assert_eq!(tiles.constant(), None);
+/// assert_eq!(tiles.at(|_| Rgb::WHITE), Rgb::WHITE);
+/// ```
+#[derive(Clone, Copy, PartialEq)]
+pub enum Param<T> {
+    /// This value everywhere.
+    Constant(T),
+    /// The values of a texture.
+    Textured(TextureRef),
+}
+
+/// Where a parameter's values come from, and what is done to them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TextureRef {
+    /// The texture.
+    pub texture: TextureId,
+    /// What its values are multiplied by. Default 1.
+    pub scale: f32,
+    /// What is added then. Default 0.
+    pub offset: f32,
+    /// The channel that is taken; `None`: all three, and of a number red. Default `None`.
+    pub channel: Option<Channel>,
+}
+
+/// A channel of a colour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Channel {
+    /// Red.
+    Red,
+    /// Green.
+    Green,
+    /// Blue.
+    Blue,
+}
+
+/// A value that a texture can give: a number or a colour.
+pub trait Textured: Copy {
+    /// What the parameter is where the texture has this value. Nothing is ever below 0.
+    fn of(value: Rgb, by: &TextureRef) -> Self;
+}
+
+/// A texture, every default filled in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Texture {
+    /// The name in the text.
+    pub name: String,
+    /// What it is.
+    pub kind: TextureKind,
+    /// The space that it lies in.
+    pub space: TextureSpace,
+    /// From where it is described to where it lies in that space; invertible and finite.
+    pub transform: DAffine3,
+    /// Where it was written.
+    pub place: Place,
+}
+
+impl Default for Texture {
+    /// Black and white cubes, one unit large.
+    fn default() -> Self {
+        Self {
+            name: "texture".to_owned(),
+            kind: TextureKind::default(),
+            space: TextureSpace::default(),
+            transform: DAffine3::IDENTITY,
+            place: Place::default(),
+        }
+    }
+}
+
+/// What a texture is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TextureKind {
+    /// Cubes of two colours in turn; on a plane, squares.
+    Checker {
+        /// Where ⌊x⌋ + ⌊y⌋ + ⌊z⌋ is even, and where it is odd. Linear.
+        colors: [Rgb; 2],
+        /// Squares a unit, > 0.
+        scale: f64,
+    },
+    /// Colours that run into one another along an axis.
+    Gradient {
+        /// Along which; any length but 0.
+        axis: DVec3,
+        /// The distance along the axis at which t is 0.
+        from: f64,
+        /// The distance at which t is 1; another one.
+        to: f64,
+        /// `t` in [0, 1], never falling, and the linear colour there; at least one.
+        stops: Vec<(f32, Rgb)>,
+    },
+}
+
+impl Default for TextureKind {
+    /// Black and white cubes, one unit large.
+    fn default() -> Self {
+        Self::Checker { colors: [Rgb::WHITE, Rgb::BLACK], scale: 1.0 }
+    }
+}
+
+/// The space that a texture lies in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TextureSpace {
+    /// That of the object, before its transform; within an instance, before that of the instance.
+    #[default]
+    Object,
+    /// That of the scene.
+    World,
+    /// That of the surface: u, v and 0.
+    Uv,
+}
+
+impl<T: fmt::Debug> fmt::Debug for Param<T> {
+    /// A constant shows as its value.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Constant(value) => value.fmt(f),
+            Self::Textured(by) => by.fmt(f),
+        }
+    }
+}
+
+impl<T> From<T> for Param<T> {
+    fn from(value: T) -> Self {
+        Self::Constant(value)
+    }
+}
+
+impl From<TextureRef> for Param<f32> {
+    fn from(by: TextureRef) -> Self {
+        Self::Textured(by)
+    }
+}
+
+impl From<TextureRef> for Param<Rgb> {
+    fn from(by: TextureRef) -> Self {
+        Self::Textured(by)
+    }
+}
+
+impl<T: Textured> Param<T> {
+    /// The value that it has everywhere; `None` where it varies.
+    pub fn constant(self) -> Option<T> {
+        match self {
+            Self::Constant(value) => Some(value),
+            Self::Textured(_) => None,
+        }
+    }
+
+    /// What it takes its values from; `None` where they are all the same.
+    pub fn texture(self) -> Option<TextureRef> {
+        match self {
+            Self::Constant(_) => None,
+            Self::Textured(by) => Some(by),
+        }
+    }
+
+    /// The value at a place where textures have the values that `look_up` says.
+    #[inline]
+    pub fn at(self, look_up: impl FnOnce(TextureId) -> Rgb) -> T {
+        match self {
+            Self::Constant(value) => value,
+            Self::Textured(by) => T::of(look_up(by.texture), &by),
+        }
+    }
+}
+
+impl Param<Rgb> {
+    /// Whether it is black everywhere; a texture is taken not to be.
+    pub fn is_black(self) -> bool {
+        self.constant().is_some_and(Rgb::is_black)
+    }
+}
+
+impl TextureRef {
+    /// A texture's values as they are.
+    pub const fn new(texture: TextureId) -> Self {
+        Self { texture, scale: 1.0, offset: 0.0, channel: None }
+    }
+
+    fn apply(&self, value: f32) -> f32 {
+        (value * self.scale + self.offset).max(0.0)
+    }
+}
+
+impl Textured for f32 {
+    fn of(value: Rgb, by: &TextureRef) -> Self {
+        by.apply(by.channel.unwrap_or(Channel::Red).of(value))
+    }
+}
+
+impl Textured for Rgb {
+    fn of(value: Rgb, by: &TextureRef) -> Self {
+        by.channel.map_or(value, |channel| Self::grey(channel.of(value))).map(|v| by.apply(v))
+    }
+}
+
+impl Channel {
+    /// The words of the channels in the text.
+    pub(crate) const NAMES: [&'static str; 3] = ["r", "g", "b"];
+
+    /// The channel of that word.
+    pub(crate) fn from_name(name: &str) -> Option<Self> {
+        [Self::Red, Self::Green, Self::Blue].into_iter().find(|channel| channel.name() == name)
+    }
+
+    /// Its word in the text.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Red => "r",
+            Self::Green => "g",
+            Self::Blue => "b",
+        }
+    }
+
+    fn of(self, Rgb { r, g, b }: Rgb) -> f32 {
+        match self {
+            Self::Red => r,
+            Self::Green => g,
+            Self::Blue => b,
+        }
+    }
+}
+
+impl Texture {
+    /// The values between which all of its values lie.
+    pub fn values(&self) -> Vec<Rgb> {
+        match &self.kind {
+            TextureKind::Checker { colors, .. } => colors.to_vec(),
+            TextureKind::Gradient { stops, .. } => stops.iter().map(|&(_, color)| color).collect(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_value_is_scaled_then_shifted_and_never_below_0() {
+        let by = TextureRef { scale: 2.0, offset: -0.5, ..TextureRef::new(TextureId(0)) };
+        let value = Rgb::new(0.5, 0.125, 1.0);
+        assert_eq!(Param::<Rgb>::from(by).at(|_| value), Rgb::new(0.5, 0.0, 1.5));
+        assert_eq!(Param::<f32>::from(by).at(|_| value), 0.5);
+        let blue = TextureRef { channel: Some(Channel::Blue), ..by };
+        assert_eq!(Param::<Rgb>::from(blue).at(|_| value), Rgb::grey(1.5));
+        assert_eq!(Param::<f32>::from(blue).at(|_| value), 1.5);
+    }
+}

@@ -1,0 +1,145 @@
+//! Surfaces whose materials vary: what their parameters are at a point.
+
+use glam::DVec3;
+use phong_bvh::{Hit, Hits8, Ray, Rays8, Surfaces8, lanes};
+use phong_scene::{ConstantMaterial, Param, Rgb, TextureId, TextureRef};
+
+use super::View;
+use super::shading::Shading8;
+use crate::interaction::SurfaceInteraction;
+use crate::material::Material;
+use crate::math::lanes::set;
+use crate::texture::TexturePoint;
+
+/// How far back a material that was made is looked for before another one is made.
+const REMEMBERED: usize = 4;
+
+/// What textures vary of a material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Varied {
+    Nothing,
+    /// Its colour alone, which every surface has of its own anyway.
+    Color(TextureRef),
+    /// Other parameters, and perhaps its colour.
+    More(Option<TextureRef>),
+}
+
+/// A material as it is at some surfaces that textures vary.
+#[derive(Clone, Debug)]
+pub(crate) struct MadeMaterial {
+    /// The number of the material that it was made of.
+    pub(crate) number: u32,
+    pub(crate) material: Material,
+}
+
+impl Varied {
+    pub(super) fn of(material: &phong_scene::Material) -> Self {
+        let color = material.color.texture();
+        match (material.textured().len(), color) {
+            (0, _) => Self::Nothing,
+            (1, Some(color)) => Self::Color(color),
+            _ => Self::More(color),
+        }
+    }
+
+    fn color(self) -> Option<TextureRef> {
+        match self {
+            Self::Nothing => None,
+            Self::Color(by) => Some(by),
+            Self::More(by) => by,
+        }
+    }
+}
+
+impl View {
+    /// Gives those of eight surfaces whose materials vary their own colours and materials. A
+    /// material that was made for some is added to `made`, and numbered behind those of the view.
+    pub(crate) fn vary(
+        &self,
+        rays: &Rays8,
+        hits: &Hits8,
+        surfaces: &Surfaces8,
+        shading: &mut Shading8,
+        made: &mut Vec<MadeMaterial>,
+    ) {
+        let remembered = made.len().saturating_sub(REMEMBERED);
+        for lane in lanes(hits.met) {
+            let number = shading.material[lane];
+            let varied = self.varied[number as usize];
+            if varied == Varied::Nothing {
+                continue;
+            }
+            let (ray, hit) = (rays.get(lane), hits.get(lane));
+            let point =
+                self.texture_point(&ray, &hit, DVec3::from(surfaces.p.map(|all| all[lane])));
+            if let Some(by) = varied.color()
+                && !self.has_own_color(&hit)
+            {
+                let color = Param::<Rgb>::from(by).at(|texture| self.look_up(texture, &point));
+                set(&mut shading.color, lane, color.to_array());
+            }
+            if let Varied::More(_) = varied {
+                let material = self.material_at(number, &point);
+                let known = made[remembered..]
+                    .iter()
+                    .position(|made| made.number == number && made.material == material);
+                let place = known.map_or(made.len(), |place| remembered + place);
+                if place == made.len() {
+                    made.push(MadeMaterial { number, material });
+                }
+                shading.material[lane] = (self.materials.len() + place) as u32;
+            }
+        }
+    }
+
+    /// The colour of a surface that brings none of its own.
+    pub(super) fn color_at(&self, material: u32, ray: &Ray, hit: &Hit, p: DVec3) -> Rgb {
+        match self.varied[material as usize].color() {
+            Some(by) => {
+                let point = self.texture_point(ray, hit, p);
+                Param::<Rgb>::from(by).at(|texture| self.look_up(texture, &point))
+            }
+            None => self.materials[material as usize].color,
+        }
+    }
+
+    /// Whether any material takes a value from a texture.
+    #[inline]
+    pub(crate) fn has_textures(&self) -> bool {
+        self.has_textures
+    }
+
+    /// A material as it is at a point, ready for light.
+    pub fn material_at(&self, number: u32, point: &TexturePoint) -> Material {
+        match self.varied[number as usize] {
+            Varied::Nothing => self.materials[number as usize].clone(),
+            _ => Material::new(&self.written_at(number, point), self.camera.backward()),
+        }
+    }
+
+    /// A material as it was written, and as it is at a point.
+    pub fn written_at(&self, number: u32, point: &TexturePoint) -> ConstantMaterial {
+        self.look.materials[number as usize].at(|texture| self.look_up(texture, point))
+    }
+
+    /// Where a surface is for textures.
+    pub fn texture_point_of(&self, ray: &Ray, at: &SurfaceInteraction) -> TexturePoint {
+        self.texture_point(ray, &at.hit, at.p)
+    }
+
+    fn texture_point(&self, ray: &Ray, hit: &Hit, world: DVec3) -> TexturePoint {
+        let here = self.coordinates(ray, hit);
+        TexturePoint {
+            object: self.geometry.own_point(hit, world),
+            world,
+            uv: here.uv.to_array(),
+            tangent: here.tangent.to_array(),
+            footprint: 0.0,
+        }
+    }
+
+    /// A texture's value; black where the look has no such texture.
+    fn look_up(&self, TextureId(number): TextureId, point: &TexturePoint) -> Rgb {
+        self.textures.get(number as usize).map_or(Rgb::BLACK, |texture| texture.value(point))
+    }
+}
