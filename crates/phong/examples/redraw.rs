@@ -35,7 +35,11 @@ const CHANGES: [Change; 4] = [
         }
     }),
     ("a colour", |scene| {
-        scene.materials.iter_mut().take(1).for_each(|material| material.color = Rgb::grey(0.4));
+        scene
+            .materials
+            .iter_mut()
+            .take(1)
+            .for_each(|material| material.color = Rgb::grey(0.4).into());
     }),
     ("one object", |scene| {
         let shift = DAffine3::from_translation(DVec3::new(0.0, 0.1, 0.0));

@@ -8,8 +8,8 @@ use phong::render::{Cancel, RenderOptions, render};
 use phong::terms::TermSet;
 use phong::view::View;
 use phong_scene::{
-    Camera, CameraKind, Group, GroupId, Image, Light, LightKind, Material, MaterialId, Mesh, Model,
-    NO_INDEX, Object, Points, Rgb, Scene, Shape, WardForm,
+    Camera, CameraKind, ConstantMaterial, Group, GroupId, Image, Light, LightKind, Material,
+    MaterialId, Mesh, Model, NO_INDEX, Object, Points, Rgb, Scene, Shape, WardForm,
 };
 use proptest::prelude::*;
 
@@ -109,9 +109,9 @@ fn scene(objects: Vec<Object>, groups: Vec<Group>) -> Scene {
             }),
         ],
         materials: vec![
-            Material { reflection: Rgb::grey(0.2), ..Material::default() },
-            Material { model: brushed, ..Material::default() },
-            Material { transmission: Rgb::grey(0.6), fresnel: true, ..Material::default() },
+            Material { reflection: Rgb::grey(0.2).into(), ..Material::default() },
+            ConstantMaterial { model: brushed, ..ConstantMaterial::default() }.into(),
+            Material { transmission: Rgb::grey(0.6).into(), fresnel: true, ..Material::default() },
         ],
         objects,
         groups,
