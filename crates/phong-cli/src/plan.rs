@@ -20,7 +20,7 @@ use crate::output::Output;
 #[derive(Debug)]
 pub(crate) enum Outputs {
     /// A part file.
-    Part(Output),
+    Part(Box<Output>),
     /// Each file with what it holds, the picture's first.
     Picture(Format, Vec<(Content, Output)>),
 }
@@ -63,7 +63,7 @@ impl Outputs {
     /// Every file.
     pub(crate) fn iter(&self) -> impl Iterator<Item = &Output> {
         let (part, files) = match self {
-            Self::Part(output) => (Some(output), None),
+            Self::Part(output) => (Some(&**output), None),
             Self::Picture(_, files) => (None, Some(files)),
         };
         part.into_iter().chain(files.into_iter().flatten().map(|(_, output)| output))
@@ -82,7 +82,7 @@ impl Outputs {
     /// Gives every file its name: all or none.
     pub(crate) fn commit(self) -> Result<(), Failure> {
         Output::commit(match self {
-            Self::Part(output) => vec![output],
+            Self::Part(output) => vec![*output],
             Self::Picture(_, files) => files.into_iter().map(|(_, output)| output).collect(),
         })
     }
@@ -136,7 +136,7 @@ impl Plan {
     /// Makes ready what may be written: which terms the scene has is not known yet.
     pub(crate) fn outputs(&self, args: &RenderArgs) -> Result<Outputs, Failure> {
         if self.share.is_some() {
-            return Output::create(&self.output).map(Outputs::Part);
+            return Ok(Outputs::Part(Box::new(Output::create(&self.output)?)));
         }
         let any = RenderOptions::of(&Image::default())?;
         let terms = if self.terms { TermSet::ALL } else { TermSet::NONE };

@@ -56,8 +56,9 @@ fn pool(threads: usize) -> Result<ThreadPool, ThreadPoolBuildError> {
         })
         .build();
     if pool.is_err() {
-        let made = made.into_inner().unwrap_or_default();
-        made.into_iter().for_each(|thread| drop(thread.join()));
+        for thread in made.into_inner().unwrap_or_default() {
+            let _ = thread.join();
+        }
     }
     pool
 }

@@ -66,7 +66,7 @@ fn what_a_killed_process_leaves_is_removed_by_the_next() {
     let folder = balls();
     let words = "render a.toml --size 2000x2000 --samples 1024 -o a.png";
     let mut child = folder.command(words).stderr(Stdio::null()).spawn().unwrap();
-    let left = || folder.names().iter().any(|name| name.ends_with(".tmp"));
+    let left = || folder.names().iter().any(|name| name.starts_with(".phong-"));
     while !left() {
         assert!(child.try_wait().unwrap().is_none(), "it ended by itself");
         std::thread::yield_now();

@@ -11,7 +11,7 @@ use crate::film::{Film, LayerKind};
 pub struct Finishing {}
 
 /// A film, and the picture that it is finished to.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Finished<'a> {
     film: &'a Film,
 }

@@ -68,14 +68,14 @@ fn plane(point: [f64; 3], normal: [f64; 3]) -> Object {
     object(Shape::Plane { point, normal })
 }
 
-fn film_with(scene: Scene, change: impl FnOnce(RenderOptions) -> RenderOptions) -> Film {
+fn film_with(scene: &Scene, change: impl FnOnce(RenderOptions) -> RenderOptions) -> Film {
     let options = change(RenderOptions::of(&scene.image).unwrap().with_terms(TermSet::ALL));
-    let compiled = View::of(&scene).unwrap();
+    let compiled = View::of(scene).unwrap();
     render(&compiled, &options, &|_| {}, &Cancel::new()).film
 }
 
 /// The terms of the only pixel.
-fn terms(scene: Scene) -> Terms {
+fn terms(scene: &Scene) -> Terms {
     let film = film_with(scene, |options| options);
     let terms = Terms::from_fn(|term| {
         let v = film.at(LayerKind::Term(term), 0, 0).unwrap();
@@ -95,7 +95,7 @@ fn a_sphere_lit_from_the_eye_shows_the_whole_sum() {
     let mut scene = scene();
     scene.objects.push(sphere([0.0; 3], 1.0));
     scene.lights.push(sun([0.0, 0.0, -1.0]));
-    let terms = terms(scene);
+    let terms = terms(&scene);
     close(terms.ambient, 0.1 * 0.8);
     close(terms.diffuse, 0.7 * 0.8);
     close(terms.specular, 0.3);
@@ -112,7 +112,7 @@ fn lights_add_up_and_their_colour_tints_both_terms() {
         specular_color: Rgb::new(0.0, 1.0, 0.0),
         ..sun([0.0, 0.0, -2.0])
     });
-    let terms = terms(scene);
+    let terms = terms(&scene);
     assert!((terms.diffuse.r - 0.7 * 0.8 * 1.5).abs() < 1e-6);
     assert!((terms.diffuse.g - 0.7 * 0.8).abs() < 1e-6);
     assert!((terms.specular.g - 0.6).abs() < 1e-6);
@@ -127,7 +127,7 @@ fn what_stands_in_the_way_of_a_light_takes_it_away() {
         scene.objects.push(sphere([3.0, 0.0, 3.0], 0.5));
         scene.lights.push(sun([-1.0, 0.0, -1.0]));
         change(&mut scene);
-        terms(scene)
+        terms(&scene)
     };
     assert_eq!(shadowed(|_| {}).diffuse, Rgb::BLACK);
     close(shadowed(|_| {}).ambient, 0.08);
@@ -144,7 +144,7 @@ fn a_thing_behind_a_point_light_casts_no_shadow() {
     let position = DVec3::new(3.0, 0.0, 3.0);
     let kind = LightKind::Point { position, attenuation: [0.0, 0.0, 1.0], radius: 0.0 };
     scene.lights.push(Light { kind, ..sun([0.0, 0.0, -1.0]) });
-    close(terms(scene).diffuse, 0.7 * 0.8 * 0.5_f32.sqrt() / 18.0);
+    close(terms(&scene).diffuse, 0.7 * 0.8 * 0.5_f32.sqrt() / 18.0);
 }
 
 #[test]
@@ -153,7 +153,7 @@ fn shading_is_two_sided_and_a_light_behind_gives_nothing() {
         let mut scene = scene();
         scene.objects.push(plane([0.0; 3], normal));
         scene.lights.push(sun(direction));
-        terms(scene).diffuse
+        terms(&scene).diffuse
     };
     close(lit([0.0, 0.0, 1.0], [0.0, 0.0, -1.0]), 0.56);
     close(lit([0.0, 0.0, -1.0], [0.0, 0.0, -1.0]), 0.56);
@@ -171,7 +171,7 @@ fn a_light_below_the_geometric_horizon_gives_nothing_whatever_the_shading_normal
         uv: None,
     }));
     scene.lights.push(sun([1.0, 0.0, 0.2]));
-    assert_eq!(terms(scene).diffuse, Rgb::BLACK);
+    assert_eq!(terms(&scene).diffuse, Rgb::BLACK);
 }
 
 #[test]
@@ -180,10 +180,10 @@ fn a_mirror_brings_what_it_sees_times_its_weight() {
     scene.image.background = Background::Color(Rgb::new(0.25, 0.5, 1.0));
     scene.materials[0].reflection = Rgb::grey(0.5).into();
     scene.objects.push(plane([0.0; 3], [1.0, 0.0, 1.0]));
-    let terms = terms(scene.clone());
+    let terms = terms(&scene);
     assert_eq!(terms.reflection, Rgb::new(0.125, 0.25, 0.5));
     scene.image.depth = 0;
-    assert_eq!(self::terms(scene).reflection, Rgb::BLACK, "beyond the depth a ray brings black");
+    assert_eq!(self::terms(&scene).reflection, Rgb::BLACK, "beyond the depth a ray brings black");
 }
 
 #[test]
@@ -200,7 +200,7 @@ fn two_facing_mirrors_end_at_the_depth() {
     .into();
     scene.objects.push(plane([0.0; 3], [0.0, 0.0, 1.0]));
     scene.objects.push(plane([0.0, 0.0, 11.0], [0.0, 0.0, 1.0]));
-    let terms = terms(scene);
+    let terms = terms(&scene);
     assert_eq!(terms.total(), Rgb::grey(1.0 + 0.5 + 0.25 + 0.125));
 }
 
@@ -226,7 +226,7 @@ fn glass_shares_light_by_the_exact_fresnel_reflectance() {
     let mut scene = glass(|_| {});
     scene.image.depth = 1;
     scene.objects.push(plane([0.0; 3], [0.0, 0.0, 1.0]));
-    let terms = terms(scene);
+    let terms = terms(&scene);
     let f = fresnel::dielectric(1.0, 1.5);
     assert!((f - 0.04).abs() < 1e-7);
     close(terms.reflection, f);
@@ -241,7 +241,7 @@ fn a_ball_of_glass_without_fresnel_lets_all_light_through() {
         m.ior = 1.0;
     });
     scene.objects.push(sphere([0.3, 0.2, 0.0], 1.0));
-    assert_eq!(terms(scene).transmission, Rgb::WHITE);
+    assert_eq!(terms(&scene).transmission, Rgb::WHITE);
 }
 
 #[test]
@@ -253,7 +253,7 @@ fn beyond_the_critical_angle_all_light_is_mirrored() {
         scene.materials[0].reflection = Rgb::grey(if fresnel { 1.0 } else { 0.25 }).into();
         scene.materials[0].transmission = Rgb::grey(if fresnel { 1.0 } else { 0.75 }).into();
         scene.objects.push(plane([0.0; 3], [-1.0, 0.0, -1.0]));
-        let terms = terms(scene);
+        let terms = terms(&scene);
         assert_eq!(terms.transmission, Rgb::BLACK);
         close(terms.reflection, 1.0);
     }
@@ -266,9 +266,9 @@ fn ambient_per_light_goes_with_the_light_but_not_its_shadow() {
     scene.objects.push(plane([0.0; 3], [0.0, 0.0, 1.0]));
     scene.lights.push(Light { color: Rgb::grey(0.5), ..sun([0.0, 0.0, 1.0]) });
     scene.lights.push(Light { color: Rgb::grey(0.25), ..sun([0.0, 0.0, -1.0]) });
-    close(terms(scene.clone()).ambient, 0.1 * 0.8 * 0.75);
+    close(terms(&scene).ambient, 0.1 * 0.8 * 0.75);
     scene.lights.clear();
-    assert_eq!(terms(scene).ambient, Rgb::BLACK);
+    assert_eq!(terms(&scene).ambient, Rgb::BLACK);
 }
 
 #[test]
@@ -278,7 +278,7 @@ fn an_object_tint_takes_the_object_colour_and_not_the_light() {
     scene.materials[0].color = Rgb::new(1.0, 0.5, 0.0).into();
     scene.objects.push(plane([0.0; 3], [0.0, 0.0, 1.0]));
     scene.lights.push(Light { specular_color: Rgb::grey(0.1), ..sun([0.0, 0.0, -1.0]) });
-    let specular = terms(scene).specular;
+    let specular = terms(&scene).specular;
     assert!((specular.r - 0.3).abs() < 1e-6 && (specular.g - 0.15).abs() < 1e-6);
 }
 
@@ -302,14 +302,14 @@ fn vertex_and_point_colours_replace_the_material_colour() {
     let mut scene = scene();
     scene.lights.push(sun([0.0, 0.0, -1.0]));
     scene.objects.push(object(Shape::Mesh(Box::new(mesh(DVec3::ZERO)))));
-    let red = terms(scene.clone()).diffuse;
+    let red = terms(&scene).diffuse;
     assert!((red.r - 0.7).abs() < 1e-6 && red.g == 0.0);
     scene.objects[0] = object(Shape::Points(Box::new(Points {
         spheres: [[5.0, 0.0, 0.0, 1.0], [0.0, 0.0, 0.0, 1.0]].into(),
         colors: [Rgb::BLACK, Rgb::new(0.0, 1.0, 0.0)].into(),
         ..Points::default()
     })));
-    let green = terms(scene).diffuse;
+    let green = terms(&scene).diffuse;
     assert!((green.g - 0.7).abs() < 1e-6 && green.r == 0.0);
 }
 
@@ -327,7 +327,7 @@ fn data_far_from_the_origin_keep_their_detail() {
     there.camera.look_at += far;
     there.objects[0] = object(Shape::Mesh(Box::new(mesh(far))));
     there.objects[1] = sphere((DVec3::new(0.25, 0.0, 0.5) + far).to_array(), 0.01);
-    let [here, there] = [here, there].map(|scene| film_with(scene, |options| options));
+    let [here, there] = [here, there].map(|scene| film_with(&scene, |options| options));
     let picture = |film: &Film| film.layer(LayerKind::Picture).unwrap().values.clone();
     let worst = picture(&here)
         .iter()
@@ -349,7 +349,7 @@ fn a_mirrored_closed_mesh_keeps_its_outside_outside() {
         }
         scene.objects.push(thing);
         scene.camera.eye = DVec3::new(10.0, 0.0, 1.0);
-        terms(scene).transmission
+        terms(&scene).transmission
     };
     // At a grazing 84° from inside nothing would be transmitted at all.
     assert!(inside(false).r > 0.1);
@@ -387,7 +387,7 @@ fn instances_place_their_group_each_time() {
         let transform = DAffine3::from_translation(DVec3::X * x);
         scene.objects.push(Object { transform, ..object(Shape::Instance(GroupId(0))) });
     }
-    let film = film_with(scene, |options| options.with_aovs(&[Aov::Object, Aov::Depth]));
+    let film = film_with(&scene, |options| options.with_aovs(&[Aov::Object, Aov::Depth]));
     let object = |x| film.at(LayerKind::Aov(Aov::Object), x, 0).unwrap()[0];
     assert_eq!([object(0), object(1), object(2)], [1.0, 0.0, 2.0]);
     let depth = |x| film.at(LayerKind::Aov(Aov::Depth), x, 0).unwrap()[0];
@@ -409,7 +409,7 @@ fn alpha_is_the_share_of_samples_that_met_something() {
     let half = Shape::Box { min: DVec3::new(-5.0, -5.0, -1.0), max: DVec3::new(0.0, 5.0, 0.0) };
     scene.objects.push(object(half));
     scene.materials[0].k_a = 1.0.into();
-    let film = film_with(scene, |options| options);
+    let film = film_with(&scene, |options| options);
     assert_eq!(film.at(LayerKind::Alpha, 0, 0).unwrap(), [0.5]);
     close(Rgb::grey(film.at(LayerKind::Picture, 0, 0).unwrap()[0]), 0.4);
 }
@@ -419,7 +419,7 @@ fn a_background_runs_from_top_to_bottom_of_the_picture() {
     let mut scene = scene();
     scene.image.size = [1, 4];
     scene.image.background = Background::Gradient { top: Rgb::WHITE, bottom: Rgb::BLACK };
-    let film = film_with(scene, |options| options);
+    let film = film_with(&scene, |options| options);
     for y in 0..4 {
         let v = film.at(LayerKind::Picture, 0, y).unwrap()[0];
         assert!((v - (1.0 - (y as f32 + 0.5) / 4.0)).abs() < 1e-6);

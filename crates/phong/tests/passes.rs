@@ -190,16 +190,13 @@ fn of_a_tile_the_passes_are_told_in_order_and_a_pass_after_all_its_tiles() {
     let mut had: BTreeMap<usize, u32> = BTreeMap::new();
     let mut passed = 0;
     for (pass, tile) in events {
-        match tile {
-            Some(tile) => {
-                assert_eq!(pass, *had.get(&tile).unwrap_or(&0), "tile {tile}");
-                had.insert(tile, pass + 1);
-            }
-            None => {
-                assert_eq!(pass, passed, "passes end in order");
-                assert!(had.len() == 6 && had.values().all(|&next| next > pass), "{had:?}");
-                passed += 1;
-            }
+        if let Some(tile) = tile {
+            assert_eq!(pass, *had.get(&tile).unwrap_or(&0), "tile {tile}");
+            had.insert(tile, pass + 1);
+        } else {
+            assert_eq!(pass, passed, "passes end in order");
+            assert!(had.len() == 6 && had.values().all(|&next| next > pass), "{had:?}");
+            passed += 1;
         }
     }
     assert_eq!(passed, 5);

@@ -95,20 +95,20 @@ pub(super) fn shown(scene: &Scene, size: Point, finish: Finish) -> Film {
     };
     let pixels = (scale * size).to_array().map(|side| side.round() as u32);
     let image = Image { size: pixels, samples, ..scene.image.clone() };
-    film(Scene { image, ..scene.clone() }, &[])
+    film(&Scene { image, ..scene.clone() }, &[])
 }
 
 /// The scene as its numbers are measured: one sample a pixel, at its centre.
 pub(super) fn measured(scene: &Scene) -> Film {
-    film(scene.clone(), &[Aov::Normal, Aov::Position])
+    film(scene, &[Aov::Normal, Aov::Position])
 }
 
-fn film(scene: Scene, aovs: &[Aov]) -> Film {
+fn film(scene: &Scene, aovs: &[Aov]) -> Film {
     let options = RenderOptions::of(&scene.image)
         .expect("a figure's picture has a size")
-        .with_terms(TermSet::of_scene(&scene))
+        .with_terms(TermSet::of_scene(scene))
         .with_aovs(aovs);
-    let scene = View::of(&scene).expect("a scene of a few shapes compiles");
+    let scene = View::of(scene).expect("a scene of a few shapes compiles");
     render(&scene, &options, &|_| {}, &Cancel::new()).film
 }
 

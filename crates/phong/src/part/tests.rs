@@ -112,12 +112,11 @@ fn begun() -> Part {
             Sums8::of_numbers(&numbers)
         };
         let eights = (0..eights_of(film.tile_window(tile))).map(sums).collect();
-        match tile % 2 {
-            0 => begun.put(tile, &film.take(tile)),
-            _ => {
-                let sums = Some(Arc::new(TileSums::new(3, eights)));
-                begun.put_unfinished(tile, &film.take(tile), sums);
-            }
+        if tile % 2 == 0 {
+            begun.put(tile, &film.take(tile));
+        } else {
+            let sums = Some(Arc::new(TileSums::new(3, eights)));
+            begun.put_unfinished(tile, &film.take(tile), sums);
         }
     }
     Part { settings, film: begun }

@@ -74,15 +74,14 @@ pub(super) fn keep(path: &Path) -> io::Result<Option<PathBuf>> {
     let former = Former::new(meta);
     let builder = temporary(".old", Some(&former));
     let linked = builder.make_in(folder_of(path), |name| fs::hard_link(path, name));
-    let kept = match linked {
-        Ok(linked) => linked.into_temp_path(),
-        Err(_) => {
-            let mut copy = builder.tempfile_in(folder_of(path))?;
-            io::copy(&mut File::open(path)?, copy.as_file_mut())?;
-            former.hand_on(copy.as_file())?;
-            copy.as_file().sync_all()?;
-            copy.into_temp_path()
-        }
+    let kept = if let Ok(linked) = linked {
+        linked.into_temp_path()
+    } else {
+        let mut copy = builder.tempfile_in(folder_of(path))?;
+        io::copy(&mut File::open(path)?, copy.as_file_mut())?;
+        former.hand_on(copy.as_file())?;
+        copy.as_file().sync_all()?;
+        copy.into_temp_path()
     };
     Ok(Some(kept.keep()?))
 }

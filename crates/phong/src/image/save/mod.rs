@@ -218,7 +218,7 @@ pub fn place(drafts: Vec<Draft>) -> Result<(), SaveError> {
         let done = kept.and_then(|kept| match file.persist(&path) {
             Ok(_) => Ok(kept),
             Err(error) => {
-                kept.iter().for_each(|kept| drop(fs::remove_file(kept)));
+                discard(kept.as_deref());
                 Err(error.error)
             }
         });
@@ -228,10 +228,17 @@ pub fn place(drafts: Vec<Draft>) -> Result<(), SaveError> {
         }
     }
     for (path, kept) in &placed {
-        kept.iter().for_each(|kept| drop(fs::remove_file(kept)));
+        discard(kept.as_deref());
         sync_folder(folder_of(path));
     }
     Ok(())
+}
+
+/// Removes what was kept of a former file. If it cannot be, the next process does.
+fn discard(kept: Option<&Path>) {
+    if let Some(kept) = kept {
+        let _ = fs::remove_file(kept);
+    }
 }
 
 /// Puts back what was replaced, after an error.
