@@ -9,7 +9,7 @@
 
 use glam::Vec3;
 use libfuzzer_sys::fuzz_target;
-use phong_bvh::{BuildOptions, World, Primitives, Hit, Hits8, Level, Preset, Ray, Rays8, Sphere};
+use phong_bvh::{BuildOptions, World, Primitives, Hits8, Level, Preset, Ray, Rays8, Sphere};
 
 const PRESETS: &[Preset] = &[Preset::Fast, Preset::Balanced, Preset::Best, Preset::Compact];
 
@@ -87,8 +87,6 @@ fn read(numbers: &mut Numbers<'_>) -> Option<(Vec<Primitives>, Vec<Ray>, &'stati
 fuzz_target!(|bytes: &[u8]| {
     let Some((geometry, rays, presets)) = read(&mut Numbers(bytes)) else { return };
     let mut expected = Vec::new();
-    let mut hits = vec![Hit::NONE; rays.len()];
-    let mut blocked = vec![false; rays.len()];
     let eights = Rays8::of(&rays);
     let mut hits8 = vec![Hits8::NONE; eights.len()];
     let mut blocked8 = vec![0; eights.len()];
@@ -99,16 +97,12 @@ fuzz_target!(|bytes: &[u8]| {
             if expected.is_empty() {
                 expected = rays.iter().map(|ray| bvh.intersect_brute_force(ray)).collect();
             }
-            bvh.intersect_bundle(&rays, &mut hits);
-            bvh.occluded_bundle(&rays, &mut blocked);
             bvh.intersect_eights(&eights, &mut hits8);
             bvh.occluded_eights(&eights, &mut blocked8);
             for (i, ray) in rays.iter().enumerate() {
                 let expected = expected[i];
                 assert_eq!(bvh.intersect(ray), expected, "{ray:?} {options:?}");
                 assert_eq!(bvh.occluded(ray), expected.is_some(), "{ray:?} {options:?}");
-                assert_eq!(hits[i], expected, "{ray:?} of a bundle, {options:?}");
-                assert_eq!(blocked[i], expected.is_some(), "{ray:?} of a bundle, {options:?}");
                 assert_eq!(hits8[i / 8].get(i % 8), expected, "{ray:?} of eight, {options:?}");
                 let blocked = blocked8[i / 8] >> (i % 8) & 1 != 0;
                 assert_eq!(blocked, expected.is_some(), "{ray:?} of eight, {options:?}");

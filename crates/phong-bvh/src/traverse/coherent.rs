@@ -1,17 +1,17 @@
 //! Rays that go the same way, together down the tree.
 //!
-//! Up to 64 rays whose directions agree in sign share one walk. A node is tested once for all of
+//! Up to 64 rays, of eight eights, whose directions agree in sign share one walk. A node is tested once for all of
 //! them, as a [`Frustum`]. A leaf's box is then tested against the rays themselves, eight at a time, and
 //! those it stops are tested against its primitives one by one, just as in any other walk. No box that a
 //! ray alone would have entered is left out, and hits are the same.
 
 use std::marker::PhantomData;
 
-use fearless_simd::{Simd, prelude::*};
+use fearless_simd::{Simd, f32x8, mask32x8, prelude::*, u32x8};
 
 use super::{
     World,
-    columns::{Columns, GROUP, PACKETS},
+    columns::{Columns, PACKETS, Packets},
     errand::Errand,
     frustum::Frustum,
     leaves::{Content, Leaves},
@@ -19,7 +19,7 @@ use super::{
 };
 use crate::{
     level::Kernel,
-    local::Ray,
+    local::Rays8,
     node8::{Kind, NODE, REFS, Ref, Row, rows},
 };
 
@@ -54,49 +54,133 @@ impl Group {
 /// Nodes and leaves to visit.
 type Entries = [Entry; super::STACK];
 
-/// Whether `rays` are worth going together: they agree in sign, and all but in direction.
-pub(super) fn is_coherent(rays: &[Ray]) -> bool {
-    const SPREAD: f32 = 0.05;
-    let first = rays[0].dir;
-    rays.len() >= 16 && rays.iter().all(|ray| (ray.dir - first).abs().max_element() <= SPREAD)
-}
+/// The least rays that are worth going together.
+const FEWEST: usize = 16;
+/// How far directions may lie apart within a group, along each axis.
+const SPREAD: f32 = 0.05;
 
-/// How many of the first rays agree in the signs of their directions.
-pub(super) fn same_octant(rays: &[Ray]) -> usize {
-    let Some(first) = rays.first() else { return 0 };
-    let octant = first.dir.is_negative_bitmask();
-    let others = rays.iter().take(GROUP);
-    others.take_while(|ray| ray.dir.is_negative_bitmask() == octant).count()
-}
-
-/// Rays, together. False: given up, with what was found so far; they do not go together after all.
-pub(super) struct Together<'a, E, C> {
+/// Sends groups of rays together down the tree, out of up to [`PACKETS`] eights at a time. What is left in
+/// `lanes` then has to be sent ray by ray.
+pub(super) struct Groups<'a, E, C> {
     pub(super) world: &'a World<'a>,
     pub(super) root: Ref,
-    pub(super) rays: &'a [Ray],
+    pub(super) rays: &'a [Rays8],
+    /// Which of the rays have to be sent, a bit each.
+    pub(super) lanes: &'a mut [u32],
     pub(super) errand: &'a mut E,
     pub(super) group: &'a mut Group,
     pub(super) content: PhantomData<C>,
 }
 
-impl<E: Errand, C: Content> Kernel for Together<'_, E, C> {
-    type Output = bool;
+impl<E: Errand, C: Content> Kernel for Groups<'_, E, C> {
+    type Output = ();
 
     #[inline(always)]
-    fn run<S: Simd>(self, simd: S) -> bool {
-        let Self { world, root, rays, errand, group, .. } = self;
+    fn run<S: Simd>(self, simd: S) {
+        let Self { world, root, rays, lanes, errand, group, .. } = self;
+        let chunks = rays.chunks(PACKETS).zip(lanes.chunks_mut(PACKETS));
+        for (i, (rays, lanes)) in chunks.enumerate() {
+            let mut left = [0; PACKETS];
+            left[..lanes.len()].copy_from_slice(lanes);
+            let signs = signs(simd, rays);
+            loop {
+                let packets = Packets { rays, first_eight: i * PACKETS, lanes: left };
+                if packets.count() < FEWEST {
+                    break;
+                }
+                let packets = same_octant(packets, &signs);
+                for (left, taken) in left.iter_mut().zip(packets.lanes) {
+                    *left &= !taken;
+                }
+                if packets.count() < FEWEST || !is_coherent(simd, &packets) {
+                    continue;
+                }
+                let together = Together::<E, C> { world, root, packets, content: PhantomData };
+                if together.run(simd, errand, group) {
+                    for (lanes, done) in lanes.iter_mut().zip(packets.lanes) {
+                        *lanes &= !done;
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Which directions of some eights are negative along each axis, a bit each.
+#[inline(always)]
+fn signs<S: Simd>(simd: S, rays: &[Rays8]) -> [[u32; 3]; PACKETS] {
+    let mut signs = [[0; 3]; PACKETS];
+    for (rays, signs) in rays.iter().zip(&mut signs) {
+        for axis in 0..3 {
+            let bits = f32x8::load_array_ref(simd, &rays.dir[axis]).bitcast::<u32x8<S>>();
+            let sign = u32x8::splat(simd, 1 << 31);
+            signs[axis] = bits.simd_ge(sign).to_bitmask() as u32;
+        }
+    }
+    signs
+}
+
+/// The rays that agree with the first in the signs of their directions.
+#[inline(always)]
+fn same_octant<'a>(packets: Packets<'a>, signs: &[[u32; 3]; PACKETS]) -> Packets<'a> {
+    let (packet, lane) = packets.first();
+    let [x, y, z] = signs[packet];
+    // All bits, where it is negative.
+    let negative = |sign: u32| 0_u32.wrapping_sub(sign >> lane & 1);
+    let [x, y, z] = [negative(x), negative(y), negative(z)];
+    let mut lanes = packets.lanes;
+    for (lanes, signs) in lanes.iter_mut().zip(signs) {
+        *lanes &= !((signs[0] ^ x) | (signs[1] ^ y) | (signs[2] ^ z));
+    }
+    Packets { lanes, ..packets }
+}
+
+/// Whether rays of an octant are worth going together: they all but agree in direction.
+#[inline(always)]
+fn is_coherent<S: Simd>(simd: S, packets: &Packets<'_>) -> bool {
+    let (packet, lane) = packets.first();
+    let first = &packets.rays[packet];
+    for (rays, &lanes) in packets.rays.iter().zip(&packets.lanes) {
+        let mut most = f32x8::splat(simd, 0.0);
+        for axis in 0..3 {
+            let dir = f32x8::load_array_ref(simd, &rays.dir[axis]);
+            most = most.max((dir - first.dir[axis][lane]).abs());
+        }
+        let near = most.simd_le(f32x8::splat(simd, SPREAD)).to_bitmask() as u32;
+        if lanes & !near != 0 {
+            return false;
+        }
+    }
+    true
+}
+
+/// Rays, together.
+struct Together<'a, E, C> {
+    world: &'a World<'a>,
+    root: Ref,
+    packets: Packets<'a>,
+    content: PhantomData<(E, C)>,
+}
+
+impl<E: Errand, C: Content> Together<'_, E, C> {
+    /// False: given up, with what was found so far; they do not go together after all.
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S, errand: &mut E, group: &mut Group) -> bool {
+        let Self { world, root, packets, .. } = self;
         let Group { columns, sheared, entries } = group;
-        columns.fill(simd, rays);
-        columns.t_max = [[-1.0; 8]; PACKETS];
-        for (i, ray) in rays.iter().enumerate().take(GROUP) {
-            columns.t_max[i / 8][i % 8] = errand.t_max(ray, i);
+        columns.fill(simd, &packets);
+        for (packet, rays) in packets.rays.iter().enumerate() {
+            let t_max = errand.t_max(rays, packets.first_eight + packet);
+            let own = mask32x8::from_bitmask(simd, packets.lanes[packet].into());
+            let t_max = own.select(f32x8::load_array(simd, t_max), f32x8::splat(simd, -1.0));
+            t_max.store_array(&mut columns.t_max[packet]);
         }
         // Where any hit will do, it does not matter from which end it is looked for.
         let backwards = if E::ANY { Frustum::backwards(columns) } else { None };
         let frustum = backwards.unwrap_or_else(|| Frustum::new(columns));
-        let sheared = (C::TRIANGLES && sheared.fill(simd, columns, rays)).then_some(&*sheared);
+        let sheared = (C::TRIANGLES && sheared.fill(simd, columns, &packets)).then_some(&*sheared);
         let mut farthest = columns.farthest(simd);
-        let mut patience = PATIENCE * rays.len();
+        let mut patience = PATIENCE * packets.count();
         entries[0] = Entry { key: u64::from(root.0), parent: 0 };
         let mut depth = 1;
         while depth > 0 {
@@ -122,14 +206,17 @@ impl<E: Errand, C: Content> Kernel for Together<'_, E, C> {
             if at.kind() == Some(Kind::Triangles)
                 && let Some(sheared) = sheared
             {
-                sheared.leaf(simd, world, rays, (at, met), columns, errand);
+                sheared.leaf(simd, world, &packets, (at, met), columns, errand);
             } else {
                 while met != 0 {
                     let i = met.trailing_zeros() as usize;
                     met &= met - 1;
-                    let leaves = C::Leaves::new(simd, &rays[i]);
-                    columns.t_max[i / 8][i % 8] =
-                        errand.leaf(simd, world, &leaves, (&rays[i], i), at);
+                    let (packet, lane) = (i / 8, i % 8);
+                    let ray = packets.rays[packet].get(lane);
+                    let leaves = C::Leaves::new(simd, &ray);
+                    let place = (packets.first_eight + packet, lane);
+                    columns.t_max[packet][lane] =
+                        errand.leaf(simd, world, &leaves, (&ray, place), at);
                 }
             }
             farthest = columns.farthest(simd);

@@ -1,18 +1,16 @@
-//! Up to 64 rays side by side, against one box.
+//! Up to eight eights of rays side by side, against one box.
 
-use fearless_simd::{Simd, f32x8, prelude::*};
+use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 
 use super::slabs::SLACK;
 use crate::{
     Aabb,
-    local::Ray,
+    local::Rays8,
     node8::{NODE, Row},
 };
 
-/// The most rays side by side.
-pub(super) const GROUP: usize = 64;
-/// Their packets.
-pub(super) const PACKETS: usize = GROUP / 8;
+/// The most eights of rays side by side.
+pub(super) const PACKETS: usize = 8;
 
 /// One number of each ray, in packets of eight.
 pub(super) type Column = [[f32; 8]; PACKETS];
@@ -20,18 +18,39 @@ pub(super) type Column = [[f32; 8]; PACKETS];
 /// Zeros.
 pub(super) const ZERO: Column = [[0.0; 8]; PACKETS];
 
-/// The rays by columns: what eight of them need to be tested against one box.
+/// The rays of a group: eights as they lie, and which of their rays belong to it, a bit each.
+#[derive(Clone, Copy)]
+pub(super) struct Packets<'a> {
+    /// At least one, at most [`PACKETS`].
+    pub(super) rays: &'a [Rays8],
+    /// The number of the first among the eights of the bundle.
+    pub(super) first_eight: usize,
+    /// At least one ray; of an eight that is not there none.
+    pub(super) lanes: [u32; PACKETS],
+}
+
+impl Packets<'_> {
+    /// How many rays there are.
+    pub(super) fn count(&self) -> usize {
+        self.lanes.iter().map(|lanes| lanes.count_ones() as usize).sum()
+    }
+
+    /// The packet and the lane of the first ray.
+    pub(super) fn first(&self) -> (usize, usize) {
+        let packet = self.lanes.iter().position(|&lanes| lanes != 0).unwrap_or(0);
+        (packet, self.lanes[packet].trailing_zeros() as usize & 7)
+    }
+}
+
+/// What rays are to be tested against one box with, by columns. In lanes without a ray of the group lie the
+/// numbers of its first, so that they change no bounds.
 #[derive(Debug)]
 pub(super) struct Columns {
-    pub(super) origin: [Column; 3],
-    pub(super) dir: [Column; 3],
     near_origin: [Column; 3],
     far_origin: [Column; 3],
     near_reciprocal: [Column; 3],
     far_reciprocal: [Column; 3],
-    pub(super) t_min: Column,
-    /// Where the rays end.
-    pub(super) end: Column,
+    t_min: Column,
     /// The best hit so far; −1 where there is no ray, or a blocked one, so that no box is met.
     pub(super) t_max: Column,
     pub(super) packets: usize,
@@ -59,14 +78,11 @@ pub(super) struct Bounds {
 impl Columns {
     /// No rays.
     pub(super) const EMPTY: Self = Self {
-        origin: [ZERO; 3],
-        dir: [ZERO; 3],
         near_origin: [ZERO; 3],
         far_origin: [ZERO; 3],
         near_reciprocal: [ZERO; 3],
         far_reciprocal: [ZERO; 3],
         t_min: ZERO,
-        end: ZERO,
         t_max: ZERO,
         packets: 0,
         near: [0; 3],
@@ -79,37 +95,46 @@ impl Columns {
         },
     };
 
-    /// Takes `rays`, which agree in the signs of their directions; how far each has to go is not known yet.
-    pub(super) fn fill<S: Simd>(&mut self, simd: S, rays: &[Ray]) {
+    /// Takes rays that agree in the signs of their directions; how far each has to go is not known yet.
+    pub(super) fn fill<S: Simd>(&mut self, simd: S, group: &Packets<'_>) {
         simd.vectorize(
             #[inline(always)]
-            || self.fill_at(simd, rays),
+            || self.fill_at(simd, group),
         );
     }
 
     #[inline(always)]
-    fn fill_at<S: Simd>(&mut self, simd: S, rays: &[Ray]) {
-        self.packets = rays.len().div_ceil(8).min(PACKETS);
-        let negative = rays[0].dir.is_negative_bitmask() as usize;
-        self.near = [negative & 1, 2 + (negative >> 1 & 1), 4 + (negative >> 2 & 1)];
+    fn fill_at<S: Simd>(&mut self, simd: S, group: &Packets<'_>) {
+        self.packets = group.rays.len().min(PACKETS);
+        let (packet, lane) = group.first();
+        let first = &group.rays[packet];
+        let negative = |axis: usize| usize::from(first.dir[axis][lane].is_sign_negative());
+        self.near = [negative(0), 2 + negative(1), 4 + negative(2)];
         // Lows, and highs with their signs turned: the least of those is the greatest.
         let most = f32x8::splat(simd, f32::INFINITY);
         let (mut starts, mut ends, mut reciprocals) = ([most; 8], [most; 8], [most; 8]);
-        for packet in 0..self.packets {
-            let [x, y, z, t_min, dx, dy, dz, end] = eight(simd, rays, packet);
+        for (packet, rays) in group.rays.iter().enumerate().take(PACKETS) {
+            let own = mask32x8::from_bitmask(simd, group.lanes[packet].into());
+            let (origin, dir) = (&rays.origin, &rays.dir);
+            let x = own_or_first(simd, own, &origin[0], first.origin[0][lane]);
+            let y = own_or_first(simd, own, &origin[1], first.origin[1][lane]);
+            let z = own_or_first(simd, own, &origin[2], first.origin[2][lane]);
+            let dx = own_or_first(simd, own, &dir[0], first.dir[0][lane]);
+            let dy = own_or_first(simd, own, &dir[1], first.dir[1][lane]);
+            let dz = own_or_first(simd, own, &dir[2], first.dir[2][lane]);
+            let t_min = own_or_first(simd, own, &rays.t_min, first.t_min[lane]);
+            let end = own_or_first(simd, own, &rays.t_max, first.t_max[lane]);
             t_min.store_array(&mut self.t_min[packet]);
-            end.store_array(&mut self.end[packet]);
             starts[6] = starts[6].min(t_min);
             starts[7] = starts[7].min(-end);
             let pad = x.abs().max(y.abs()).max(z.abs()) * SLACK + 1e-24;
             for (axis, (origin, dir)) in [(x, dx), (y, dy), (z, dz)].into_iter().enumerate() {
                 let (low, high) = (origin - pad, origin + pad);
-                let (near, far) = if negative >> axis & 1 != 0 { (low, high) } else { (high, low) };
+                let back = self.near[axis] & 1 != 0;
+                let (near, far) = if back { (low, high) } else { (high, low) };
                 let reciprocal = (f32x8::splat(simd, 1.0) / dir)
                     .max(f32x8::splat(simd, -1e37))
                     .min(f32x8::splat(simd, 1e37));
-                origin.store_array(&mut self.origin[axis][packet]);
-                dir.store_array(&mut self.dir[axis][packet]);
                 near.store_array(&mut self.near_origin[axis][packet]);
                 far.store_array(&mut self.far_origin[axis][packet]);
                 reciprocal.store_array(&mut self.near_reciprocal[axis][packet]);
@@ -167,14 +192,15 @@ impl Columns {
     }
 }
 
-/// Eight rays, number by number. The last packet is filled up with the last ray.
+/// The numbers of the rays that are there, and in the other lanes that of the first of all.
 #[inline(always)]
-fn eight<S: Simd>(simd: S, rays: &[Ray], packet: usize) -> [f32x8<S>; 8] {
-    let row = |i: usize| {
-        let Ray { origin: o, t_min, dir: d, t_max } = rays[(8 * packet + i).min(rays.len() - 1)];
-        f32x8::simd_from(simd, [o.x, o.y, o.z, t_min, d.x, d.y, d.z, t_max])
-    };
-    turned([row(0), row(1), row(2), row(3), row(4), row(5), row(6), row(7)])
+pub(super) fn own_or_first<S: Simd>(
+    simd: S,
+    own: mask32x8<S>,
+    lanes: &[f32; 8],
+    first: f32,
+) -> f32x8<S> {
+    own.select(f32x8::load_array_ref(simd, lanes), f32x8::splat(simd, first))
 }
 
 /// Rows as columns. As with cards: cut in halves that are then merged, three times.

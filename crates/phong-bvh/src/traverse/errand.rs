@@ -1,8 +1,6 @@
 //! What rays are sent for: the closest hit, or any.
 
-use std::ops::Range;
-
-use fearless_simd::{Simd, f32x8, prelude::*};
+use fearless_simd::{Simd, f32x8, mask32x8, prelude::*, u32x8};
 
 use super::{
     Best, World,
@@ -10,31 +8,26 @@ use super::{
     walk::{Stack, Walk},
 };
 use crate::{
-    local::{Hit, Ray},
+    local::{Hits8, Ray, Rays8},
     node8::Ref,
 };
 
+/// Where a ray is in a bundle: the number of its eight, and its lane.
+pub(super) type At = (usize, usize);
+
 /// What the rays of a bundle are sent for, and where their answers go.
 pub(super) trait Errand {
-    /// The same for some of the rays.
-    type Part<'a>: Errand
-    where
-        Self: 'a;
-
     /// Whether any hit will do.
     const ANY: bool;
 
-    /// The same for the rays of a range.
-    fn part(&mut self, range: Range<usize>) -> Self::Part<'_>;
-
-    /// The first ray from `from` on that has to be sent.
-    fn next(&self, rays: &[Ray], from: usize) -> Option<usize>;
+    /// The rays of an eight that have to be sent, a bit each.
+    fn wanted(&self, rays: &Rays8, eight: usize) -> u32;
 
     /// What is known of a ray before it is sent.
-    fn best(&self, ray: &Ray, index: usize) -> Best;
+    fn best(&self, ray: &Ray, at: At) -> Best;
 
-    /// How far a ray has to go; −1: it need not.
-    fn t_max(&self, ray: &Ray, index: usize) -> f32;
+    /// How far each ray of an eight has to go.
+    fn t_max(&self, rays: &Rays8, eight: usize) -> [f32; 8];
 
     /// One step of a ray on its own; whether there is another.
     fn step<S: Simd, L: Leaves<S>>(
@@ -45,60 +38,53 @@ pub(super) trait Errand {
     ) -> bool;
 
     /// A ray on its own is back.
-    fn back(&mut self, index: usize, best: Best);
+    fn back(&mut self, at: At, best: Best);
 
-    /// A ray of a group, prepared, meets a leaf; how far it has to go from now on.
+    /// A ray of a group, prepared, meets a leaf; how far it has to go from now on, −1: no farther.
     fn leaf<S: Simd, L: Leaves<S>>(
         &mut self,
         simd: S,
         world: &World<'_>,
         leaves: &L,
-        ray: (&Ray, usize),
+        ray: (&Ray, At),
         leaf: Ref,
     ) -> f32;
 
-    /// Some of eight rays of a group, those in `mask`, hit a primitive; `t_max` is how far each has to go.
+    /// Some rays of an eight, those in `mask`, hit a primitive; `t_max` is how far each has to go.
     fn hits<S: Simd>(
         &mut self,
-        packet: usize,
+        simd: S,
+        eight: usize,
         mask: u32,
         prim: u32,
-        at: [f32x8<S>; 3],
+        hit: [f32x8<S>; 3],
         t_max: &mut [f32; 8],
     );
 }
 
 /// The closest hits. They come with the best outside the tree.
-pub(super) struct Closest<'a>(pub(super) &'a mut [Hit]);
+pub(super) struct Closest<'a>(pub(super) &'a mut [Hits8]);
 
-/// Whether anything is hit. Rays already blocked are not sent.
-pub(super) struct Any<'a>(pub(super) &'a mut [bool]);
+/// Whether anything is hit, a bit each. Rays already blocked are not sent.
+pub(super) struct Any<'a>(pub(super) &'a mut [u32]);
 
 impl Errand for Closest<'_> {
-    type Part<'b>
-        = Closest<'b>
-    where
-        Self: 'b;
-
     const ANY: bool = false;
 
-    fn part(&mut self, range: Range<usize>) -> Closest<'_> {
-        Closest(&mut self.0[range])
+    #[inline(always)]
+    fn wanted(&self, rays: &Rays8, _: usize) -> u32 {
+        rays.there
     }
 
     #[inline(always)]
-    fn next(&self, rays: &[Ray], from: usize) -> Option<usize> {
-        (from < rays.len()).then_some(from)
+    fn best(&self, _: &Ray, (eight, lane): At) -> Best {
+        let hits = &self.0[eight];
+        Best::outside(hits.t[lane], hits.prim[lane])
     }
 
     #[inline(always)]
-    fn best(&self, _: &Ray, index: usize) -> Best {
-        Best::outside(self.0[index].t, self.0[index].prim)
-    }
-
-    #[inline(always)]
-    fn t_max(&self, _: &Ray, index: usize) -> f32 {
-        self.0[index].t
+    fn t_max(&self, _: &Rays8, eight: usize) -> [f32; 8] {
+        self.0[eight].t
     }
 
     #[inline(always)]
@@ -112,11 +98,12 @@ impl Errand for Closest<'_> {
     }
 
     #[inline(always)]
-    fn back(&mut self, index: usize, best: Best) {
+    fn back(&mut self, (eight, lane): At, best: Best) {
         // Not the hit it was sent with: a walk is told its distance and number alone, and a group that
         // gave up has found weights as well.
-        if best.0.prim != self.0[index].prim {
-            self.0[index] = best.0;
+        let hits = &mut self.0[eight];
+        if best.0.prim != hits.prim[lane] {
+            hits.set(lane, best.0);
         }
     }
 
@@ -126,62 +113,60 @@ impl Errand for Closest<'_> {
         simd: S,
         world: &World<'_>,
         leaves: &L,
-        (ray, index): (&Ray, usize),
+        (ray, (eight, lane)): (&Ray, At),
         leaf: Ref,
     ) -> f32 {
-        let mut best = Best(self.0[index]);
+        let hits = &mut self.0[eight];
+        let mut best = Best::outside(hits.t[lane], hits.prim[lane]);
         leaves.offer(simd, world, ray, leaf, &mut best);
-        self.0[index] = best.0;
+        if best.0.prim != hits.prim[lane] {
+            hits.set(lane, best.0);
+        }
         best.0.t
     }
 
     #[inline(always)]
     fn hits<S: Simd>(
         &mut self,
-        packet: usize,
-        mut mask: u32,
+        simd: S,
+        eight: usize,
+        mask: u32,
         prim: u32,
         [t, u, v]: [f32x8<S>; 3],
         t_max: &mut [f32; 8],
     ) {
-        let (t, u, v) = (t.to_array(), u.to_array(), v.to_array());
-        while mask != 0 {
-            let lane = mask.trailing_zeros() as usize & 7;
-            mask &= mask - 1;
-            let hit = &mut self.0[8 * packet + lane];
-            let mut best = Best(*hit);
-            best.offer(t[lane], prim, u[lane], v[lane]);
-            *hit = best.0;
-            t_max[lane] = best.0.t;
-        }
+        // As `Best::offer` has it.
+        let hits = &mut self.0[eight];
+        let old = f32x8::load_array_ref(simd, &hits.t);
+        let old_prim = u32x8::load_array_ref(simd, &hits.prim);
+        let prim = u32x8::splat(simd, prim);
+        let better = t.simd_lt(old) | (t.simd_eq(old) & prim.simd_lt(old_prim));
+        let better = better & mask32x8::from_bitmask(simd, mask.into());
+        hits.met |= better.to_bitmask() as u32;
+        better.select(t, old).store_array(&mut hits.t);
+        better.select(prim, old_prim).store_array(&mut hits.prim);
+        better.select(u, f32x8::load_array_ref(simd, &hits.u)).store_array(&mut hits.u);
+        better.select(v, f32x8::load_array_ref(simd, &hits.v)).store_array(&mut hits.v);
+        better.select(t, f32x8::load_array_ref(simd, t_max)).store_array(t_max);
     }
 }
 
 impl Errand for Any<'_> {
-    type Part<'b>
-        = Any<'b>
-    where
-        Self: 'b;
-
     const ANY: bool = true;
 
-    fn part(&mut self, range: Range<usize>) -> Any<'_> {
-        Any(&mut self.0[range])
+    #[inline(always)]
+    fn wanted(&self, rays: &Rays8, eight: usize) -> u32 {
+        rays.there & !self.0[eight]
     }
 
     #[inline(always)]
-    fn next(&self, _: &[Ray], from: usize) -> Option<usize> {
-        Some(from + self.0.get(from..)?.iter().position(|&blocked| !blocked)?)
-    }
-
-    #[inline(always)]
-    fn best(&self, ray: &Ray, _: usize) -> Best {
+    fn best(&self, ray: &Ray, _: At) -> Best {
         Best::new(ray.t_max)
     }
 
     #[inline(always)]
-    fn t_max(&self, ray: &Ray, index: usize) -> f32 {
-        if self.0[index] { -1.0 } else { ray.t_max }
+    fn t_max(&self, rays: &Rays8, _: usize) -> [f32; 8] {
+        rays.t_max
     }
 
     #[inline(always)]
@@ -195,8 +180,8 @@ impl Errand for Any<'_> {
     }
 
     #[inline(always)]
-    fn back(&mut self, index: usize, best: Best) {
-        self.0[index] = best.0.is_some();
+    fn back(&mut self, (eight, lane): At, best: Best) {
+        self.0[eight] |= u32::from(best.0.is_some()) << lane;
     }
 
     #[inline(always)]
@@ -205,29 +190,29 @@ impl Errand for Any<'_> {
         simd: S,
         world: &World<'_>,
         leaves: &L,
-        (ray, index): (&Ray, usize),
+        (ray, (eight, lane)): (&Ray, At),
         leaf: Ref,
     ) -> f32 {
-        if leaves.any(simd, world, ray, leaf) {
-            self.0[index] = true;
+        if !leaves.any(simd, world, ray, leaf) {
+            return ray.t_max;
         }
-        self.t_max(ray, index)
+        self.0[eight] |= 1 << lane;
+        -1.0
     }
 
     #[inline(always)]
     fn hits<S: Simd>(
         &mut self,
-        packet: usize,
-        mut mask: u32,
+        simd: S,
+        eight: usize,
+        mask: u32,
         _: u32,
         _: [f32x8<S>; 3],
         t_max: &mut [f32; 8],
     ) {
-        while mask != 0 {
-            let lane = mask.trailing_zeros() as usize & 7;
-            mask &= mask - 1;
-            self.0[8 * packet + lane] = true;
-            t_max[lane] = -1.0;
-        }
+        self.0[eight] |= mask;
+        let hit = mask32x8::from_bitmask(simd, mask.into());
+        let left = f32x8::load_array_ref(simd, t_max);
+        hit.select(f32x8::splat(simd, -1.0), left).store_array(t_max);
     }
 }

@@ -10,11 +10,11 @@ use fearless_simd::Simd;
 
 use super::{
     World,
-    errand::Errand,
+    errand::{At, Errand},
     leaves::Content,
     walk::{Stack, Walk},
 };
-use crate::{level::Kernel, local::Ray, node8::Ref, simd::prefetch};
+use crate::{level::Kernel, local::Rays8, node8::Ref, simd::prefetch};
 
 /// How many rays are on their way at once.
 pub(super) const RAYS: usize = 12;
@@ -26,7 +26,9 @@ pub(super) type Stacks = [Stack; RAYS];
 pub(super) struct Many<'a, E, C> {
     pub(super) world: &'a World<'a>,
     pub(super) root: Ref,
-    pub(super) rays: &'a [Ray],
+    pub(super) rays: &'a [Rays8],
+    /// Which of them, a bit each.
+    pub(super) lanes: &'a [u32],
     pub(super) errand: &'a mut E,
     pub(super) stacks: &'a mut Stacks,
     pub(super) content: PhantomData<C>,
@@ -37,23 +39,22 @@ impl<E: Errand, C: Content> Kernel for Many<'_, E, C> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Self { world, root, rays, errand, stacks, .. } = self;
-        let Some(first) = errand.next(rays, 0) else { return };
-        let best = errand.best(&rays[first], first);
-        let walk = Walk::<S, C::Leaves<S>>::new(simd, &rays[first], best, root);
+        let Self { world, root, rays, lanes, errand, stacks, .. } = self;
+        let mut coming = Coming { lanes, eight: 0, left: 0 };
+        let Some(first) = coming.next() else { return };
+        let ray = rays[first.0].get(first.1);
+        let walk = Walk::<S, C::Leaves<S>>::new(simd, &ray, errand.best(&ray, first), root);
         // All are the first ray until they are another.
         let mut walks = [walk; RAYS];
-        let mut indices = [first; RAYS];
+        let mut places = [first; RAYS];
         let mut going = [false; RAYS];
         going[0] = true;
         let mut active = 1;
-        let mut coming = first + 1;
         for i in 1..RAYS {
-            if let Some(index) = errand.next(rays, coming) {
-                let best = errand.best(&rays[index], index);
-                walks[i] = Walk::new(simd, &rays[index], best, root);
-                (indices[i], going[i]) = (index, true);
-                coming = index + 1;
+            if let Some(at) = coming.next() {
+                let ray = rays[at.0].get(at.1);
+                walks[i] = Walk::new(simd, &ray, errand.best(&ray, at), root);
+                (places[i], going[i]) = (at, true);
                 active += 1;
             }
         }
@@ -66,17 +67,39 @@ impl<E: Errand, C: Content> Kernel for Many<'_, E, C> {
                     prefetch(world.rows, walks[i].at().row());
                     continue;
                 }
-                errand.back(indices[i], walks[i].best());
-                if let Some(index) = errand.next(rays, coming) {
-                    let best = errand.best(&rays[index], index);
-                    walks[i] = Walk::new(simd, &rays[index], best, root);
-                    indices[i] = index;
-                    coming = index + 1;
+                errand.back(places[i], walks[i].best());
+                if let Some(at) = coming.next() {
+                    let ray = rays[at.0].get(at.1);
+                    walks[i] = Walk::new(simd, &ray, errand.best(&ray, at), root);
+                    places[i] = at;
                 } else {
                     going[i] = false;
                     active -= 1;
                 }
             }
         }
+    }
+}
+
+/// The rays that have not been sent yet, in order.
+struct Coming<'a> {
+    lanes: &'a [u32],
+    /// How many eights were looked at.
+    eight: usize,
+    /// What is left of the last of them.
+    left: u32,
+}
+
+impl Coming<'_> {
+    /// The next ray.
+    #[inline(always)]
+    fn next(&mut self) -> Option<At> {
+        while self.left == 0 {
+            self.left = *self.lanes.get(self.eight)?;
+            self.eight += 1;
+        }
+        let lane = self.left.trailing_zeros() as usize & 7;
+        self.left &= self.left - 1;
+        Some((self.eight - 1, lane))
     }
 }

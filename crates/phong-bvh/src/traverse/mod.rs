@@ -17,10 +17,10 @@ pub(crate) use self::boxes::{Boxes, Stack as BoxStack};
 pub(crate) use self::eights::Planes;
 pub(crate) use self::slabs::meet;
 
-use std::{cell::RefCell, marker::PhantomData, ops::Range};
+use std::{cell::RefCell, marker::PhantomData};
 
 use self::{
-    coherent::{Group, Together, is_coherent, same_octant},
+    coherent::{Group, Groups},
     eights::{AnyOfFew, ClosestOfFew},
     errand::{Any, Closest, Errand},
     interleaved::{Many, RAYS, Stacks},
@@ -29,7 +29,6 @@ use self::{
 use crate::{
     Cost, Primitives,
     build::Nodes,
-    lanes,
     level::Token,
     local::{Hit, Hits8, Ray, Rays8},
     node8::{Kind, Ref, Row, rows},
@@ -70,29 +69,11 @@ impl<'a> World<'a> {
         }
     }
 
-    /// The closest hit of each ray; `hits` come with the best outside the tree.
-    pub(crate) fn closest_of_many(&self, rays: &[Ray], hits: &mut [Hit]) {
-        match self.only {
-            Some(Kind::Triangles) => self.many_in::<OnlyTriangles, _>(rays, Closest(hits)),
-            Some(Kind::Spheres) => self.many_in::<OnlySpheres, _>(rays, Closest(hits)),
-            _ => self.many_in::<Anything, _>(rays, Closest(hits)),
-        }
-    }
-
-    /// Whether each ray hits anything; those already `blocked` stay so.
-    pub(crate) fn any_of_many(&self, rays: &[Ray], blocked: &mut [bool]) {
-        match self.only {
-            Some(Kind::Triangles) => self.many_in::<OnlyTriangles, _>(rays, Any(blocked)),
-            Some(Kind::Spheres) => self.many_in::<OnlySpheres, _>(rays, Any(blocked)),
-            _ => self.many_in::<Anything, _>(rays, Any(blocked)),
-        }
-    }
-
     /// The closest hit of each ray, `planes` being the geometry outside the tree.
     pub(crate) fn closest_of_eights(&self, planes: Planes<'a>, rays: &[Rays8], hits: &mut [Hits8]) {
         let block = self.handful();
         self.token.run(ClosestOfFew { planes, block, rays, hits });
-        if block.is_none() && self.root.is_some() {
+        if block.is_none() {
             self.closer_of_eights(rays, hits);
         }
         end(hits);
@@ -112,37 +93,29 @@ impl<'a> World<'a> {
     /// The closest hit of each ray in the tree; `hits` come with how far each has to look, and what
     /// is there.
     pub(crate) fn closer_of_eights(&self, rays: &[Rays8], hits: &mut [Hits8]) {
-        GATHERED.with_borrow_mut(|Gathered { rays: alone, hits: found, .. }| {
-            gather(rays, alone);
-            found.clear();
-            found.extend(all(rays).map(|(i, lane)| hits[i].get(lane)));
-            self.closest_of_many(alone, found);
-            for ((i, lane), &hit) in all(rays).zip(&*found) {
-                hits[i].set(lane, hit);
-            }
-        });
+        match self.only {
+            Some(Kind::Triangles) => self.many_in::<OnlyTriangles, _>(rays, Closest(hits)),
+            Some(Kind::Spheres) => self.many_in::<OnlySpheres, _>(rays, Closest(hits)),
+            _ => self.many_in::<Anything, _>(rays, Closest(hits)),
+        }
     }
 
     /// Whether each ray hits anything, a bit each, `planes` being the geometry outside the tree.
     pub(crate) fn any_of_eights(&self, planes: Planes<'a>, rays: &[Rays8], blocked: &mut [u32]) {
         let block = self.handful();
         self.token.run(AnyOfFew { planes, block, rays, blocked });
-        if block.is_none() && self.root.is_some() {
+        if block.is_none() {
             self.more_of_eights(rays, blocked);
         }
     }
 
     /// Whether each ray hits anything in the tree, a bit each; those already `blocked` stay so.
     pub(crate) fn more_of_eights(&self, rays: &[Rays8], blocked: &mut [u32]) {
-        GATHERED.with_borrow_mut(|Gathered { rays: alone, blocked: found, .. }| {
-            gather(rays, alone);
-            found.clear();
-            found.extend(all(rays).map(|(i, lane)| blocked[i] >> lane & 1 != 0));
-            self.any_of_many(alone, found);
-            for ((i, lane), &found) in all(rays).zip(&*found) {
-                blocked[i] |= u32::from(found) << lane;
-            }
-        });
+        match self.only {
+            Some(Kind::Triangles) => self.many_in::<OnlyTriangles, _>(rays, Any(blocked)),
+            Some(Kind::Spheres) => self.many_in::<OnlySpheres, _>(rays, Any(blocked)),
+            _ => self.many_in::<Anything, _>(rays, Any(blocked)),
+        }
     }
 
     /// The only leaf, if the tree is one and holds spheres.
@@ -169,33 +142,25 @@ impl<'a> World<'a> {
         });
     }
 
-    /// A bundle, run by run.
-    fn many_in<C: Content, E: Errand>(&self, rays: &[Ray], mut errand: E) {
+    /// The rays of a bundle: together where that is worth it, then the others on their own.
+    fn many_in<C: Content, E: Errand>(&self, rays: &[Rays8], mut errand: E) {
         let Some(root) = self.root else { return };
-        Runs::of::<C, E>(rays, root).for_each(|(range, together)| {
-            self.run_in::<C, _>(root, &rays[range.clone()], errand.part(range), together);
-        });
-    }
-
-    /// A part of a bundle, together if that is worth it.
-    fn run_in<C: Content, E: Errand>(
-        &self,
-        root: Ref,
-        rays: &[Ray],
-        mut errand: E,
-        together: bool,
-    ) {
         let (world, content, errand) = (self, PhantomData::<C>, &mut errand);
-        let done = together
-            && GROUP.with_borrow_mut(|group| {
-                let errand = &mut *errand;
-                self.token.run(Together { world, root, rays, errand, group, content })
-            });
-        if !done {
+        LANES.with_borrow_mut(|lanes| {
+            lanes.clear();
+            let wanted = rays.iter().enumerate().map(|(i, rays)| errand.wanted(rays, i));
+            lanes.extend(wanted);
+            // Where the root is a leaf it has no box.
+            if root.kind().is_none() && (C::ANY_TOGETHER || !E::ANY) {
+                GROUP.with_borrow_mut(|group| {
+                    let (lanes, errand) = (&mut *lanes, &mut *errand);
+                    self.token.run(Groups { world, root, rays, lanes, errand, group, content });
+                });
+            }
             STACKS.with_borrow_mut(|stacks| {
-                self.token.run(Many { world, root, rays, errand, stacks, content });
+                self.token.run(Many { world, root, rays, lanes, errand, stacks, content });
             });
-        }
+        });
     }
 
     #[inline(always)]
@@ -219,16 +184,9 @@ thread_local! {
     /// Stacks of a thread: clearing one for each ray would cost a tenth of its time.
     static LONE: RefCell<single::Stack> = const { RefCell::new([0; STACK]) };
     static STACKS: RefCell<Stacks> = const { RefCell::new([walk::Stack::EMPTY; RAYS]) };
-    static GATHERED: RefCell<Gathered> = RefCell::default();
+    /// The rays of a bundle that have to be sent, a bit each.
+    static LANES: RefCell<Vec<u32>> = const { RefCell::new(Vec::new()) };
     static GROUP: RefCell<Group> = const { RefCell::new(Group::EMPTY) };
-}
-
-/// Rays of eights one behind the other, and what they meet.
-#[derive(Default)]
-struct Gathered {
-    rays: Vec<Ray>,
-    hits: Vec<Hit>,
-    blocked: Vec<bool>,
 }
 
 /// Where nothing was hit, sets the distance to +∞.
@@ -237,66 +195,6 @@ fn end(hits: &mut [Hits8]) {
         for (t, prim) in hits.t.iter_mut().zip(hits.prim) {
             *t = if prim == u32::MAX { f32::INFINITY } else { *t };
         }
-    }
-}
-
-/// The rays there are: the numbers of their eights and lanes.
-fn all(rays: &[Rays8]) -> impl Iterator<Item = (usize, usize)> {
-    rays.iter().enumerate().flat_map(|(i, rays)| lanes(rays.there).map(move |lane| (i, lane)))
-}
-
-fn gather(rays: &[Rays8], alone: &mut Vec<Ray>) {
-    alone.clear();
-    for rays in rays {
-        if rays.there == 0xff {
-            for lane in 0..8 {
-                alone.push(rays.get(lane));
-            }
-        } else {
-            alone.extend(lanes(rays.there).map(|lane| rays.get(lane)));
-        }
-    }
-}
-
-/// A bundle cut into runs: rays that go together, and others.
-struct Runs<'a> {
-    rays: &'a [Ray],
-    /// Whether any may go together: not where the root is a leaf, which has no box, nor where it never
-    /// pays.
-    together: bool,
-    next: usize,
-    /// A run of the first kind that was found behind one of the second.
-    found: Option<Range<usize>>,
-}
-
-impl<'a> Runs<'a> {
-    fn of<C: Content, E: Errand>(rays: &'a [Ray], root: Ref) -> Self {
-        let together = root.kind().is_none() && (C::ANY_TOGETHER || !E::ANY);
-        Self { rays, together, next: 0, found: None }
-    }
-}
-
-impl Iterator for Runs<'_> {
-    type Item = (Range<usize>, bool);
-
-    fn next(&mut self) -> Option<Self::Item> {
-        if let Some(run) = self.found.take() {
-            return Some((run, true));
-        }
-        let start = self.next;
-        while self.next < self.rays.len() {
-            let from = self.next;
-            self.next += same_octant(&self.rays[from..]);
-            let run = from..self.next;
-            if self.together && is_coherent(&self.rays[run.clone()]) {
-                if from == start {
-                    return Some((run, true));
-                }
-                self.found = Some(run);
-                return Some((start..from, false));
-            }
-        }
-        (start < self.next).then_some((start..self.next, false))
     }
 }
 

@@ -1,15 +1,15 @@
-//! Up to 64 rays side by side, against the triangles of a leaf.
+//! Up to eight eights of rays side by side, against the triangles of a leaf.
 
-use fearless_simd::{Simd, f32x8, prelude::*};
+use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 
 use super::{
     World,
-    columns::{Column, Columns, PACKETS, ZERO, least},
+    columns::{Column, Columns, PACKETS, Packets, ZERO, least, own_or_first},
     errand::Errand,
     leaves::Triangles,
 };
 use crate::{
-    local::Ray,
+    local::Rays8,
     node8::{Ref, Row, rows},
     primitives::triangle::{BLOCK, Shear, ShearBounds, Shears},
 };
@@ -32,25 +32,37 @@ impl Sheared {
     };
 
     /// Takes the rays of `columns`; false where their directions are not longest along the same axis.
-    pub(super) fn fill<S: Simd>(&mut self, simd: S, columns: &Columns, rays: &[Ray]) -> bool {
+    pub(super) fn fill<S: Simd>(
+        &mut self,
+        simd: S,
+        columns: &Columns,
+        group: &Packets<'_>,
+    ) -> bool {
         simd.vectorize(
             #[inline(always)]
-            || self.fill_at(simd, columns, rays),
+            || self.fill_at(simd, columns, group),
         )
     }
 
     #[inline(always)]
-    fn fill_at<S: Simd>(&mut self, simd: S, columns: &Columns, rays: &[Ray]) -> bool {
-        let axes = Shear::new(&rays[0]).axes;
+    fn fill_at<S: Simd>(&mut self, simd: S, columns: &Columns, group: &Packets<'_>) -> bool {
+        let (packet, lane) = group.first();
+        let first = &group.rays[packet];
+        let axes = Shear::new(&first.get(lane)).axes;
         let [x, y, z] = axes;
         let zero = f32x8::splat(simd, 0.0);
         let most = f32x8::splat(simd, f32::INFINITY);
         // As in `Columns`: lows, and highs with their signs turned.
         let mut slopes = [most, most, most, most, zero, zero, zero, zero];
-        for packet in 0..columns.packets.min(PACKETS) {
-            let load = |axis: usize| f32x8::load_array_ref(simd, &columns.dir[axis][packet]);
-            let (dx, dy, dz) = (load(x), load(y), load(z));
-            let [ax, ay, az] = [load(0).abs(), load(1).abs(), load(2).abs()];
+        for (packet, rays) in group.rays.iter().enumerate().take(PACKETS) {
+            let own = mask32x8::from_bitmask(simd, group.lanes[packet].into());
+            let dx = own_or_first(simd, own, &rays.dir[x], first.dir[x][lane]);
+            let dy = own_or_first(simd, own, &rays.dir[y], first.dir[y][lane]);
+            let dz = own_or_first(simd, own, &rays.dir[z], first.dir[z][lane]);
+            // In the order of the axes, not of this ray's: ties go to the first.
+            let ax = own_or_first(simd, own, &rays.dir[0], first.dir[0][lane]).abs();
+            let ay = own_or_first(simd, own, &rays.dir[1], first.dir[1][lane]).abs();
+            let az = own_or_first(simd, own, &rays.dir[2], first.dir[2][lane]).abs();
             let is_x = ax.simd_ge(ay) & ax.simd_ge(az);
             let is_y = !is_x & ay.simd_ge(az);
             let agree = match z {
@@ -84,14 +96,14 @@ impl Sheared {
         &self,
         simd: S,
         world: &World<'_>,
-        rays: &[Ray],
+        group: &Packets<'_>,
         met: (Ref, u64),
         columns: &mut Columns,
         errand: &mut E,
     ) {
         simd.vectorize(
             #[inline(always)]
-            || self.leaf_at(simd, world, rays, met, columns, errand),
+            || self.leaf_at(simd, world, group, met, columns, errand),
         );
     }
 
@@ -100,7 +112,7 @@ impl Sheared {
         &self,
         simd: S,
         world: &World<'_>,
-        rays: &[Ray],
+        group: &Packets<'_>,
         (leaf, mut met): (Ref, u64),
         columns: &mut Columns,
         errand: &mut E,
@@ -114,9 +126,12 @@ impl Sheared {
             while met != 0 {
                 let i = met.trailing_zeros() as usize;
                 met &= met - 1;
-                let triangles = Triangles::of(simd, self.one(columns, i));
-                columns.t_max[i / 8][i % 8] =
-                    errand.leaf(simd, world, &triangles, (&rays[i], i), leaf);
+                let (packet, lane) = (i / 8, i % 8);
+                let rays = &group.rays[packet];
+                let triangles = Triangles::of(simd, self.one(rays, packet, lane));
+                let at = (group.first_eight + packet, lane);
+                columns.t_max[packet][lane] =
+                    errand.leaf(simd, world, &triangles, (&rays.get(lane), at), leaf);
             }
             return;
         }
@@ -137,9 +152,11 @@ impl Sheared {
                 let packet = left.trailing_zeros() as usize / 8;
                 let among = (left >> (8 * packet)) as u32 & 0xff;
                 left &= !(0xff << (8 * packet));
-                let (mask, at) = self.eight(simd, columns, packet).intersect(simd, corners, among);
+                let shears = self.eight(simd, &group.rays[packet], packet);
+                let (mask, at) = shears.intersect(simd, corners, among);
                 if mask != 0 {
-                    errand.hits(packet, mask, prim, at, &mut columns.t_max[packet]);
+                    let eight = group.first_eight + packet;
+                    errand.hits(simd, eight, mask, prim, at, &mut columns.t_max[packet]);
                 }
             }
         }
@@ -147,30 +164,30 @@ impl Sheared {
 
     /// One ray.
     #[inline(always)]
-    fn one(&self, columns: &Columns, i: usize) -> Shear {
-        let at = |column: &Column| column[i / 8 % 8][i % 8];
+    fn one(&self, rays: &Rays8, packet: usize, lane: usize) -> Shear {
+        let at = |lanes: &[f32; 8]| lanes[lane % 8];
         let [x, y, z] = self.all.axes;
         Shear {
             axes: self.all.axes,
-            origin: [at(&columns.origin[x]), at(&columns.origin[y]), at(&columns.origin[z])],
-            slope: [at(&self.slope[0]), at(&self.slope[1])],
-            along: at(&columns.dir[z]),
-            t_min: at(&columns.t_min),
-            t_max: at(&columns.end),
+            origin: [at(&rays.origin[x]), at(&rays.origin[y]), at(&rays.origin[z])],
+            slope: [at(&self.slope[0][packet % 8]), at(&self.slope[1][packet % 8])],
+            along: at(&rays.dir[z]),
+            t_min: at(&rays.t_min),
+            t_max: at(&rays.t_max),
         }
     }
 
     /// Eight rays.
     #[inline(always)]
-    fn eight<S: Simd>(&self, simd: S, columns: &Columns, packet: usize) -> Shears<S> {
-        let at = |column: &Column| f32x8::load_array_ref(simd, &column[packet % 8]);
+    fn eight<S: Simd>(&self, simd: S, rays: &Rays8, packet: usize) -> Shears<S> {
+        let at = |lanes: &[f32; 8]| f32x8::load_array_ref(simd, lanes);
         let [x, y, z] = self.all.axes;
         Shears {
-            origin: [at(&columns.origin[x]), at(&columns.origin[y]), at(&columns.origin[z])],
-            slope: [at(&self.slope[0]), at(&self.slope[1])],
-            along: at(&columns.dir[z]),
-            t_min: at(&columns.t_min),
-            t_max: at(&columns.end),
+            origin: [at(&rays.origin[x]), at(&rays.origin[y]), at(&rays.origin[z])],
+            slope: [at(&self.slope[0][packet % 8]), at(&self.slope[1][packet % 8])],
+            along: at(&rays.dir[z]),
+            t_min: at(&rays.t_min),
+            t_max: at(&rays.t_max),
         }
     }
 }
