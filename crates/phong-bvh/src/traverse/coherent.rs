@@ -12,9 +12,9 @@ use fearless_simd::{Simd, f32x8, mask32x8, prelude::*, u32x8};
 use super::{
     World,
     columns::{Columns, PACKETS, Packets},
-    errand::Errand,
     frustum::Frustum,
     leaves::{Content, Leaves},
+    query::Query,
     sheared::Sheared,
 };
 use crate::{
@@ -59,25 +59,25 @@ const FEWEST: usize = 16;
 /// How far directions may lie apart within a group, along each axis.
 const SPREAD: f32 = 0.05;
 
-/// Sends groups of rays together down the tree, out of up to [`PACKETS`] eights at a time. What is left in
-/// `lanes` then has to be sent ray by ray.
+/// Traces groups of rays, each out of up to [`PACKETS`] eights. The rays that are left in `lanes` then have
+/// to be traced one by one.
 pub(super) struct Groups<'a, E, C> {
     pub(super) world: &'a World<'a>,
     pub(super) root: Ref,
     pub(super) rays: &'a [Rays8],
-    /// Which of the rays have to be sent, a bit each.
+    /// The rays that have to be traced, a bit each.
     pub(super) lanes: &'a mut [u32],
-    pub(super) errand: &'a mut E,
+    pub(super) query: &'a mut E,
     pub(super) group: &'a mut Group,
     pub(super) content: PhantomData<C>,
 }
 
-impl<E: Errand, C: Content> Kernel for Groups<'_, E, C> {
+impl<E: Query, C: Content> Kernel for Groups<'_, E, C> {
     type Output = ();
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Self { world, root, rays, lanes, errand, group, .. } = self;
+        let Self { world, root, rays, lanes, query, group, .. } = self;
         let chunks = rays.chunks(PACKETS).zip(lanes.chunks_mut(PACKETS));
         for (i, (rays, lanes)) in chunks.enumerate() {
             let mut left = [0; PACKETS];
@@ -96,7 +96,7 @@ impl<E: Errand, C: Content> Kernel for Groups<'_, E, C> {
                     continue;
                 }
                 let together = Together::<E, C> { world, root, packets, content: PhantomData };
-                if together.run(simd, errand, group) {
+                if together.run(simd, query, group) {
                     for (lanes, done) in lanes.iter_mut().zip(packets.lanes) {
                         *lanes &= !done;
                     }
@@ -154,7 +154,7 @@ fn is_coherent<S: Simd>(simd: S, packets: &Packets<'_>) -> bool {
     true
 }
 
-/// Rays, together.
+/// Traces one group.
 struct Together<'a, E, C> {
     world: &'a World<'a>,
     root: Ref,
@@ -162,15 +162,15 @@ struct Together<'a, E, C> {
     content: PhantomData<(E, C)>,
 }
 
-impl<E: Errand, C: Content> Together<'_, E, C> {
-    /// False: given up, with what was found so far; they do not go together after all.
+impl<E: Query, C: Content> Together<'_, E, C> {
+    /// Returns false where it gave up: the rays spread too far. What was found so far is kept.
     #[inline(always)]
-    fn run<S: Simd>(self, simd: S, errand: &mut E, group: &mut Group) -> bool {
+    fn run<S: Simd>(self, simd: S, query: &mut E, group: &mut Group) -> bool {
         let Self { world, root, packets, .. } = self;
         let Group { columns, sheared, entries } = group;
         columns.fill(simd, &packets);
         for (packet, rays) in packets.rays.iter().enumerate() {
-            let t_max = errand.t_max(rays, packets.first_eight + packet);
+            let t_max = query.t_max(rays, packets.first_eight + packet);
             let own = mask32x8::from_bitmask(simd, packets.lanes[packet].into());
             let t_max = own.select(f32x8::load_array(simd, t_max), f32x8::splat(simd, -1.0));
             t_max.store_array(&mut columns.t_max[packet]);
@@ -206,7 +206,7 @@ impl<E: Errand, C: Content> Together<'_, E, C> {
             if at.kind() == Some(Kind::Triangles)
                 && let Some(sheared) = sheared
             {
-                sheared.leaf(simd, world, &packets, (at, met), columns, errand);
+                sheared.leaf(simd, world, &packets, (at, met), columns, query);
             } else {
                 while met != 0 {
                     let i = met.trailing_zeros() as usize;
@@ -216,7 +216,7 @@ impl<E: Errand, C: Content> Together<'_, E, C> {
                     let leaves = C::Leaves::new(simd, &ray);
                     let place = (packets.first_eight + packet, lane);
                     columns.t_max[packet][lane] =
-                        errand.leaf(simd, world, &leaves, (&ray, place), at);
+                        query.leaf(simd, world, &leaves, (&ray, place), at);
                 }
             }
             farthest = columns.farthest(simd);

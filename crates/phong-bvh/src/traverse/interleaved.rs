@@ -10,8 +10,8 @@ use fearless_simd::Simd;
 
 use super::{
     World,
-    errand::{At, Errand},
     leaves::Content,
+    query::{At, Query},
     walk::{Stack, Walk},
 };
 use crate::{level::Kernel, local::Rays8, node8::Ref, simd::prefetch};
@@ -22,29 +22,29 @@ pub(super) const RAYS: usize = 12;
 /// A stack for each.
 pub(super) type Stacks = [Stack; RAYS];
 
-/// Rays, each on its own.
-pub(super) struct Many<'a, E, C> {
+/// Traces rays, each on its own.
+pub(super) struct Interleaved<'a, E, C> {
     pub(super) world: &'a World<'a>,
     pub(super) root: Ref,
     pub(super) rays: &'a [Rays8],
     /// Which of them, a bit each.
     pub(super) lanes: &'a [u32],
-    pub(super) errand: &'a mut E,
+    pub(super) query: &'a mut E,
     pub(super) stacks: &'a mut Stacks,
     pub(super) content: PhantomData<C>,
 }
 
-impl<E: Errand, C: Content> Kernel for Many<'_, E, C> {
+impl<E: Query, C: Content> Kernel for Interleaved<'_, E, C> {
     type Output = ();
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Self { world, root, rays, lanes, errand, stacks, .. } = self;
+        let Self { world, root, rays, lanes, query, stacks, .. } = self;
         let mut coming = Coming { lanes, eight: 0, left: 0 };
         let Some(first) = coming.next() else { return };
         let ray = rays[first.0].get(first.1);
-        let walk = Walk::<S, C::Leaves<S>>::new(simd, &ray, errand.best(&ray, first), root);
-        // All are the first ray until they are another.
+        let walk = Walk::<S, C::Leaves<S>>::new(simd, &ray, query.best(&ray, first), root);
+        // All walks are of the first ray until another takes their place.
         let mut walks = [walk; RAYS];
         let mut places = [first; RAYS];
         let mut going = [false; RAYS];
@@ -53,7 +53,7 @@ impl<E: Errand, C: Content> Kernel for Many<'_, E, C> {
         for i in 1..RAYS {
             if let Some(at) = coming.next() {
                 let ray = rays[at.0].get(at.1);
-                walks[i] = Walk::new(simd, &ray, errand.best(&ray, at), root);
+                walks[i] = Walk::new(simd, &ray, query.best(&ray, at), root);
                 (places[i], going[i]) = (at, true);
                 active += 1;
             }
@@ -67,10 +67,10 @@ impl<E: Errand, C: Content> Kernel for Many<'_, E, C> {
                     prefetch(world.rows, walks[i].at().row());
                     continue;
                 }
-                errand.back(places[i], walks[i].best());
+                query.finish(places[i], walks[i].best());
                 if let Some(at) = coming.next() {
                     let ray = rays[at.0].get(at.1);
-                    walks[i] = Walk::new(simd, &ray, errand.best(&ray, at), root);
+                    walks[i] = Walk::new(simd, &ray, query.best(&ray, at), root);
                     places[i] = at;
                 } else {
                     going[i] = false;
@@ -81,12 +81,12 @@ impl<E: Errand, C: Content> Kernel for Many<'_, E, C> {
     }
 }
 
-/// The rays that have not been sent yet, in order.
+/// The rays that have not been started yet, in order.
 struct Coming<'a> {
     lanes: &'a [u32],
-    /// How many eights were looked at.
+    /// The number of eights that have been taken.
     eight: usize,
-    /// What is left of the last of them.
+    /// The rays left of the last of them.
     left: u32,
 }
 

@@ -4,10 +4,10 @@ mod boxes;
 mod coherent;
 mod columns;
 mod eights;
-mod errand;
 mod frustum;
 mod interleaved;
 mod leaves;
+mod query;
 mod sheared;
 mod single;
 mod slabs;
@@ -22,9 +22,9 @@ use std::{cell::RefCell, marker::PhantomData};
 use self::{
     coherent::{Group, Groups},
     eights::{AnyOfFew, ClosestOfFew},
-    errand::{Any, Closest, Errand},
-    interleaved::{Many, RAYS, Stacks},
+    interleaved::{Interleaved, RAYS, Stacks},
     leaves::{Anything, Content, OnlySpheres, OnlyTriangles},
+    query::{AnyHit, ClosestHit, Query},
 };
 use crate::{
     Cost, Primitives,
@@ -71,7 +71,7 @@ impl<'a> World<'a> {
 
     /// The closest hit of each ray, `planes` being the geometry outside the tree.
     pub(crate) fn closest_of_eights(&self, planes: Planes<'a>, rays: &[Rays8], hits: &mut [Hits8]) {
-        let block = self.handful();
+        let block = self.single_leaf();
         self.token.run(ClosestOfFew { planes, block, rays, hits });
         if block.is_none() {
             self.closer_of_eights(rays, hits);
@@ -94,15 +94,15 @@ impl<'a> World<'a> {
     /// is there.
     pub(crate) fn closer_of_eights(&self, rays: &[Rays8], hits: &mut [Hits8]) {
         match self.only {
-            Some(Kind::Triangles) => self.many_in::<OnlyTriangles, _>(rays, Closest(hits)),
-            Some(Kind::Spheres) => self.many_in::<OnlySpheres, _>(rays, Closest(hits)),
-            _ => self.many_in::<Anything, _>(rays, Closest(hits)),
+            Some(Kind::Triangles) => self.many_in::<OnlyTriangles, _>(rays, ClosestHit(hits)),
+            Some(Kind::Spheres) => self.many_in::<OnlySpheres, _>(rays, ClosestHit(hits)),
+            _ => self.many_in::<Anything, _>(rays, ClosestHit(hits)),
         }
     }
 
     /// Whether each ray hits anything, a bit each, `planes` being the geometry outside the tree.
     pub(crate) fn any_of_eights(&self, planes: Planes<'a>, rays: &[Rays8], blocked: &mut [u32]) {
-        let block = self.handful();
+        let block = self.single_leaf();
         self.token.run(AnyOfFew { planes, block, rays, blocked });
         if block.is_none() {
             self.more_of_eights(rays, blocked);
@@ -112,14 +112,14 @@ impl<'a> World<'a> {
     /// Whether each ray hits anything in the tree, a bit each; those already `blocked` stay so.
     pub(crate) fn more_of_eights(&self, rays: &[Rays8], blocked: &mut [u32]) {
         match self.only {
-            Some(Kind::Triangles) => self.many_in::<OnlyTriangles, _>(rays, Any(blocked)),
-            Some(Kind::Spheres) => self.many_in::<OnlySpheres, _>(rays, Any(blocked)),
-            _ => self.many_in::<Anything, _>(rays, Any(blocked)),
+            Some(Kind::Triangles) => self.many_in::<OnlyTriangles, _>(rays, AnyHit(blocked)),
+            Some(Kind::Spheres) => self.many_in::<OnlySpheres, _>(rays, AnyHit(blocked)),
+            _ => self.many_in::<Anything, _>(rays, AnyHit(blocked)),
         }
     }
 
-    /// The only leaf, if the tree is one and holds spheres.
-    fn handful(&self) -> Option<&'a [Row; sphere::BLOCK]> {
+    /// The only leaf of a tree that is a single leaf of spheres.
+    fn single_leaf(&self) -> Option<&'a [Row; sphere::BLOCK]> {
         let leaf = self.root.filter(|root| root.kind() == Some(Kind::Spheres))?;
         Some(rows(self.rows, leaf.row()))
     }
@@ -143,22 +143,22 @@ impl<'a> World<'a> {
     }
 
     /// The rays of a bundle: together where that is worth it, then the others on their own.
-    fn many_in<C: Content, E: Errand>(&self, rays: &[Rays8], mut errand: E) {
+    fn many_in<C: Content, E: Query>(&self, rays: &[Rays8], mut query: E) {
         let Some(root) = self.root else { return };
-        let (world, content, errand) = (self, PhantomData::<C>, &mut errand);
+        let (world, content, query) = (self, PhantomData::<C>, &mut query);
         LANES.with_borrow_mut(|lanes| {
             lanes.clear();
-            let wanted = rays.iter().enumerate().map(|(i, rays)| errand.wanted(rays, i));
+            let wanted = rays.iter().enumerate().map(|(i, rays)| query.wanted(rays, i));
             lanes.extend(wanted);
             // Where the root is a leaf it has no box.
             if root.kind().is_none() && (C::ANY_TOGETHER || !E::ANY) {
                 GROUP.with_borrow_mut(|group| {
-                    let (lanes, errand) = (&mut *lanes, &mut *errand);
-                    self.token.run(Groups { world, root, rays, lanes, errand, group, content });
+                    let (lanes, query) = (&mut *lanes, &mut *query);
+                    self.token.run(Groups { world, root, rays, lanes, query, group, content });
                 });
             }
             STACKS.with_borrow_mut(|stacks| {
-                self.token.run(Many { world, root, rays, lanes, errand, stacks, content });
+                self.token.run(Interleaved { world, root, rays, lanes, query, stacks, content });
             });
         });
     }
@@ -184,7 +184,7 @@ thread_local! {
     /// Stacks of a thread: clearing one for each ray would cost a tenth of its time.
     static LONE: RefCell<single::Stack> = const { RefCell::new([0; STACK]) };
     static STACKS: RefCell<Stacks> = const { RefCell::new([walk::Stack::EMPTY; RAYS]) };
-    /// The rays of a bundle that have to be sent, a bit each.
+    /// The rays of a bundle that have to be traced, a bit each.
     static LANES: RefCell<Vec<u32>> = const { RefCell::new(Vec::new()) };
     static GROUP: RefCell<Group> = const { RefCell::new(Group::EMPTY) };
 }

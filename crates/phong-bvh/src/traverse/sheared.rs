@@ -5,8 +5,8 @@ use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 use super::{
     World,
     columns::{Column, Columns, PACKETS, Packets, ZERO, least, own_or_first},
-    errand::Errand,
     leaves::Triangles,
+    query::Query,
 };
 use crate::{
     local::Rays8,
@@ -92,30 +92,30 @@ impl Sheared {
     }
 
     /// The rays `met` against the triangles of a leaf.
-    pub(super) fn leaf<S: Simd, E: Errand>(
+    pub(super) fn leaf<S: Simd, E: Query>(
         &self,
         simd: S,
         world: &World<'_>,
         group: &Packets<'_>,
         met: (Ref, u64),
         columns: &mut Columns,
-        errand: &mut E,
+        query: &mut E,
     ) {
         simd.vectorize(
             #[inline(always)]
-            || self.leaf_at(simd, world, group, met, columns, errand),
+            || self.leaf_at(simd, world, group, met, columns, query),
         );
     }
 
     #[inline(always)]
-    fn leaf_at<S: Simd, E: Errand>(
+    fn leaf_at<S: Simd, E: Query>(
         &self,
         simd: S,
         world: &World<'_>,
         group: &Packets<'_>,
         (leaf, mut met): (Ref, u64),
         columns: &mut Columns,
-        errand: &mut E,
+        query: &mut E,
     ) {
         let block: &[Row; BLOCK] = rows(world.rows, leaf.row());
         // For few rays, to look for the triangles that all of them miss costs more than it saves.
@@ -131,7 +131,7 @@ impl Sheared {
                 let triangles = Triangles::of(simd, self.one(rays, packet, lane));
                 let at = (group.first_eight + packet, lane);
                 columns.t_max[packet][lane] =
-                    errand.leaf(simd, world, &triangles, (&rays.get(lane), at), leaf);
+                    query.leaf(simd, world, &triangles, (&rays.get(lane), at), leaf);
             }
             return;
         }
@@ -156,7 +156,7 @@ impl Sheared {
                 let (mask, at) = shears.intersect(simd, corners, among);
                 if mask != 0 {
                     let eight = group.first_eight + packet;
-                    errand.hits(simd, eight, mask, prim, at, &mut columns.t_max[packet]);
+                    query.hits(simd, eight, mask, prim, at, &mut columns.t_max[packet]);
                 }
             }
         }

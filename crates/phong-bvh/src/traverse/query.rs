@@ -1,4 +1,4 @@
-//! What rays are sent for: the closest hit, or any.
+//! What a bundle asks for: the closest hit of each ray, or whether there is any.
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*, u32x8};
 
@@ -15,15 +15,15 @@ use crate::{
 /// Where a ray is in a bundle: the number of its eight, and its lane.
 pub(super) type At = (usize, usize);
 
-/// What the rays of a bundle are sent for, and where their answers go.
-pub(super) trait Errand {
+/// What a bundle asks for, and where the answers go.
+pub(super) trait Query {
     /// Whether any hit will do.
     const ANY: bool;
 
-    /// The rays of an eight that have to be sent, a bit each.
+    /// The rays of an eight that have to be traced, a bit each.
     fn wanted(&self, rays: &Rays8, eight: usize) -> u32;
 
-    /// What is known of a ray before it is sent.
+    /// The best hit of a ray before it is traced.
     fn best(&self, ray: &Ray, at: At) -> Best;
 
     /// How far each ray of an eight has to go.
@@ -37,8 +37,8 @@ pub(super) trait Errand {
         stack: &mut Stack,
     ) -> bool;
 
-    /// A ray on its own is back.
-    fn back(&mut self, at: At, best: Best);
+    /// Takes the best hit of a ray that was traced on its own.
+    fn finish(&mut self, at: At, best: Best);
 
     /// A ray of a group, prepared, meets a leaf; how far it has to go from now on, −1: no farther.
     fn leaf<S: Simd, L: Leaves<S>>(
@@ -62,13 +62,13 @@ pub(super) trait Errand {
     );
 }
 
-/// The closest hits. They come with the best outside the tree.
-pub(super) struct Closest<'a>(pub(super) &'a mut [Hits8]);
+/// The closest hits. They begin as the best hits outside the tree.
+pub(super) struct ClosestHit<'a>(pub(super) &'a mut [Hits8]);
 
-/// Whether anything is hit, a bit each. Rays already blocked are not sent.
-pub(super) struct Any<'a>(pub(super) &'a mut [u32]);
+/// Whether anything is hit, a bit each. Rays already blocked are not traced.
+pub(super) struct AnyHit<'a>(pub(super) &'a mut [u32]);
 
-impl Errand for Closest<'_> {
+impl Query for ClosestHit<'_> {
     const ANY: bool = false;
 
     #[inline(always)]
@@ -98,9 +98,9 @@ impl Errand for Closest<'_> {
     }
 
     #[inline(always)]
-    fn back(&mut self, (eight, lane): At, best: Best) {
-        // Not the hit it was sent with: a walk is told its distance and number alone, and a group that
-        // gave up has found weights as well.
+    fn finish(&mut self, (eight, lane): At, best: Best) {
+        // The walk started from the distance and the number of the hit that was known before. Where it
+        // found no other, the known one stays, for a group that gave up may have found its weights.
         let hits = &mut self.0[eight];
         if best.0.prim != hits.prim[lane] {
             hits.set(lane, best.0);
@@ -151,7 +151,7 @@ impl Errand for Closest<'_> {
     }
 }
 
-impl Errand for Any<'_> {
+impl Query for AnyHit<'_> {
     const ANY: bool = true;
 
     #[inline(always)]
@@ -180,7 +180,7 @@ impl Errand for Any<'_> {
     }
 
     #[inline(always)]
-    fn back(&mut self, (eight, lane): At, best: Best) {
+    fn finish(&mut self, (eight, lane): At, best: Best) {
         self.0[eight] |= u32::from(best.0.is_some()) << lane;
     }
 
