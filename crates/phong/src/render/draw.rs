@@ -175,3 +175,53 @@ impl Kernel for FlatRays<'_> {
 fn height(y: f64, size: [u32; 2]) -> f32 {
     (y / f64::from(size[1])).clamp(0.0, 1.0) as f32
 }
+
+#[cfg(test)]
+mod tests {
+    use phong_scene::{CameraKind, FilterKind, Image, Light, LightKind, Rgb, Scene};
+
+    use super::*;
+    use crate::view::View;
+
+    #[test]
+    fn samples_drawn_eight_at_a_time_have_the_bits_of_those_drawn_one_by_one() {
+        let kinds =
+            [CameraKind::Perspective { fov: 40.0 }, CameraKind::Orthographic { height: 3.0 }];
+        let background = Background::Gradient { top: Rgb::WHITE, bottom: Rgb::BLACK };
+        for (kind, aperture) in kinds.into_iter().flat_map(|kind| [(kind, 0.0), (kind, 0.2)]) {
+            for filter in [FilterKind::Box, FilterKind::Mitchell] {
+                let image =
+                    Image { size: [21, 9], samples: 3, filter, background, ..Image::default() };
+                let camera = phong_scene::Camera { kind, aperture, ..Default::default() };
+                let kind = LightKind::Distant { direction: -glam::DVec3::Y, angle: 1.0 };
+                let lights = vec![Light { kind, ..Light::default() }];
+                let scene = Scene { image, camera, lights, ..Scene::default() };
+                let options = RenderOptions::of(&scene.image).expect("as by default but for a few");
+                let view = View::of(&scene).expect("a scene of nothing but a light");
+                let integrator =
+                    Integrator { scene: &view, background, depth: 0, shadows: true, stop: None };
+                let filter = Filter::new(filter);
+                let pixels =
+                    [Pixels8::new([0, 3], 8, &options), Pixels8::new([16, 4], 5, &options)];
+                let mut drawn = Samples::default();
+                drawn.draw(&integrator, &options, &filter, &pixels, 0..3);
+                for (i, rays) in drawn.bundle.rays.iter().enumerate() {
+                    let (index, pixels) = (i as u32 / 2, &pixels[i % 2]);
+                    assert_eq!(rays.there, (1 << pixels.len) - 1);
+                    for lane in lanes(rays.there) {
+                        let sampler = drawn.bundle.samplers[i].get(lane);
+                        let expected = pixels.samplers.at(index).get(lane);
+                        assert_eq!(sampler.pair(Use::Light(0)), expected.pair(Use::Light(0)));
+                        let pixel = pixels.pixel(lane);
+                        let one = camera_ray(&integrator, &options, &filter, pixel, sampler);
+                        let ray = one.ray.expect("flat pictures have no edge");
+                        assert_eq!(rays.get(lane), ray.ray, "{pixel:?}, {index}");
+                        assert_eq!(drawn.weights[i][lane], one.weight);
+                        assert_eq!(drawn.bundle.heights[i][lane], ray.height);
+                    }
+                }
+                assert_eq!(drawn.bundle.rays.len(), 6);
+            }
+        }
+    }
+}
