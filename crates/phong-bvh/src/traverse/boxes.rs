@@ -1,4 +1,4 @@
-//! A ray through a tree over boxes alone, each of which holds something that is met elsewhere.
+//! A ray through a tree whose leaves are boxes: the caller intersects what they hold.
 
 use fearless_simd::{Simd, f32x8, prelude::*};
 

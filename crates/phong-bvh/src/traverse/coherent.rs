@@ -1,9 +1,9 @@
-//! Rays that go the same way, together down the tree.
+//! Groups of coherent rays, traversed together.
 //!
-//! Up to 64 rays, of eight eights, whose directions agree in sign share one walk. A node is tested once for all of
-//! them, as a [`Frustum`]. A leaf's box is then tested against the rays themselves, eight at a time, and
-//! those it stops are tested against its primitives one by one, just as in any other walk. No box that a
-//! ray alone would have entered is left out, and hits are the same.
+//! A group has up to 64 rays, from up to eight eights, whose directions have the same signs. A node is
+//! tested once for the whole group, by a [`Frustum`]. The box of a leaf is then tested against the rays
+//! themselves, eight at a time, and only the rays that enter it are tested against its primitives. A group
+//! enters every box that one of its rays would enter alone, so the hits are the same.
 
 use std::marker::PhantomData;
 
@@ -23,10 +23,11 @@ use crate::{
     node8::{Kind, NODE, REFS, Ref, Row, rows},
 };
 
-/// Nodes and leaves per ray after which a group gives up.
+/// A group gives up after so many nodes and leaves per ray.
 const PATIENCE: usize = 2;
 
-/// Where a child is entered, what it is, and where its box is: row of the node times eight, plus lane.
+/// An entry of the stack. `key`: entry distance in the upper half, [`Ref`] in the lower. `parent`: where
+/// the box is, as the row of the node times eight plus the lane.
 #[derive(Clone, Copy)]
 struct Entry {
     key: u64,
@@ -38,7 +39,7 @@ impl Entry {
     const NONE: Self = Self { key: 0, parent: 0 };
 }
 
-/// What a group works on.
+/// Memory for a group.
 pub(super) struct Group {
     columns: Columns,
     sheared: Sheared,
@@ -54,9 +55,9 @@ impl Group {
 /// Nodes and leaves to visit.
 type Entries = [Entry; super::STACK];
 
-/// The least rays that are worth going together.
+/// Groups of fewer rays cost more than they save.
 const FEWEST: usize = 16;
-/// How far directions may lie apart within a group, along each axis.
+/// The most by which directions within a group may differ from the first one, along each axis.
 const SPREAD: f32 = 0.05;
 
 /// Traces groups of rays, each out of up to [`PACKETS`] eights. The rays that are left in `lanes` then have
@@ -106,7 +107,7 @@ impl<E: Query, C: Content> Kernel for Groups<'_, E, C> {
     }
 }
 
-/// Which directions of some eights are negative along each axis, a bit each.
+/// The signs of directions along each axis, one bit each: 1 is negative.
 #[inline(always)]
 fn signs<S: Simd>(simd: S, rays: &[Rays8]) -> [[u32; 3]; PACKETS] {
     let mut signs = [[0; 3]; PACKETS];
@@ -120,12 +121,12 @@ fn signs<S: Simd>(simd: S, rays: &[Rays8]) -> [[u32; 3]; PACKETS] {
     signs
 }
 
-/// The rays that agree with the first in the signs of their directions.
+/// The rays whose directions have the same signs as that of the first.
 #[inline(always)]
 fn same_octant<'a>(packets: Packets<'a>, signs: &[[u32; 3]; PACKETS]) -> Packets<'a> {
     let (packet, lane) = packets.first();
     let [x, y, z] = signs[packet];
-    // All bits, where it is negative.
+    // All bits set where it is negative.
     let negative = |sign: u32| 0_u32.wrapping_sub(sign >> lane & 1);
     let [x, y, z] = [negative(x), negative(y), negative(z)];
     let mut lanes = packets.lanes;
@@ -135,7 +136,7 @@ fn same_octant<'a>(packets: Packets<'a>, signs: &[[u32; 3]; PACKETS]) -> Packets
     Packets { lanes, ..packets }
 }
 
-/// Whether rays of an octant are worth going together: they all but agree in direction.
+/// Whether rays with the same signs are coherent enough for a group: their directions are almost equal.
 #[inline(always)]
 fn is_coherent<S: Simd>(simd: S, packets: &Packets<'_>) -> bool {
     let (packet, lane) = packets.first();
@@ -175,7 +176,7 @@ impl<E: Query, C: Content> Together<'_, E, C> {
             let t_max = own.select(f32x8::load_array(simd, t_max), f32x8::splat(simd, -1.0));
             t_max.store_array(&mut columns.t_max[packet]);
         }
-        // Where any hit will do, it does not matter from which end it is looked for.
+        // For any hit a ray may as well be searched from its end.
         let backwards = if E::ANY { Frustum::backwards(columns) } else { None };
         let frustum = backwards.unwrap_or_else(|| Frustum::new(columns));
         let sheared = (C::TRIANGLES && sheared.fill(simd, columns, &packets)).then_some(&*sheared);
@@ -225,7 +226,7 @@ impl<E: Query, C: Content> Together<'_, E, C> {
     }
 }
 
-/// Puts the children of a node that some ray may enter on the stack, nearest on top.
+/// Pushes the children of a node that some ray may enter, with the nearest on top.
 #[inline(always)]
 fn visit<S: Simd>(
     simd: S,

@@ -1,4 +1,4 @@
-//! Up to eight eights of rays side by side, against one box.
+//! The rays of a group against one box.
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 
@@ -9,23 +9,23 @@ use crate::{
     node8::{NODE, Row},
 };
 
-/// The most eights of rays side by side.
+/// The most eights in a group.
 pub(super) const PACKETS: usize = 8;
 
-/// One number of each ray, in packets of eight.
+/// One number of each ray of a group.
 pub(super) type Column = [[f32; 8]; PACKETS];
 
 /// Zeros.
 pub(super) const ZERO: Column = [[0.0; 8]; PACKETS];
 
-/// The rays of a group: eights as they lie, and which of their rays belong to it, a bit each.
+/// The rays of a group: the bundle's eights, unchanged, and which of their rays belong to it.
 #[derive(Clone, Copy)]
 pub(super) struct Packets<'a> {
     /// At least one, at most [`PACKETS`].
     pub(super) rays: &'a [Rays8],
-    /// The number of the first among the eights of the bundle.
+    /// The index of the first of them in the bundle.
     pub(super) first_eight: usize,
-    /// At least one ray; of an eight that is not there none.
+    /// One bit for each ray of the group; at least one is set. 0 for eights beyond `rays`.
     pub(super) lanes: [u32; PACKETS],
 }
 
@@ -42,8 +42,8 @@ impl Packets<'_> {
     }
 }
 
-/// What rays are to be tested against one box with, by columns. In lanes without a ray of the group lie the
-/// numbers of its first, so that they change no bounds.
+/// What the box test needs of each ray. Lanes that do not belong to the group repeat its first ray, so that
+/// they do not change the bounds.
 #[derive(Debug)]
 pub(super) struct Columns {
     near_origin: [Column; 3],
@@ -51,27 +51,28 @@ pub(super) struct Columns {
     near_reciprocal: [Column; 3],
     far_reciprocal: [Column; 3],
     t_min: Column,
-    /// The best hit so far; −1 where there is no ray, or a blocked one, so that no box is met.
+    /// The distance of the best hit so far. −1 in lanes that do not belong to the group and for rays that
+    /// are blocked already, so that they enter no box.
     pub(super) t_max: Column,
     pub(super) packets: usize,
     /// The rows of near sides.
     pub(super) near: [usize; 3],
-    /// What the numbers lie between.
+    /// The bounds of all rays.
     pub(super) bounds: Bounds,
 }
 
-/// The least and the greatest numbers of all rays.
+/// The bounds of a group's rays.
 #[derive(Debug)]
 pub(super) struct Bounds {
-    /// Of their origins, moved back and on.
+    /// The origins, padded.
     pub(super) start: Aabb,
-    /// Of the points where they end; without meaning if one has no end.
+    /// The end points; unspecified if a ray is infinite.
     pub(super) end: Aabb,
-    /// Of their reciprocal directions.
+    /// The reciprocal directions.
     pub(super) reciprocal: Aabb,
-    /// The least beginning.
+    /// The least `t_min`.
     pub(super) t_min: f32,
-    /// The greatest length.
+    /// The greatest `t_max`.
     pub(super) longest: f32,
 }
 
@@ -95,7 +96,7 @@ impl Columns {
         },
     };
 
-    /// Takes rays that agree in the signs of their directions; how far each has to go is not known yet.
+    /// Takes rays whose directions have the same signs. `t_max` is left to the caller.
     pub(super) fn fill<S: Simd>(&mut self, simd: S, group: &Packets<'_>) {
         simd.vectorize(
             #[inline(always)]
@@ -110,7 +111,7 @@ impl Columns {
         let first = &group.rays[packet];
         let negative = |axis: usize| usize::from(first.dir[axis][lane].is_sign_negative());
         self.near = [negative(0), 2 + negative(1), 4 + negative(2)];
-        // Lows, and highs with their signs turned: the least of those is the greatest.
+        // Minima, and maxima with their signs changed, so that one minimum finds both.
         let most = f32x8::splat(simd, f32::INFINITY);
         let (mut starts, mut ends, mut reciprocals) = ([most; 8], [most; 8], [most; 8]);
         for (packet, rays) in group.rays.iter().enumerate().take(PACKETS) {
@@ -158,7 +159,7 @@ impl Columns {
         };
     }
 
-    /// The rays that meet the box of one child, as bits.
+    /// The rays that enter the box of one child, one bit each.
     #[inline(always)]
     pub(super) fn meet<S: Simd>(&self, simd: S, node: &[Row; NODE], lane: usize) -> u64 {
         let side = |row: usize| f32x8::splat(simd, node[row & 7].0[lane & 7]);
@@ -181,7 +182,7 @@ impl Columns {
         met
     }
 
-    /// The farthest that any ray still goes.
+    /// The greatest distance at which any ray still looks for a hit.
     #[inline(always)]
     pub(super) fn farthest<S: Simd>(&self, simd: S) -> f32 {
         let mut most = f32x8::load_array_ref(simd, &self.t_max[0]);
@@ -192,7 +193,7 @@ impl Columns {
     }
 }
 
-/// The numbers of the rays that are there, and in the other lanes that of the first of all.
+/// The numbers of the rays in `own`, and `first` in the other lanes.
 #[inline(always)]
 pub(super) fn own_or_first<S: Simd>(
     simd: S,
@@ -203,7 +204,7 @@ pub(super) fn own_or_first<S: Simd>(
     own.select(f32x8::load_array_ref(simd, lanes), f32x8::splat(simd, first))
 }
 
-/// Rows as columns. As with cards: cut in halves that are then merged, three times.
+/// Transposes an 8 × 8 matrix by interleaving its halves three times.
 #[inline(always)]
 fn turned<S: Simd>(mut rows: [f32x8<S>; 8]) -> [f32x8<S>; 8] {
     for _ in 0..3 {
@@ -215,26 +216,26 @@ fn turned<S: Simd>(mut rows: [f32x8<S>; 8]) -> [f32x8<S>; 8] {
     rows
 }
 
-/// The least number of each row.
+/// The minimum of each row.
 #[inline(always)]
 pub(super) fn least<S: Simd>(rows: [f32x8<S>; 8]) -> [f32; 8] {
     let [a, b, c, d, e, f, g, h] = turned(rows);
     a.min(b).min(c.min(d)).min(e.min(f).min(g.min(h))).to_array()
 }
 
-/// The greatest of eight.
+/// The maximum of eight lanes.
 #[inline(always)]
 pub(super) fn highest<S: Simd>(v: f32x8<S>) -> f32 {
     v.reduce_max()
 }
 
-/// The least of eight.
+/// The minimum of eight lanes.
 #[inline(always)]
 pub(super) fn lowest<S: Simd>(v: f32x8<S>) -> f32 {
     v.reduce_min()
 }
 
-/// From lows and turned highs.
+/// A box from minima and maxima with their signs changed.
 #[inline(always)]
 fn aabb([x, y, z, nx, ny, nz, ..]: [f32; 8]) -> Aabb {
     Aabb { lo: [x, y, z].into(), hi: [-nx, -ny, -nz].into() }

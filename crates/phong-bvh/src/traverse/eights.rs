@@ -1,5 +1,5 @@
-//! What lies outside a tree, and a tree that is one leaf of spheres, as in many a small scene: eight
-//! rays side by side against each plane and each sphere.
+//! Eight rays against each plane and, where the whole tree is a single leaf of spheres, as in many small
+//! scenes, against each of its spheres.
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*, u32x8};
 
@@ -134,10 +134,10 @@ impl Kernel for AnyOfFew<'_> {
     }
 }
 
-/// Eights of rays that are held against a sphere together first.
+/// So many eights are tested together first for whether any of them can hit a sphere.
 const TOGETHER: usize = 16;
 
-/// The spheres of a block that any of the rays may meet, a bit each.
+/// The spheres of a block that any of the rays may hit, one bit each.
 ///
 /// How far a sphere's middle is off the line of a ray is the length of `c × d`, `c` leading from the
 /// ray's origin to the middle and `d` unit. From the bounds of all origins and directions follow
@@ -163,7 +163,7 @@ fn near<S: Simd>(simd: S, rays: &[Rays8], block: &[Row; BLOCK]) -> u32 {
     used & !(off.simd_gt(reach * reach).to_bitmask() as u32)
 }
 
-/// The bounds of all numbers of the rays there are; none if there is none.
+/// The bounds of origins and directions; `None` without rays.
 #[inline(always)]
 fn bounds<S: Simd>(simd: S, rays: &[Rays8]) -> Option<[[f32; 2]; 6]> {
     let most = f32x8::splat(simd, f32::INFINITY);
@@ -174,7 +174,7 @@ fn bounds<S: Simd>(simd: S, rays: &[Rays8]) -> Option<[[f32; 2]; 6]> {
         let there = mask32x8::from_bitmask(simd, (*there).into());
         for (i, column) in [ox, oy, oz, dx, dy, dz].into_iter().enumerate() {
             let column = f32x8::load_array_ref(simd, column);
-            // In this order what is not a number, which no ray should hold, changes nothing.
+            // In this order a NaN, which no ray should hold, changes nothing.
             low[i] = there.select(column, most).min(low[i]);
             high[i] = there.select(column, -most).max(high[i]);
         }
@@ -197,7 +197,7 @@ fn product<S: Simd>([a, b]: [f32x8<S>; 2], [low, high]: [f32; 2]) -> [f32x8<S>; 
     [al.min(ah).min(bl.min(bh)), al.max(ah).max(bl.max(bh))]
 }
 
-/// The least that two numbers can be apart.
+/// The least distance between two numbers.
 #[inline(always)]
 fn apart<S: Simd>(a: [f32x8<S>; 2], b: [f32x8<S>; 2]) -> f32x8<S> {
     let zero = f32x8::splat(a[0].token(), 0.0);

@@ -1,16 +1,15 @@
-//! Rays that go the same way, as one: against eight boxes.
+//! All rays of a group at once against eight boxes.
 //!
-//! With every origin in an interval and every reciprocal direction in another, interval arithmetic
-//! bounds where the first ray could enter a box and the last could leave it. The bounds are taken over
-//! the very numbers each ray's own test uses, and rounding is monotone; so no box is left out that a ray
-//! alone would have entered.
+//! Interval arithmetic over the origins and reciprocal directions bounds where the first ray could enter a
+//! box and the last could leave it. The intervals hold the same numbers that each ray's own test uses, and
+//! rounding is monotone, so the group enters every box that one of its rays would enter alone.
 
 use fearless_simd::{Simd, f32x8, prelude::*};
 
 use super::{columns::Columns, slabs::SLACK};
 use crate::node8::{NODE, Row};
 
-/// All rays at once, against eight boxes.
+/// The bounds of a group's rays, prepared for boxes.
 #[derive(Debug)]
 pub(super) struct Frustum {
     near: [usize; 3],
@@ -22,7 +21,7 @@ pub(super) struct Frustum {
 }
 
 impl Frustum {
-    /// Around rays from their origins.
+    /// The rays as they are.
     pub(super) fn new(columns: &Columns) -> Self {
         let bounds = &columns.bounds;
         let (low, high) = (bounds.reciprocal.lo.to_array(), bounds.reciprocal.hi.to_array());
@@ -42,8 +41,8 @@ impl Frustum {
         }
     }
 
-    /// The same rays from their ends, backwards, where those lie closer together: shadow rays meet
-    /// at the light. None where they do not, or where a ray has no end.
+    /// The same rays backwards, from their ends, where the ends are closer together than the origins, as
+    /// those of shadow rays at a light. `None` where they are not, or where a ray is infinite.
     pub(super) fn backwards(columns: &Columns) -> Option<Self> {
         let (start, end) = (columns.bounds.start, columns.bounds.end);
         let longest = columns.bounds.longest;
@@ -52,8 +51,8 @@ impl Frustum {
         {
             return None;
         }
-        // Beyond all that rounding the ends, the slack of a ray's own test and the padding of its
-        // origin can amount to.
+        // More than the rounding of the end points, the slack of a ray's own test and the padding of its
+        // origin together.
         let magnitude = start.lo.abs().max(start.hi.abs()).max_element() + longest;
         let pad = magnitude * (8.0 * SLACK) + 1e-24;
         let mut frustum = Self::new(columns);
@@ -73,7 +72,7 @@ impl Frustum {
         Some(frustum)
     }
 
-    /// The children that some ray may enter before `t_max`, and where at the earliest.
+    /// The children that some ray may enter before `t_max`, and the least distance at which.
     #[inline(always)]
     pub(super) fn meet<S: Simd>(&self, simd: S, node: &[Row; NODE], t_max: f32) -> (u32, f32x8<S>) {
         let load = |row: usize| f32x8::load_array_ref(simd, &node[row & 7].0);

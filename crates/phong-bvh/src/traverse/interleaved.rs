@@ -1,8 +1,8 @@
-//! Several rays at once, a step of each in turn.
+//! Several rays at once, interleaved: one step of each in turn.
 //!
-//! A ray waits at every node: for the node's rows, then for its own arithmetic. Steps of rays
-//! that have nothing to do with each other fill that time; and the next node of a ray is asked for
-//! while others take their steps. Nothing is shared between rays, so their order does not matter.
+//! At every node a ray waits for memory and then for its own arithmetic. Steps of independent rays fill
+//! that time, and the next node of a ray is prefetched while the others take their steps. Rays share
+//! nothing, so their order does not change a hit.
 
 use std::marker::PhantomData;
 
@@ -16,10 +16,10 @@ use super::{
 };
 use crate::{level::Kernel, local::Rays8, node8::Ref, simd::prefetch};
 
-/// How many rays are on their way at once.
+/// How many rays are interleaved.
 pub(super) const RAYS: usize = 12;
 
-/// A stack for each.
+/// One stack for each.
 pub(super) type Stacks = [Stack; RAYS];
 
 /// Traces rays, each on its own.
@@ -27,7 +27,7 @@ pub(super) struct Interleaved<'a, E, C> {
     pub(super) world: &'a World<'a>,
     pub(super) root: Ref,
     pub(super) rays: &'a [Rays8],
-    /// Which of them, a bit each.
+    /// Which of them are to be traced, one bit each.
     pub(super) lanes: &'a [u32],
     pub(super) query: &'a mut E,
     pub(super) stacks: &'a mut Stacks,

@@ -1,7 +1,7 @@
-//! What hangs on the tree: the primitives of a leaf against one ray.
+//! The primitives of a leaf against one ray.
 //!
-//! Most trees hold triangles alone or spheres alone. Each kind of tree has its own copy of the
-//! traversal, which prepares of a ray only what its leaves ask for.
+//! Most trees hold only triangles or only spheres. Each kind of tree has its own copy of the traversal,
+//! which prepares only what its leaves need of a ray.
 
 use fearless_simd::{Simd, prelude::*};
 
@@ -22,8 +22,8 @@ pub(super) trait Content {
     type Leaves<S: Simd>: Leaves<S>;
     /// Whether there may be leaves of triangles.
     const TRIANGLES: bool = true;
-    /// Whether rays for which any hit will do are worth going together. Among many spheres they are
-    /// blocked, each by another, before a group has earned what it cost.
+    /// Whether groups are worth while for any-hit queries. Among many spheres each ray is soon blocked by
+    /// another one, before a group has saved what it cost.
     const ANY_TOGETHER: bool = true;
 }
 

@@ -142,7 +142,7 @@ impl<'a> World<'a> {
         });
     }
 
-    /// The rays of a bundle: together where that is worth it, then the others on their own.
+    /// Traces the rays of a bundle: coherent ones in groups, then the others one by one.
     fn many_in<C: Content, E: Query>(&self, rays: &[Rays8], mut query: E) {
         let Some(root) = self.root else { return };
         let (world, content, query) = (self, PhantomData::<C>, &mut query);
@@ -150,7 +150,7 @@ impl<'a> World<'a> {
             lanes.clear();
             let wanted = rays.iter().enumerate().map(|(i, rays)| query.wanted(rays, i));
             lanes.extend(wanted);
-            // Where the root is a leaf it has no box.
+            // A root that is a leaf has no box to test.
             if root.kind().is_none() && (C::ANY_TOGETHER || !E::ANY) {
                 GROUP.with_borrow_mut(|group| {
                     let (lanes, query) = (&mut *lanes, &mut *query);
@@ -181,7 +181,7 @@ const STACK: usize = 7 * (64 + 40);
 pub(crate) const NO_BOXES: BoxStack = [0; STACK];
 
 thread_local! {
-    /// Stacks of a thread: clearing one for each ray would cost a tenth of its time.
+    /// A thread's stacks: to clear one for each ray would cost a tenth of its time.
     static LONE: RefCell<single::Stack> = const { RefCell::new([0; STACK]) };
     static STACKS: RefCell<Stacks> = const { RefCell::new([walk::Stack::EMPTY; RAYS]) };
     /// The rays of a bundle that have to be traced, a bit each.
@@ -198,7 +198,7 @@ fn end(hits: &mut [Hits8]) {
     }
 }
 
-/// Who counts what a ray costs; `()` does not.
+/// Counts what a ray costs; `()` counts nothing.
 pub(crate) trait Meter {
     /// A node was visited.
     fn node(&mut self);
@@ -226,7 +226,7 @@ impl Meter for Cost {
     }
 }
 
-/// The best hit so far. Before the first it stands at the ray's end, with the number of none.
+/// The best hit so far. Before the first one its distance is the ray's `t_max` and its number that of none.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Best(pub(crate) Hit);
 
@@ -239,14 +239,14 @@ impl Best {
 
     /// The best hit outside the tree: it has no barycentric weights.
     ///
-    /// Its two numbers are handed over one by one: read back together, right after they were written
-    /// apart, they would stall for longer than a node takes.
+    /// Its two numbers are passed separately: written one by one and read back together, they would stall
+    /// for longer than a node takes.
     #[inline(always)]
     pub(crate) fn outside(t: f32, prim: u32) -> Self {
         Self(Hit { t, prim, u: 0.0, v: 0.0 })
     }
 
-    /// Takes a hit that is nearer, or as near and of a lower number.
+    /// Takes a hit that is nearer, or at the same distance and of a lower number.
     #[inline(always)]
     pub(crate) fn offer(&mut self, t: f32, prim: u32, u: f32, v: f32) {
         if t < self.0.t || (t == self.0.t && prim < self.0.prim) {

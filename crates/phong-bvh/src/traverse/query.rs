@@ -26,10 +26,10 @@ pub(super) trait Query {
     /// The best hit of a ray before it is traced.
     fn best(&self, ray: &Ray, at: At) -> Best;
 
-    /// How far each ray of an eight has to go.
+    /// How far each ray of an eight has to look.
     fn t_max(&self, rays: &Rays8, eight: usize) -> [f32; 8];
 
-    /// One step of a ray on its own; whether there is another.
+    /// One step of a ray on its own. Returns whether there is another one.
     fn step<S: Simd, L: Leaves<S>>(
         walk: &mut Walk<S, L>,
         simd: S,
@@ -40,7 +40,7 @@ pub(super) trait Query {
     /// Takes the best hit of a ray that was traced on its own.
     fn finish(&mut self, at: At, best: Best);
 
-    /// A ray of a group, prepared, meets a leaf; how far it has to go from now on, −1: no farther.
+    /// Tests a ray of a group against a leaf. Returns how far it still has to look; −1: it is done.
     fn leaf<S: Simd, L: Leaves<S>>(
         &mut self,
         simd: S,
@@ -50,7 +50,8 @@ pub(super) trait Query {
         leaf: Ref,
     ) -> f32;
 
-    /// Some rays of an eight, those in `mask`, hit a primitive; `t_max` is how far each has to go.
+    /// Takes the hits of some rays of an eight, those in `mask`, on one primitive, and updates how far each
+    /// of them still has to look.
     fn hits<S: Simd>(
         &mut self,
         simd: S,
@@ -135,7 +136,7 @@ impl Query for ClosestHit<'_> {
         [t, u, v]: [f32x8<S>; 3],
         t_max: &mut [f32; 8],
     ) {
-        // As `Best::offer` has it.
+        // The rule of `Best::offer`.
         let hits = &mut self.0[eight];
         let old = f32x8::load_array_ref(simd, &hits.t);
         let old_prim = u32x8::load_array_ref(simd, &hits.prim);

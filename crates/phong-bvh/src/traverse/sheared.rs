@@ -1,4 +1,4 @@
-//! Up to eight eights of rays side by side, against the triangles of a leaf.
+//! The rays of a group against the triangles of a leaf.
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 
@@ -14,10 +14,11 @@ use crate::{
     primitives::triangle::{BLOCK, Shear, ShearBounds, Shears},
 };
 
-/// Up to so many rays are tested one by one, each against all triangles at once.
+/// Up to so many rays are tested one by one, each against eight triangles at once.
 const FEW: u32 = 8;
 
-/// What [`Columns`] need besides, to be tested against triangles: directions longest along one axis.
+/// What the triangle test needs besides [`Columns`]: slopes of directions that are longest along the same
+/// axis.
 #[derive(Debug)]
 pub(super) struct Sheared {
     slope: [Column; 2],
@@ -31,7 +32,7 @@ impl Sheared {
         all: ShearBounds { axes: [0; 3], origin: [[0.0; 2]; 3], slope: [[0.0; 2]; 2] },
     };
 
-    /// Takes the rays of `columns`; false where their directions are not longest along the same axis.
+    /// Takes the rays of a group. Returns false where their directions are not longest along the same axis.
     pub(super) fn fill<S: Simd>(
         &mut self,
         simd: S,
@@ -52,7 +53,7 @@ impl Sheared {
         let [x, y, z] = axes;
         let zero = f32x8::splat(simd, 0.0);
         let most = f32x8::splat(simd, f32::INFINITY);
-        // As in `Columns`: lows, and highs with their signs turned.
+        // As in `Columns`: minima, and maxima with their signs changed.
         let mut slopes = [most, most, most, most, zero, zero, zero, zero];
         for (packet, rays) in group.rays.iter().enumerate().take(PACKETS) {
             let own = mask32x8::from_bitmask(simd, group.lanes[packet].into());
@@ -118,7 +119,7 @@ impl Sheared {
         query: &mut E,
     ) {
         let block: &[Row; BLOCK] = rows(world.rows, leaf.row());
-        // For few rays, to look for the triangles that all of them miss costs more than it saves.
+        // For few rays, finding the triangles that all of them miss costs more than it saves.
         let count = met.count_ones();
         let few = count <= FEW;
         let mut lanes = if few { u32::MAX } else { self.all.filter(simd, block) };
@@ -192,7 +193,7 @@ impl Sheared {
     }
 }
 
-/// In how many packets there are rays.
+/// The number of eights that have a ray among `rays`.
 #[inline(always)]
 fn packets(mut rays: u64) -> u32 {
     rays |= rays >> 4;

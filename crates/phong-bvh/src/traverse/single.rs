@@ -1,8 +1,8 @@
 //! One ray at a time.
 //!
-//! A ray on its own takes the steps of [`walk`](super::walk) with branches: where one is foretold
-//! rightly, the next node is on its way before this one's test is through, and nothing else would fill
-//! that time.
+//! A single ray takes the steps of [`walk`](super::walk) with branches: where a branch is predicted
+//! correctly, the processor starts on the next node before the test of this one is done. There are no
+//! other rays that could fill that time.
 
 use std::marker::PhantomData;
 

@@ -1,9 +1,9 @@
 //! One ray on its way through the tree, a node or a leaf at a time.
 //!
-//! How many children of a node a ray enters is hard to foretell, and a branch foretold wrongly costs
-//! as much as testing the node. So a step goes the same way for any number up to two: all that are
-//! entered are written on the stack side by side, and the ray goes on with the nearer of the two on top
-//! of it. Whether these are new, or left from before, does not matter: both wait for a visit.
+//! How many children of a node a ray enters is hard to predict, and a mispredicted branch costs as much
+//! as testing the node. So a step takes the same branches for up to two children: all that are entered
+//! are pushed at once, and the ray goes on with the nearer of the two entries on top of the stack. These
+//! may be older entries, too, since all of them have to be visited.
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*, u32x8};
 
@@ -22,7 +22,7 @@ pub(super) struct Walk<S: Simd, L> {
     best: Best,
     t_max: f32x8<S>,
     at: Ref,
-    /// Entries on the stack, its ground included.
+    /// Entries on the stack, including the sentinel.
     depth: usize,
 }
 
@@ -81,7 +81,7 @@ impl<S: Simd, L: Leaves<S>> Walk<S, L> {
     #[inline(always)]
     fn pop(&mut self, stack: &Stack) -> bool {
         self.depth -= 1;
-        // The ground ends this.
+        // The sentinel ends this loop.
         while stack.near[self.depth] > self.best.0.t {
             self.depth -= 1;
         }
@@ -106,12 +106,12 @@ impl<S: Simd, L: Leaves<S>> Walk<S, L> {
     }
 }
 
-/// Room for what a ray can leave behind, one more where a ray turned to a node left before, the ground,
-/// and eight children written at once.
+/// Room for all entries a ray can need, one more where it goes on with an older entry, the sentinel, and
+/// eight children that are written at once.
 const ROOM: usize = super::STACK + 16;
 
-/// Nodes and leaves to visit. Under them lies the ground, which ends every search for one that is near
-/// enough, and as bits is farther than all.
+/// Nodes and leaves to visit. The lowest entry is a sentinel: it ends every search for an entry that is
+/// near enough, and its bits are greater than those of any distance.
 #[derive(Debug)]
 pub(super) struct Stack {
     near: [f32; ROOM],
@@ -119,7 +119,7 @@ pub(super) struct Stack {
 }
 
 impl Stack {
-    /// The ground alone.
+    /// Only the sentinel.
     pub(super) const EMPTY: Self = Self { near: [f32::NEG_INFINITY; ROOM], refs: [0; ROOM] };
 
     /// Writes the children in `mask` and where they are entered; how many there are.
@@ -153,10 +153,10 @@ impl Stack {
         mask.to_bitmask().count_ones() as usize
     }
 
-    /// Takes the nearer of the two on top, and leaves the other.
+    /// Pops the nearer of the two entries on top.
     #[inline(always)]
     fn pop_nearer(&mut self, depth: usize) -> (f32, Ref) {
-        // As bits, distances from 0 up are in order, and the ground is beyond them.
+        // The bits of distances ≥ 0 are in order, and those of the sentinel are greater.
         let key = |at: usize| u64::from(self.near[at].to_bits()) << 32 | u64::from(self.refs[at]);
         let below = depth.saturating_sub(2);
         let (top, second) = (key(depth - 1), key(below));
