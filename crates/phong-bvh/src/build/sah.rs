@@ -208,7 +208,7 @@ impl Bins {
         let mut place = f32x4::splat(simd, 0.0);
         for (bin, right) in right.iter().enumerate().take(bins).skip(1) {
             side.add(simd, &self.bounds[bin - 1], &self.counts[bin - 1]);
-            // Not a number where one side is empty: never less.
+            // NaN where one side is empty: never less.
             let both = side.cost(simd) + f32x4::load_array_ref(simd, right);
             let better = both.simd_lt(best);
             best = better.select(both, best);
@@ -260,7 +260,7 @@ impl<S: Simd> Side<S> {
     }
 
     /// Half the surface times the number of blocks, for each axis. Infinite boxes times no block,
-    /// not a number, where nothing is on this side.
+    /// NaN, where nothing is on this side.
     #[inline(always)]
     fn cost(&self, simd: S) -> f32x4<S> {
         let size = |hull: f32x8<S>| {

@@ -125,7 +125,7 @@ pub(super) fn rounded<F: Lanes<Scalar = f64>>(
     let rounding = [p[0].abs() * ROUNDING, p[1].abs() * ROUNDING, p[2].abs() * ROUNDING];
     let along2 = dot(rounding, rounding) * 9.0;
     let bend = curvature * along2 * 0.5;
-    // No deeper than it is along, at the apex of a cone neither: 0 × ∞ is no number.
+    // No deeper than it is along, at the apex of a cone neither: 0 × ∞ is NaN.
     let bend = F::select(along2.gt(bend * bend), bend, along2.sqrt());
     let p_error = [
         rounding[0] + bend + slack[0],
