@@ -38,22 +38,26 @@ impl View {
     /// What shading needs of the surface at a hit whose geometric normal is `ng`; `e` leads to the
     /// eye.
     pub(super) fn shading(&self, hit: &Hit, ng: Dir3, e: Dir3) -> Shading {
-        let local = hit.prim;
+        let (material, color, n) = self.attributes(hit);
+        Shading { n: n.unwrap_or(ng).facing(e), material, color }
+    }
+
+    /// The material at a hit, and the colour and the shading normal where the geometry brings them.
+    #[inline]
+    fn attributes(&self, hit: &Hit) -> (u32, Option<Rgb>, Option<Dir3>) {
         let batch = self.geometry.batch(hit.part);
-        let material = batch.material(local);
-        let corners = self.geometry.corners(hit.part, local);
-        let n = corners.and_then(|c| batch.normal(local, c, hit)).unwrap_or(ng);
-        let color = batch.color(local, corners, hit);
-        Shading { n: n.facing(e), material, color }
+        let corners = self.geometry.corners(hit.part, hit.prim);
+        let color = batch.color(hit.prim, corners, hit);
+        let normal = corners.and_then(|c| batch.normal(hit.prim, c, hit));
+        (batch.material(hit.prim), color, normal)
     }
 
     /// Whether the geometry brings the colour at a hit, which counts before the material's.
     pub(super) fn has_own_color(&self, hit: &Hit) -> bool {
-        let corners = self.geometry.corners(hit.part, hit.prim);
-        self.geometry.batch(hit.part).color(hit.prim, corners, hit).is_some()
+        self.attributes(hit).1.is_some()
     }
 
-    /// [`View::shading`] of those of eight surfaces that were met: the same bits, with the
+    /// [`View::shading`] of those of eight surfaces that were hit: the same bits, with the
     /// material's colour where the geometry brings none.
     #[inline(always)]
     pub(crate) fn shading8<S: Simd>(
@@ -86,13 +90,11 @@ impl View {
                 continue;
             }
             for lane in lanes(same) {
-                let (hit, local) = (hits.get(lane), hits.prim[lane]);
-                let corners = self.geometry.corners(part, local);
-                let own = batch.material(local);
-                material[lane] = own;
-                let own = self.materials[own as usize].color;
-                set(color, lane, batch.color(local, corners, &hit).unwrap_or(own).to_array());
-                if let Some(normal) = corners.and_then(|c| batch.normal(local, c, &hit)) {
+                let (number, own, normal) = self.attributes(&hits.get(lane));
+                material[lane] = number;
+                let own = own.unwrap_or(self.materials[number as usize].color);
+                set(color, lane, own.to_array());
+                if let Some(normal) = normal {
                     set(n, lane, normal.to_array());
                 }
             }
@@ -100,5 +102,96 @@ impl View {
         let up = load3(simd, n);
         let away = dot(up, e).simd_lt(zero);
         *n = store3(select3(away, [-up[0], -up[1], -up[2]], up));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{DVec3, Vec3};
+    use phong_bvh::{Ray, Rays8, Surfaces8};
+    use phong_scene::{Material, MaterialId, Mesh, Object, Points, Scene, Shape};
+
+    use super::*;
+    use crate::math::lanes::{direction, get};
+
+    /// A plane, a ball, a mesh of two materials with normals, one with colours, and coloured points, seen
+    /// by rays down −z that lie close together.
+    fn scene() -> Scene {
+        let square = |x: f32| -> Vec<Vec3> {
+            [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]]
+                .map(|[u, v]| Vec3::new(x + u, v, 0.5))
+                .to_vec()
+        };
+        let indices = vec![[0, 1, 2], [3, 2, 1]];
+        let normals = [[0.3, 0.0, 1.0], [0.0, 0.4, -1.0], [-0.2, 0.0, 1.0], [0.1, 0.1, 1.0]];
+        let with_normals = Mesh {
+            positions: square(0.0).into(),
+            indices: indices.clone().into(),
+            normals: normals.map(Vec3::from_array).to_vec().into(),
+            face_materials: vec![1, 0].into(),
+            ..Mesh::default()
+        };
+        let colors = [Rgb::WHITE, Rgb::BLACK, Rgb::new(1.0, 0.0, 0.0), Rgb::new(0.0, 0.5, 0.0)];
+        let with_colors = Mesh {
+            positions: square(1.0).into(),
+            indices: indices.into(),
+            colors: colors.to_vec().into(),
+            ..Mesh::default()
+        };
+        let points = Points {
+            spheres: vec![[2.25, 0.5, 0.5, 0.2], [2.75, 0.5, 0.5, 0.2]].into(),
+            colors: vec![Rgb::grey(0.25), Rgb::new(0.0, 0.0, 1.0)].into(),
+            ..Points::default()
+        };
+        let shapes = [
+            Shape::Plane { point: DVec3::ZERO, normal: DVec3::Z },
+            Shape::Sphere { center: DVec3::new(3.5, 0.5, 0.5), radius: 0.4 },
+            Shape::Mesh(Box::new(with_normals)),
+            Shape::Mesh(Box::new(with_colors)),
+            Shape::Points(Box::new(points)),
+        ];
+        let object = |(i, shape): (usize, Shape)| Object {
+            name: format!("shape {i}"),
+            material: MaterialId(i as u32 % 2),
+            shape,
+            ..Object::default()
+        };
+        let blue = Material { color: Rgb::new(0.1, 0.2, 0.9), ..Material::default() };
+        Scene {
+            materials: vec![Material::default(), blue.into()],
+            objects: shapes.into_iter().enumerate().map(object).collect(),
+            ..Scene::default()
+        }
+    }
+
+    #[test]
+    fn eight_surfaces_are_shaded_with_the_bits_of_one() {
+        let view = View::of(&scene()).expect("a scene without mistakes");
+        let simd = fearless_simd::Fallback::new();
+        let start = |i: usize| DVec3::new((i % 40) as f64 * 0.1, (i / 40) as f64 * 0.2 + 0.07, 5.0);
+        let rays: Vec<Ray> = (0..200).map(|i| Ray::new(start(i), Vec3::NEG_Z)).collect();
+        let eights = Rays8::of(&rays);
+        let mut hits = vec![Hits8::NONE; eights.len()];
+        let mut surfaces = vec![Surfaces8::default(); eights.len()];
+        view.world().intersect_eights(&eights, &mut hits);
+        view.world().surface_eights(&eights, &hits, &mut surfaces);
+        let (mut materials, mut turned) = ([0, 0], 0);
+        for ((rays, hits), surface) in eights.iter().zip(&hits).zip(&surfaces) {
+            let mut eight = Shading8::NONE;
+            let [x, y, z] = load3(simd, &rays.dir);
+            view.shading8(simd, hits, load3(simd, &surface.ng), [-x, -y, -z], &mut eight);
+            assert_eq!(hits.met, 0xff, "the plane is behind everything");
+            for lane in lanes(hits.met) {
+                let (ng, e) = (direction(&surface.ng, lane), -direction(&rays.dir, lane));
+                let one = view.shading(&hits.get(lane), ng, e);
+                assert_eq!(get(&eight.n, lane), one.n.to_array());
+                let own = one.color.unwrap_or(view.materials()[one.material as usize].color);
+                assert_eq!(get(&eight.color, lane), own.to_array());
+                assert_eq!(eight.material[lane], one.material);
+                materials[one.material as usize] += 1;
+                turned += u32::from(one.n != ng);
+            }
+        }
+        assert!(materials[0] > 20 && materials[1] > 20 && turned > 10, "{materials:?} {turned}");
     }
 }
