@@ -70,13 +70,13 @@ impl Camera {
         let (width, height) = (f64::from(size[0]), f64::from(size[1]));
         let dir = match self.kind {
             CameraKind::Perspective { .. } | CameraKind::Orthographic { .. } => {
-                let lens = self.has_lens().then(|| disc(lens.map(f64::from)));
-                let [origin, dir] = self.flat(place.to_array(), size, lens);
+                let lens = self.has_lens().then(|| concentric_disc(lens.map(f64::from)));
+                let [origin, dir] = self.projective(place.to_array(), size, lens);
                 let dir = DVec3::from_array(dir).as_vec3();
                 return Some(Ray::new(DVec3::from_array(origin), dir));
             }
             CameraKind::Fisheye { .. } => {
-                let [x, y] = from_the_middle(place.to_array(), width, height);
+                let [x, y] = on_screen(place.to_array(), width, height);
                 // The circle touches the nearer edges.
                 let circle = (width / height).min(1.0);
                 self.fisheye(x / circle, y / circle)?
@@ -86,15 +86,15 @@ impl Camera {
         Some(Ray::new(self.eye, dir.normalize_or(self.forward).as_vec3()))
     }
 
-    /// Whether [`Camera::flat_rays`] draws its rays.
-    pub(crate) fn is_flat(&self) -> bool {
+    /// Whether [`Camera::projective_rays`] draws its rays.
+    pub(crate) fn is_projective(&self) -> bool {
         matches!(self.kind, CameraKind::Perspective { .. } | CameraKind::Orthographic { .. })
     }
 
     /// The rays of [`Camera::ray`] through eight places, of a camera that
-    /// [is flat](Camera::is_flat); of one that [has a lens](Camera::has_lens) with places there.
+    /// [is projective](Camera::is_projective); of one that [has a lens](Camera::has_lens) with places there.
     #[inline(always)]
-    pub(crate) fn flat_rays<S: Simd>(
+    pub(crate) fn projective_rays<S: Simd>(
         &self,
         simd: S,
         [x, y]: [[f64x4<S>; 2]; 2],
@@ -102,11 +102,11 @@ impl Camera {
         lens: Option<&[[f32; 8]; 2]>,
     ) -> Rays8 {
         let [low_lens, high_lens] = match lens {
-            Some(lens) => disc4(simd, lens).map(Some),
+            Some(lens) => concentric_disc8(simd, lens).map(Some),
             None => [None, None],
         };
-        let [low_o, low] = self.flat([x[0], y[0]], size, low_lens);
-        let [high_o, high] = self.flat([x[1], y[1]], size, high_lens);
+        let [low_o, low] = self.projective([x[0], y[0]], size, low_lens);
+        let [high_o, high] = self.projective([x[1], y[1]], size, high_lens);
         Rays8 {
             origin: [
                 whole(low_o[0], high_o[0]),
@@ -123,18 +123,18 @@ impl Camera {
         }
     }
 
-    /// Origin and unit direction of the ray through a place of a flat picture. `lens`: a point of
+    /// Origin and unit direction of the ray through a place of a projective picture. `lens`: a point of
     /// the unit disc; the ray starts there on the lens, and meets the plane of focus where it would
     /// have from the middle.
     #[inline(always)]
-    fn flat<F: Lanes<Scalar = f64>>(
+    fn projective<F: Lanes<Scalar = f64>>(
         &self,
         place: [F; 2],
         size: [u32; 2],
         lens: Option<[F; 2]>,
     ) -> [[F; 3]; 2] {
         let Self { eye, right, up, forward, half, aperture, focus, .. } = *self;
-        let [x, y] = from_the_middle(place, f64::from(size[0]), f64::from(size[1]));
+        let [x, y] = on_screen(place, f64::from(size[0]), f64::from(size[1]));
         let off = [
             (x * right.x + y * up.x) * half,
             (x * right.y + y * up.y) * half,
@@ -182,14 +182,14 @@ impl Camera {
 
 /// A place from the picture's middle, in half heights; y up.
 #[inline(always)]
-fn from_the_middle<F: Lanes<Scalar = f64>>([x, y]: [F; 2], width: f64, height: f64) -> [F; 2] {
+fn on_screen<F: Lanes<Scalar = f64>>([x, y]: [F; 2], width: f64, height: f64) -> [F; 2] {
     [(x * 2.0 + -width) / height, (y * -2.0 + height) / height]
 }
 
 /// A point of the unit disc from one of the unit square, areas kept (Shirley and Chiu 1997).
 /// (½, ½) is the middle.
 #[inline(always)]
-pub(crate) fn disc<F: Lanes<Scalar = f64>>([u, v]: [F; 2]) -> [F; 2] {
+pub(crate) fn concentric_disc<F: Lanes<Scalar = f64>>([u, v]: [F; 2]) -> [F; 2] {
     let (a, b) = (u * 2.0 + -1.0, v * 2.0 + -1.0);
     let across = a.abs().gt(b.abs());
     // In the quarters above and below, x and y change their parts.
@@ -200,11 +200,11 @@ pub(crate) fn disc<F: Lanes<Scalar = f64>>([u, v]: [F; 2]) -> [F; 2] {
     [r * F::select(across, cos, sin), r * F::select(across, sin, cos)]
 }
 
-/// [`disc`] of eight points, four by four.
+/// [`concentric_disc`] of eight points, four by four.
 #[inline(always)]
-pub(crate) fn disc4<S: Simd>(simd: S, [u, v]: &[[f32; 8]; 2]) -> [[f64x4<S>; 2]; 2] {
+pub(crate) fn concentric_disc8<S: Simd>(simd: S, [u, v]: &[[f32; 8]; 2]) -> [[f64x4<S>; 2]; 2] {
     let (u, v) = (f32x8::load_array_ref(simd, u).widen(), f32x8::load_array_ref(simd, v).widen());
-    [disc([u.0, v.0]), disc([u.1, v.1])]
+    [concentric_disc([u.0, v.0]), concentric_disc([u.1, v.1])]
 }
 
 #[cfg(test)]
@@ -243,7 +243,7 @@ mod tests {
     }
 
     #[test]
-    fn eight_flat_rays_have_the_bits_of_one() {
+    fn eight_projective_rays_have_the_bits_of_one() {
         let simd = fearless_simd::Fallback::new();
         let kinds =
             [CameraKind::Perspective { fov: 37.0 }, CameraKind::Orthographic { height: 4.0 }];
@@ -261,7 +261,7 @@ mod tests {
                 let on_lens = |lane: usize| [0.5 - 0.06 * lane as f32, 0.5 + 0.08 * i as f32];
                 let lens = [0, 1].map(|axis| std::array::from_fn(|lane| on_lens(lane)[axis]));
                 let lens8 = camera.has_lens().then_some(&lens);
-                let rays = camera.flat_rays(simd, places, SIZE, lens8);
+                let rays = camera.projective_rays(simd, places, SIZE, lens8);
                 for lane in 0..8 {
                     let one = camera.ray(place(lane), SIZE, on_lens(lane));
                     assert_eq!(Some(rays.get(lane)), one, "{kind:?}, {aperture}");
@@ -272,17 +272,17 @@ mod tests {
 
     #[test]
     fn the_disc_is_filled_evenly_from_its_middle_to_its_rim() {
-        assert_eq!(disc([0.5, 0.5]), [0.0, 0.0]);
+        assert_eq!(concentric_disc([0.5, 0.5]), [0.0, 0.0]);
         let n = 100;
         let mut within = 0;
         for i in 0..n * n {
             let at = |k: usize| (k as f64 + 0.5) / f64::from(n as u32);
-            let [x, y] = disc([at(i % n), at(i / n)]);
+            let [x, y] = concentric_disc([at(i % n), at(i / n)]);
             assert!(x * x + y * y < 1.0);
             within += u32::from(x * x + y * y < 0.49);
         }
         assert!((f64::from(within) / f64::from((n * n) as u32) - 0.49).abs() < 0.005);
-        let [x, y] = disc([1.0, 0.75]);
+        let [x, y] = concentric_disc([1.0, 0.75]);
         let (sin, cos) = wide::sin_cos(std::f64::consts::FRAC_PI_8);
         assert!((x - cos).abs() < 1e-15 && (y - sin).abs() < 1e-15);
     }

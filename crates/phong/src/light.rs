@@ -6,7 +6,7 @@ use phong_bvh::lanes::sub;
 use phong_bvh::{Lanes, halves};
 use phong_scene::{LightKind, Rgb};
 
-use crate::camera::{disc, disc4};
+use crate::camera::{concentric_disc, concentric_disc8};
 use crate::math::lanes::{add, dot, normalize, scale, select3, splat3};
 use crate::math::{Dir3, wide};
 
@@ -103,7 +103,7 @@ impl Light {
 
     /// How it reaches `p`, as [`Light::sample`] has it.
     pub(crate) fn reach(&self, p: DVec3, place: [f32; 2]) -> Option<Reach<Dir3, f32>> {
-        let place = self.soft.then(|| disc(place.map(f64::from)).map(|v| v as f32));
+        let place = self.soft.then(|| concentric_disc(place.map(f64::from)).map(|v| v as f32));
         let Reach { l, distance, share } =
             self.arrive(self.toward(p.to_array()).map(|v| v as f32), place);
         (l != [0.0; 3]).then(|| Reach { l: Dir3::from_unit(Vec3::from(l)), distance, share })
@@ -120,7 +120,7 @@ impl Light {
     ) -> Reach<[f32x8<S>; 3], f32x8<S>> {
         let place = match place {
             Some(place) => {
-                let [low, high] = disc4(simd, place);
+                let [low, high] = concentric_disc8(simd, place);
                 Some([low[0].narrow(high[0]), low[1].narrow(high[1])])
             }
             None => None,

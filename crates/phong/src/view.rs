@@ -10,7 +10,7 @@ use phong_scene::{Background, Diagnostic, Rgb, Scene};
 use thiserror::Error;
 
 use crate::camera::Camera;
-use crate::geometry::{Geometry, GeometryError, GeometryOptions, ObjectRecord, told};
+use crate::geometry::{Geometry, GeometryError, GeometryOptions, ObjectRecord, summary};
 use crate::interaction::SurfaceInteraction;
 use crate::light::Light;
 use crate::look::Look;
@@ -52,7 +52,7 @@ pub enum ViewError {
     Geometry(#[from] GeometryError),
     /// The camera, a light, a material, or the ambient light is broken, as
     /// [`Scene::check`](phong_scene::Scene::check) says: the caller's fault.
-    #[error("{}", told(.0))]
+    #[error("{}", summary(.0))]
     Look(Vec<Diagnostic>),
     /// A surface names a material that the look does not have: the caller's fault.
     #[error("a surface is of material {number}, and the look has {count} materials")]

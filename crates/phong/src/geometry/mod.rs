@@ -107,7 +107,7 @@ pub enum GeometryError {
         limit: u64,
     },
     /// An object or a group is broken, as [`Scene::check_objects`] says: the scene's fault.
-    #[error("{}", told(.0))]
+    #[error("{}", summary(.0))]
     Scene(Vec<Diagnostic>),
     /// The trees cannot be built.
     #[error(transparent)]
@@ -115,7 +115,7 @@ pub enum GeometryError {
 }
 
 /// The first of some diagnostics, and how many more there are.
-pub(crate) fn told(diagnostics: &[Diagnostic]) -> String {
+pub(crate) fn summary(diagnostics: &[Diagnostic]) -> String {
     let first = diagnostics.first().map_or_else(String::new, |d| d.message.clone());
     match diagnostics.len() {
         0 | 1 => first,

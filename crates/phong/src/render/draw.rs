@@ -59,10 +59,10 @@ impl Samples {
         self.bundle.clear();
         self.weights.clear();
         let soft = integrator.scene.has_soft_lights();
-        if integrator.scene.camera().is_flat() {
+        if integrator.scene.camera().is_projective() {
             let (camera, to) = (integrator.scene.camera(), self);
             let bvh = integrator.scene.world();
-            bvh.run(FlatRays { camera, options, filter, pixels, indices, soft, to });
+            bvh.run(ProjectiveRays { camera, options, filter, pixels, indices, soft, to });
             return;
         }
         for index in indices {
@@ -124,8 +124,8 @@ pub(crate) fn camera_ray(
     Drawn { place, weight: drawn.weight, ray }
 }
 
-/// [`camera_ray`] of eight samples at once, of a flat picture.
-struct FlatRays<'a> {
+/// [`camera_ray`] of eight samples at once, of a projective camera.
+struct ProjectiveRays<'a> {
     camera: &'a Camera,
     options: &'a RenderOptions,
     filter: &'a Filter,
@@ -136,7 +136,7 @@ struct FlatRays<'a> {
     to: &'a mut Samples,
 }
 
-impl Kernel for FlatRays<'_> {
+impl Kernel for ProjectiveRays<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -156,7 +156,7 @@ impl Kernel for FlatRays<'_> {
                 let x = [low + left + 0.5 + dx.0, high + left + 0.5 + dx.1];
                 let y = [dy.0 + top, dy.1 + top];
                 let lens = lens.then(|| pixels.samplers.at(index).pair(Use::Lens));
-                let mut rays = camera.flat_rays(simd, [x, y], options.size(), lens.as_ref());
+                let mut rays = camera.projective_rays(simd, [x, y], options.size(), lens.as_ref());
                 rays.there = (1 << pixels.len) - 1;
                 to.push(&rays, samplers, weights);
                 if gradient {
@@ -214,7 +214,7 @@ mod tests {
                         assert_eq!(sampler.pair(Use::Light(0)), expected.pair(Use::Light(0)));
                         let pixel = pixels.pixel(lane);
                         let one = camera_ray(&integrator, &options, &filter, pixel, sampler);
-                        let ray = one.ray.expect("flat pictures have no edge");
+                        let ray = one.ray.expect("every place of a projective picture has a ray");
                         assert_eq!(rays.get(lane), ray.ray, "{pixel:?}, {index}");
                         assert_eq!(drawn.weights[i][lane], one.weight);
                         assert_eq!(drawn.bundle.heights[i][lane], ray.height);
