@@ -3,7 +3,7 @@
 use super::{
     WIDTH,
     boxes::Boxed,
-    grow::{Branch, Shape},
+    branch::{Branch, Shape},
 };
 use crate::{
     Primitives,

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::{
     Settings, WIDTH,
     boxes::{Boxed, half_area},
+    branch::{Branch, Shape},
     emit::{Size, measure},
     gather::{CLOSED, Costs, Split, gather},
     partition::{partition, partition_by_all},
@@ -23,26 +24,6 @@ use crate::{
 const TASK: usize = 1 << 14;
 /// Cuts from the root after which runs are halved, so that no arrangement makes a tree deep.
 const DEEP: u32 = 64;
-
-/// A node of the binary tree, or a leaf.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Branch {
-    /// Its bounds as `[−lo, hi]`.
-    pub(super) bounds: [f32; 6],
-    pub(super) shape: Shape,
-    pub(super) split: Split,
-}
-
-/// What is under a branch.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Shape {
-    /// So many boxes of one kind from number `first` of the subtree's own.
-    Leaf { kind: Kind, len: u8, first: u32 },
-    /// Two branches: the left one's number; the right one is the one before this.
-    Pair { left: u32 },
-    /// A subtree, by number.
-    Subtree(u32),
-}
 
 /// A subtree as branches: children before their parents, the root last.
 #[derive(Debug, Default)]

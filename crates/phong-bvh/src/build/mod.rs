@@ -6,6 +6,7 @@
 //! decision depends on how many threads there are, so neither does the tree.
 
 mod boxes;
+mod branch;
 mod emit;
 mod gather;
 mod grow;

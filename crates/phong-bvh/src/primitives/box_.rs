@@ -11,7 +11,7 @@ use glam::{DMat3, DVec2, DVec3};
 
 use super::{
     crossing::{Line, Span},
-    solid::Patch,
+    patch::Patch,
 };
 
 /// The part of a line inside the box.

@@ -17,7 +17,7 @@ use glam::{DVec2, DVec3};
 use super::{
     crossing::{Crossings, Line, Span, quadratic},
     disc,
-    solid::{Patch, turn},
+    patch::{Patch, turn},
 };
 
 /// Radii at z = 0 and at z = 1.

@@ -15,7 +15,7 @@ use glam::{DVec2, DVec3};
 use super::{
     crossing::{Crossings, Line, Span, quadratic},
     disc,
-    solid::{Patch, turn},
+    patch::{Patch, turn},
 };
 
 /// The crossings of a line and the cylinder.

@@ -7,7 +7,7 @@ use glam::{DMat3, DVec2, DVec3};
 
 use super::{
     crossing::{Crossings, Line},
-    solid::Patch,
+    patch::Patch,
 };
 
 /// The one crossing of a line and the disc.

@@ -11,7 +11,7 @@ use glam::{DMat3, DVec2, DVec3};
 
 use super::{
     crossing::{Crossings, Line},
-    solid::{Patch, turn},
+    patch::{Patch, turn},
 };
 
 /// The crossings of a line and the unit sphere.

@@ -18,6 +18,7 @@ pub(crate) mod crossing;
 mod cylinder;
 mod disc;
 pub(crate) mod ellipsoid;
+pub(crate) mod patch;
 pub(crate) mod plane;
 pub(crate) mod solid;
 pub(crate) mod sphere;

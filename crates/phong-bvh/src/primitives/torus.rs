@@ -23,7 +23,7 @@ use glam::{DMat3, DVec2, DVec3};
 use super::{
     crossing::{Crossings, Line, Span},
     cylinder, disc, ellipsoid,
-    solid::{Patch, turn},
+    patch::{Patch, turn},
 };
 
 /// The crossings of a line and the torus of tube radius `tube`, up to the first that is `enough`:

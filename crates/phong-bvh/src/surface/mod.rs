@@ -32,7 +32,7 @@ use crate::{
     eights::whole,
     frame::{Frame, Way, unit},
     lanes, local,
-    primitives::{ellipsoid, solid::Patch, sphere::Closest},
+    primitives::{ellipsoid, patch::Patch, sphere::Closest},
 };
 
 /// What knows all parts of a world.
