@@ -31,11 +31,9 @@ pub struct View {
     lights: Vec<Light>,
     /// The materials; of those that vary, with white for every texture.
     materials: Vec<Material>,
-    /// What varies of each.
+    /// What varies of each; empty where no material takes a value from a texture.
     varied: Vec<Varied>,
     textures: Vec<Texture>,
-    /// Whether any material takes a value from a texture.
-    has_textures: bool,
     /// Whether rays go on from any material.
     has_bounces: bool,
     /// Whether any light has an extent.
@@ -93,7 +91,10 @@ impl View {
         let lights: Vec<_> = look.lights.iter().map(|light| Light::new(light, center)).collect();
         let ready = |m: &phong_scene::Material| Material::new(&m.at(|_| Rgb::WHITE), viewer);
         let materials: Vec<_> = look.materials.iter().map(ready).collect();
-        let varied: Vec<_> = look.materials.iter().map(Varied::of).collect();
+        let mut varied: Vec<_> = look.materials.iter().map(Varied::of).collect();
+        if varied.iter().all(|&varied| varied == Varied::Nothing) {
+            varied = Vec::new();
+        }
         let bounces =
             |m: &phong_scene::Material| !(m.reflection.is_black() && m.transmission.is_black());
         Ok(Self {
@@ -106,7 +107,6 @@ impl View {
             camera,
             lights,
             materials,
-            has_textures: varied.iter().any(|&varied| varied != Varied::Nothing),
             varied,
         })
     }

@@ -65,7 +65,7 @@ impl View {
         let remembered = made.len().saturating_sub(REMEMBERED);
         for lane in lanes(hits.met) {
             let number = shading.material[lane];
-            let varied = self.varied[number as usize];
+            let varied = self.varied(number);
             if varied == Varied::Nothing {
                 continue;
             }
@@ -92,9 +92,14 @@ impl View {
         }
     }
 
+    #[inline]
+    fn varied(&self, material: u32) -> Varied {
+        self.varied.get(material as usize).copied().unwrap_or(Varied::Nothing)
+    }
+
     /// The colour of a surface that brings none of its own.
     pub(super) fn color_at(&self, material: u32, ray: &Ray, hit: &Hit, p: DVec3) -> Rgb {
-        match self.varied[material as usize].color() {
+        match self.varied(material).color() {
             Some(by) => {
                 let point = self.texture_point(ray, hit, p);
                 Param::<Rgb>::from(by).at(|texture| self.look_up(texture, &point))
@@ -106,12 +111,12 @@ impl View {
     /// Whether any material takes a value from a texture.
     #[inline]
     pub(crate) fn has_textures(&self) -> bool {
-        self.has_textures
+        !self.varied.is_empty()
     }
 
     /// A material as it is at a point, ready for light.
     pub fn material_at(&self, number: u32, point: &TexturePoint) -> Material {
-        match self.varied[number as usize] {
+        match self.varied(number) {
             Varied::Nothing => self.materials[number as usize].clone(),
             _ => Material::new(&self.written_at(number, point), self.camera.backward()),
         }

@@ -260,7 +260,7 @@ impl ValueReader<'_> {
         }
         let (mut stops, mut good) = (Vec::with_capacity(items.len()), true);
         let mut before = 0.0;
-        for item in items.iter() {
+        for item in items {
             let Some([t, color]) = self.items::<2>(item) else {
                 good = false;
                 continue;
