@@ -1,4 +1,4 @@
-//! What the integrator tells about itself.
+//! What the integrator reports while it traces a ray.
 
 use phong_bvh::Ray;
 use phong_scene::Rgb;
@@ -29,7 +29,7 @@ impl Branch {
 
 /// What happened with one light at one hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LightTold {
+pub struct LightContribution {
     /// Number of the light, from 0.
     pub light: usize,
     /// What it sends; `None` if the point is where the light is.
@@ -46,12 +46,12 @@ pub struct LightTold {
     pub terms: Terms,
 }
 
-/// Listens to the integrator. Everything is told in order, depth first, when rays are traced one
-/// at a time; rays of a bundle are not told apart, so listen only to one.
+/// Receives what the integrator reports. Reports are in order, depth first, when one ray is traced
+/// at a time. The rays of a bundle cannot be told apart, so trace one ray only.
 ///
 /// `()` says nothing and costs nothing.
 pub trait Witness {
-    /// Whether anybody listens: what would be told is not even worked out otherwise.
+    /// Whether reports are wanted. If not, they are not even worked out.
     const LISTENS: bool = true;
 
     /// A ray hit nothing and saw this background.
@@ -59,7 +59,7 @@ pub trait Witness {
     /// A ray met a surface, with these terms, that belong to no light and to no ray that goes on.
     fn met(&mut self, ray: &Ray, at: &SurfaceInteraction, terms: Terms);
     /// A light was asked for at the surface just met.
-    fn lit(&mut self, told: &LightTold);
+    fn lit(&mut self, light: &LightContribution);
     /// A ray goes on, with this weight; `fresnel` is the reflectance F where it was asked for.
     fn entered(&mut self, branch: Branch, weight: Rgb, fresnel: Option<f32>, ray: &Ray);
     /// It came back with this light, not yet weighted.
@@ -73,7 +73,7 @@ impl Witness for () {
 
     fn missed(&mut self, _: &Ray, _: Rgb) {}
     fn met(&mut self, _: &Ray, _: &SurfaceInteraction, _: Terms) {}
-    fn lit(&mut self, _: &LightTold) {}
+    fn lit(&mut self, _: &LightContribution) {}
     fn entered(&mut self, _: Branch, _: Rgb, _: Option<f32>, _: &Ray) {}
     fn left(&mut self, _: Branch, _: Rgb) {}
     fn cut(&mut self, _: Branch, _: Rgb, _: Option<f32>) {}

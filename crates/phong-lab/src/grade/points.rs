@@ -10,7 +10,7 @@ use phong::render::RenderOptions;
 use phong::terms::Terms;
 use phong::texture::TexturePoint;
 use phong::view::View;
-use phong::witness::{Branch, LightTold, Witness};
+use phong::witness::{Branch, LightContribution, Witness};
 use phong_bvh::Ray;
 use phong_scene::{ConstantMaterial, FilterKind, LightKind, Rgb};
 use rayon::prelude::*;
@@ -132,7 +132,7 @@ impl Witness for Listener<'_> {
         }
     }
 
-    fn lit(&mut self, told: &LightTold) {
+    fn lit(&mut self, told: &LightContribution) {
         let (true, Some(surface), Some(sample)) =
             (self.weights.is_empty(), &mut self.point.surface, told.sample)
         else {

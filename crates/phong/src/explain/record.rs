@@ -11,7 +11,7 @@ use crate::reflectance::Incident;
 use crate::terms::Terms;
 use crate::texture::{Texture, TexturePoint};
 use crate::view::View;
-use crate::witness::{Branch, LightTold, Witness};
+use crate::witness::{Branch, LightContribution, Witness};
 
 /// Listens to one ray and all that follow from it.
 pub(super) struct Recorder<'a> {
@@ -118,24 +118,24 @@ impl Witness for Recorder<'_> {
         self.tell(ray, Some(met), End::Surface(Box::new(surface)));
     }
 
-    fn lit(&mut self, told: &LightTold) {
+    fn lit(&mut self, light: &LightContribution) {
         let Some((at, material)) = self.open.last().and_then(|open| open.at.clone()) else {
             return;
         };
         let scene = self.scene;
-        let written = &scene.written_lights()[told.light];
-        let l = told.sample.map(|sample| sample.l);
+        let written = &scene.written_lights()[light.light];
+        let l = light.sample.map(|sample| sample.l);
         let e = material.eye(at.e);
         let r = l.map(|l| at.n.mirror(l));
         let h = l.and_then(|l| l.halfway(e));
-        let ambient = told.sample.map_or(Rgb::BLACK, |sample| {
+        let ambient = light.sample.map_or(Rgb::BLACK, |sample| {
             material.ambient_of_light(at.color, scene.ambient(), &sample)
         });
         let blocker =
-            told.shadow.filter(|_| !told.visible).and_then(|shadow| self.blocker(&shadow));
+            light.shadow.filter(|_| !light.visible).and_then(|shadow| self.blocker(&shadow));
         let tangent = self.surface().map(|surface| surface.tangent);
         let white = match (l, tangent) {
-            (Some(l), Some(tangent)) if told.visible => {
+            (Some(l), Some(tangent)) if light.visible => {
                 let white = Incident { l, c_d: Rgb::WHITE, c_s: Rgb::WHITE, color: at.color };
                 material.reflectance.shade_light(at.n, tangent, e, white)
             }
@@ -147,25 +147,25 @@ impl Witness for Recorder<'_> {
             l,
             r,
             h,
-            distance: told.sample.map_or(0.0, |sample| sample.distance),
+            distance: light.sample.map_or(0.0, |sample| sample.distance),
             n_dot_l: l.map_or(0.0, |l| l.dot(at.n)),
             r_dot_e: r.map_or(0.0, |r| r.dot(e)),
             n_dot_h: h.map_or(0.0, |h| at.n.dot(h)),
-            color: told.sample.map_or(Rgb::BLACK, |sample| sample.color),
-            c_d: told.incident.map_or(Rgb::BLACK, |incident| incident.c_d),
-            c_s: told.incident.map_or(Rgb::BLACK, |incident| incident.c_s),
-            above: told.above,
-            tested: told.shadow.is_some(),
-            visible: told.visible,
+            color: light.sample.map_or(Rgb::BLACK, |sample| sample.color),
+            c_d: light.incident.map_or(Rgb::BLACK, |incident| incident.c_d),
+            c_s: light.incident.map_or(Rgb::BLACK, |incident| incident.c_s),
+            above: light.above,
+            tested: light.shadow.is_some(),
+            visible: light.visible,
             blocker,
             white,
             ambient,
-            diffuse: told.terms.diffuse,
-            specular: told.terms.specular,
+            diffuse: light.terms.diffuse,
+            specular: light.terms.specular,
         };
         if let Some(surface) = self.surface() {
             surface.terms.ambient += ambient;
-            surface.terms += told.terms;
+            surface.terms += light.terms;
             surface.lights.push(lit);
         }
     }

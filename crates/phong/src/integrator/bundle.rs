@@ -1,4 +1,4 @@
-//! Rays that are traced together, and what they bring home.
+//! Rays that are traced together, and the radiance they return.
 
 use phong_bvh::{Ray, Rays8};
 
@@ -46,7 +46,7 @@ impl From<CameraRay> for Bundle {
     }
 }
 
-/// What eight rays brought home: nothing, where there was none.
+/// The radiance of eight rays; black in lanes without a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Radiance8 {
     /// The terms, linear and unclamped.

@@ -1,4 +1,4 @@
-//! What lights add to the surfaces met, eight at a time.
+//! What lights add to the surfaces that rays hit, eight at a time.
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 use phong_bvh::{Kernel, Rays8, lanes, offset_origins};
@@ -6,117 +6,129 @@ use phong_scene::Rgb;
 
 use super::Integrator;
 use super::bundle::Radiance8;
-use super::met::{Met, is_above, material, same_material, to_eye};
+use super::interactions::{Interactions, is_above, material, same_material, to_eye};
 use crate::light::{Light, LightSample, Reach};
 use crate::math::Dir3;
 use crate::math::lanes::{Lanes3, direction, dot, get, load3, select3, store3};
 use crate::sampling::{Samplers8, Use};
 use crate::terms::{Term, Terms};
-use crate::witness::{LightTold, Witness};
+use crate::witness::{LightContribution, Witness};
 
-/// What a light sends to the surfaces met.
+/// What one light sends to each surface that a bundle's rays hit.
 #[derive(Default)]
-pub(super) struct Light8s {
-    sent: Vec<Sent>,
-    /// The way to the light, from each surface met: `dir` is L, 0 where the surface is where the light
-    /// is, and `t_max` the distance. The rays that are there ask whether it is seen.
-    ways: Vec<Rays8>,
+pub(super) struct LightSamples {
+    samples: Vec<LightSample8>,
+    /// A ray from each surface to the light. `dir` is L, which is 0 where the surface point is the light's
+    /// own position, and `t_max` is the distance. Rays that are needed to find out whether the light is
+    /// visible are marked as present.
+    shadow_rays: Vec<Rays8>,
     blocked: Vec<u32>,
 }
 
-/// What a light sends to eight surfaces.
+/// What one light sends to eight surfaces.
 #[derive(Clone, Copy)]
 #[repr(align(32))]
-struct Sent {
-    /// The share of its colours that is left.
+struct LightSample8 {
+    /// The share of the light's colours that arrives.
     share: [f32; 8],
-    /// The surfaces that the light is above, a bit each.
+    /// The surfaces above whose horizon the light is, one bit each.
     above: u32,
-    /// Of these the ones that get any of its light, and that it is seen from.
-    seen: u32,
+    /// The surfaces that receive light: the light is above the horizon, is not 0 there, and nothing
+    /// blocks it. One bit each.
+    visible: u32,
 }
 
-impl Sent {
-    const NONE: Self = Self { share: [0.0; 8], above: 0, seen: 0 };
+impl LightSample8 {
+    const NONE: Self = Self { share: [0.0; 8], above: 0, visible: 0 };
 
-    /// What is sent to one surface, in colours; `None` where the light is.
-    fn sample(&self, ways: &Rays8, light: &Light, lane: usize) -> Option<LightSample> {
+    /// What is sent to one surface; `None` where the surface point is the light's position.
+    fn get(&self, shadow_rays: &Rays8, light: &Light, lane: usize) -> Option<LightSample> {
         let reach = Reach {
-            l: direction(&ways.dir, lane),
-            distance: ways.t_max[lane],
+            l: direction(&shadow_rays.dir, lane),
+            distance: shadow_rays.t_max[lane],
             share: self.share[lane],
         };
-        (get(&ways.dir, lane) != [0.0; 3]).then(|| light.colored(reach))
+        (get(&shadow_rays.dir, lane) != [0.0; 3]).then(|| light.colored(reach))
     }
 }
 
 impl Integrator<'_> {
-    /// What a light sends to every surface met, and where it is seen from; how many asked that.
-    pub(super) fn send(
+    /// Works out what a light sends to every surface and whether it is visible from there. Returns the
+    /// number of shadow rays.
+    pub(super) fn sample_light(
         &self,
         number: usize,
         rays: &[Rays8],
-        met: &Met,
+        interactions: &Interactions,
         samplers: &[Samplers8],
-        to: &mut Light8s,
+        to: &mut LightSamples,
     ) -> u64 {
         let light = &self.scene.lights()[number];
-        let Light8s { sent, ways, blocked } = to;
-        sent.resize(rays.len(), Sent::NONE);
-        ways.resize(rays.len(), Rays8::NONE);
+        let LightSamples { samples, shadow_rays, blocked } = to;
+        samples.resize(rays.len(), LightSample8::NONE);
+        shadow_rays.resize(rays.len(), Rays8::NONE);
         let casts = self.shadows && light.shadows;
         let purpose = Use::Light(number as u32);
         let bvh = self.scene.world();
-        let count = bvh.run(Send { light, purpose, casts, rays, met, samplers, sent, ways });
+        let count = bvh.run(SampleLight {
+            light,
+            purpose,
+            casts,
+            rays,
+            interactions,
+            samplers,
+            samples,
+            shadow_rays,
+        });
         if casts {
             blocked.resize(rays.len(), 0);
-            bvh.occluded_eights(ways, blocked);
-            for (sent, blocked) in sent.iter_mut().zip(blocked) {
-                sent.seen &= !*blocked;
+            bvh.occluded_eights(shadow_rays, blocked);
+            for (samples, blocked) in samples.iter_mut().zip(blocked) {
+                samples.visible &= !*blocked;
             }
         }
         count
     }
 
-    /// Adds the light sent to the surfaces it is seen from.
+    /// Adds the light to the surfaces from which it is visible.
     pub(super) fn shade(
         &self,
         number: usize,
         rays: &[Rays8],
-        met: &Met,
-        from: &Light8s,
+        interactions: &Interactions,
+        from: &LightSamples,
         out: &mut [Radiance8],
     ) {
-        self.scene.world().run(Shade { integrator: self, number, rays, met, from, out });
+        self.scene.world().run(Shade { integrator: self, number, rays, interactions, from, out });
     }
 
-    /// Tells of what [`Integrator::shade`] is about to add.
-    pub(super) fn tell<W: Witness>(
+    /// Reports what [`Integrator::shade`] is about to add.
+    pub(super) fn report_light<W: Witness>(
         &self,
         number: usize,
         rays: &[Rays8],
-        met: &Met,
-        from: &Light8s,
+        interactions: &Interactions,
+        from: &LightSamples,
         witness: &mut W,
     ) {
         let light = &self.scene.lights()[number];
         let mut alone = vec![Radiance8::NONE; rays.len()];
-        self.shade(number, rays, met, from, &mut alone);
-        for (i, (sent, ways)) in from.sent.iter().zip(&from.ways).enumerate() {
-            for lane in lanes(met.hits[i].met) {
-                let at = met.at(rays, i, lane, self.scene.materials().len());
+        self.shade(number, rays, interactions, from, &mut alone);
+        for (i, (samples, shadow_rays)) in from.samples.iter().zip(&from.shadow_rays).enumerate() {
+            for lane in lanes(interactions.hits[i].met) {
+                let at = interactions.at(rays, i, lane, self.scene.materials().len());
                 let has = |mask: u32| mask >> lane & 1 != 0;
-                let sample = sent.sample(ways, light, lane);
+                let sample = samples.get(shadow_rays, light, lane);
                 let Terms { diffuse, specular, .. } = alone[i].terms.get(lane);
-                let of = met.dressed[i].material[lane] as usize;
-                let material = material(self.scene, &met.made, of);
-                witness.lit(&LightTold {
+                let of = interactions.shading[i].material[lane] as usize;
+                let material = material(self.scene, &interactions.made, of);
+                witness.lit(&LightContribution {
                     light: number,
                     sample,
                     incident: sample.map(|sample| material.incident(at.n, at.color, &sample)),
-                    above: has(sent.above),
-                    shadow: has(ways.there).then(|| ways.get(lane)),
-                    visible: has(sent.seen),
+                    above: has(samples.above),
+                    shadow: has(shadow_rays.there).then(|| shadow_rays.get(lane)),
+                    visible: has(samples.visible),
                     terms: Terms { diffuse, specular, ..Terms::default() },
                 });
             }
@@ -127,20 +139,20 @@ impl Integrator<'_> {
     pub(super) fn ambient_of_light(
         &self,
         number: usize,
-        met: &Met,
-        from: &Light8s,
+        interactions: &Interactions,
+        from: &LightSamples,
         out: &mut [Radiance8],
     ) {
         let light = &self.scene.lights()[number];
-        for ((i, sent), out) in from.sent.iter().enumerate().zip(out) {
-            for lane in lanes(met.hits[i].met) {
-                let dressed = &met.dressed[i];
-                let number = dressed.material[lane] as usize;
-                let material = material(self.scene, &met.made, number);
+        for ((i, samples), out) in from.samples.iter().enumerate().zip(out) {
+            for lane in lanes(interactions.hits[i].met) {
+                let shading = &interactions.shading[i];
+                let number = shading.material[lane] as usize;
+                let material = material(self.scene, &interactions.made, number);
                 if material.takes_ambient_per_light()
-                    && let Some(sample) = sent.sample(&from.ways[i], light, lane)
+                    && let Some(sample) = samples.get(&from.shadow_rays[i], light, lane)
                 {
-                    let color = Rgb::from(get(&dressed.color, lane));
+                    let color = Rgb::from(get(&shading.color, lane));
                     let more = material.ambient_of_light(color, self.scene.ambient(), &sample);
                     out.terms.add(Term::Ambient, lane, more);
                 }
@@ -149,47 +161,49 @@ impl Integrator<'_> {
     }
 }
 
-struct Send<'a> {
+struct SampleLight<'a> {
     light: &'a Light,
     purpose: Use,
-    /// Whether things stand in its way.
+    /// Whether objects can block it.
     casts: bool,
     rays: &'a [Rays8],
-    met: &'a Met,
+    interactions: &'a Interactions,
     samplers: &'a [Samplers8],
-    sent: &'a mut [Sent],
-    ways: &'a mut [Rays8],
+    samples: &'a mut [LightSample8],
+    shadow_rays: &'a mut [Rays8],
 }
 
-impl Kernel for Send<'_> {
+impl Kernel for SampleLight<'_> {
     type Output = u64;
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> u64 {
-        let Self { light, purpose, casts, rays, met, samplers, sent, ways } = self;
+        let Self { light, purpose, casts, rays, interactions, samplers, samples, shadow_rays } =
+            self;
         let brightest = f32x8::splat(simd, light.brightest());
         let mut count = 0;
-        let Met { hits, surfaces, dressed, .. } = met;
-        let eights = rays.iter().zip(hits).zip(surfaces).zip(dressed).zip(sent).zip(ways);
-        for (i, (((((rays, hits), surface), dressed), sent), ways)) in eights.enumerate() {
-            (sent.above, sent.seen, ways.there) = (0, 0, 0);
+        let Interactions { hits, surfaces, shading, .. } = interactions;
+        let eights = rays.iter().zip(hits).zip(surfaces).zip(shading).zip(samples).zip(shadow_rays);
+        for (i, (((((rays, hits), surface), shading), samples), shadow_rays)) in eights.enumerate()
+        {
+            (samples.above, samples.visible, shadow_rays.there) = (0, 0, 0);
             if hits.met == 0 {
                 continue;
             }
             let place = light.soft.then(|| samplers[i].pair(purpose));
             let reach = light.reach8(simd, &surface.p, place.as_ref());
-            let (n, ng) = (load3(simd, &dressed.n), load3(simd, &surface.ng));
+            let (n, ng) = (load3(simd, &shading.n), load3(simd, &surface.ng));
             let above = is_above(reach.l, n, ng, to_eye(simd, rays));
-            // Nothing comes from a spot beyond its edge: nobody need look.
+            // A spot sends nothing beyond its edge: no shadow ray is needed.
             let bright = (reach.share * brightest).simd_gt(f32x8::splat(simd, 0.0));
             let lit = hits.met & (above & bright).to_bitmask() as u32;
-            sent.share = reach.share.into();
-            (sent.above, sent.seen) = (hits.met & above.to_bitmask() as u32, lit);
-            ways.dir = store3(reach.l);
-            ways.t_max = reach.distance.into();
+            samples.share = reach.share.into();
+            (samples.above, samples.visible) = (hits.met & above.to_bitmask() as u32, lit);
+            shadow_rays.dir = store3(reach.l);
+            shadow_rays.t_max = reach.distance.into();
             if casts && lit != 0 {
-                ways.origin = offset_origins(simd, surface, reach.l);
-                ways.there = lit;
+                shadow_rays.origin = offset_origins(simd, surface, reach.l);
+                shadow_rays.there = lit;
                 count += u64::from(lit.count_ones());
             }
         }
@@ -201,8 +215,8 @@ struct Shade<'a> {
     integrator: &'a Integrator<'a>,
     number: usize,
     rays: &'a [Rays8],
-    met: &'a Met,
-    from: &'a Light8s,
+    interactions: &'a Interactions,
+    from: &'a LightSamples,
     out: &'a mut [Radiance8],
 }
 
@@ -211,21 +225,23 @@ impl Kernel for Shade<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Self { integrator, number, rays, met, from, out } = self;
+        let Self { integrator, number, rays, interactions, from, out } = self;
         let light = &integrator.scene.lights()[number];
-        for (i, ((sent, ways), out)) in from.sent.iter().zip(&from.ways).zip(out).enumerate() {
-            let dressed = &met.dressed[i];
-            let mut left = sent.seen;
+        for (i, ((samples, shadow_rays), out)) in
+            from.samples.iter().zip(&from.shadow_rays).zip(out).enumerate()
+        {
+            let shading = &interactions.shading[i];
+            let mut left = samples.visible;
             while left != 0 {
                 // Neighbours are mostly of one material.
-                let (number, same) = same_material(simd, &dressed.material, left);
+                let (number, same) = same_material(simd, &shading.material, left);
                 left &= !same;
-                let material = material(integrator.scene, &met.made, number);
-                let (n, l) = (load3(simd, &dressed.n), load3(simd, &ways.dir));
+                let material = material(integrator.scene, &interactions.made, number);
+                let (n, l) = (load3(simd, &shading.n), load3(simd, &shadow_rays.dir));
                 let e = material.eye_of(to_eye(simd, &rays[i]));
                 if let Some([diffuse, specular]) = material.reflectance.weights(n, e, l) {
-                    let color = load3(simd, &dressed.color);
-                    let share = f32x8::load_array(simd, sent.share);
+                    let color = load3(simd, &shading.color);
+                    let share = f32x8::load_array(simd, samples.share);
                     let [diffuse_color, specular_color] = light.colors();
                     let arriving = [
                         [share * diffuse_color.r, share * diffuse_color.g, share * diffuse_color.b],
@@ -243,11 +259,11 @@ impl Kernel for Shade<'_> {
                     continue;
                 }
                 for lane in lanes(same) {
-                    let Some(sample) = sent.sample(ways, light, lane) else { continue };
-                    let (n, e) = (direction(&dressed.n, lane), -direction(&rays[i].dir, lane));
-                    let color = Rgb::from(get(&dressed.color, lane));
+                    let Some(sample) = samples.get(shadow_rays, light, lane) else { continue };
+                    let (n, e) = (direction(&shading.n, lane), -direction(&rays[i].dir, lane));
+                    let color = Rgb::from(get(&shading.color, lane));
                     let tangent = if material.reflectance.is_brushed() {
-                        let (ray, hit) = (rays[i].get(lane), met.hits[i].get(lane));
+                        let (ray, hit) = (rays[i].get(lane), interactions.hits[i].get(lane));
                         Dir3::from_unit(integrator.scene.coordinates(&ray, &hit).tangent)
                     } else {
                         Dir3::X

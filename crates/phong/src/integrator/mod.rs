@@ -1,15 +1,15 @@
-//! The road of a ray: intersect → interaction → material → lights and shadows → [`Terms`]; mirror
-//! and glass rays go the same road, to a depth.
+//! What happens to a ray: intersect → interaction → material → lights and shadows → [`Terms`]. Mirror
+//! and glass rays are traced the same way, to a maximal depth.
 //!
-//! Rays travel in bundles, a tile's worth at a time, eight side by side, so that vector code finds
-//! them in order and the hierarchy can use what they have in common. One ray takes this very road
-//! too, with seven lanes idle, which is how `explain` is told.
+//! Rays are traced in bundles of about a tile's worth, eight side by side, so that vector code can load
+//! them as they are and the hierarchy can use what they have in common. A single ray takes the same
+//! steps with seven lanes idle; `explain` traces its rays like that.
 //!
 //! [`Terms`]: crate::terms::Terms
 
 mod bundle;
+mod interactions;
 mod lights;
-mod met;
 mod optics;
 
 pub use bundle::RayCounts;
@@ -25,9 +25,9 @@ use crate::sampling::{Sampler, Samplers8};
 use crate::view::View;
 use crate::witness::{Branch, Witness};
 use bundle::count;
-use lights::Light8s;
-use met::Met;
-use optics::{Part, Parting8};
+use interactions::Interactions;
+use lights::LightSamples;
+use optics::{Scatter, Scattered8};
 
 /// Traces rays through a scene.
 #[derive(Clone, Copy, Debug)]
@@ -45,43 +45,44 @@ pub(crate) struct Integrator<'a> {
     pub(crate) stop: Option<&'a AtomicBool>,
 }
 
-/// Room for the work on a bundle, used again for the next one.
+/// Memory for tracing a bundle, used again for the next one.
 #[derive(Default)]
-pub(crate) struct Work {
-    met: Met,
-    lights: Light8s,
+pub(crate) struct ScratchBuffer {
+    interactions: Interactions,
+    lights: LightSamples,
     out: Vec<Radiance8>,
-    /// For the rays that go on from the surfaces met.
-    deeper: Option<Box<(Onward, Work)>>,
+    /// The mirror or refracted rays of this bundle, and the memory for tracing them.
+    deeper: Option<Box<(SecondaryRays, ScratchBuffer)>>,
 }
 
-/// Rays that go on from surfaces.
+/// The mirror rays, or the refracted rays, of a bundle.
 #[derive(Default)]
-struct Onward {
+struct SecondaryRays {
     rays: Vec<Rays8>,
     samplers: Vec<Samplers8>,
-    /// For each of them, in order, where it came from.
-    from: Vec<Step>,
-    /// What goes on from each of the surfaces met, before it is put in order.
-    partings: Vec<Parting8>,
+    /// Where each ray came from, in the same order.
+    from: Vec<Parent>,
+    /// The rays of each surface, in its lane, before they are packed.
+    scattered: Vec<Scattered8>,
 }
 
-/// Where a ray came from that goes on.
-struct Step {
-    /// The eight and the lane of the bundle's ray.
-    parent: (usize, usize),
+/// The ray that a mirror or refracted ray came from.
+struct Parent {
+    /// The number of its eight, and its lane.
+    ray: (usize, usize),
+    /// How much of the new ray's light is added to it.
     weight: Rgb,
     fresnel: Option<f32>,
 }
 
-impl Onward {
+impl SecondaryRays {
     fn clear(&mut self) {
         self.rays.clear();
         self.samplers.clear();
         self.from.clear();
     }
 
-    fn push(&mut self, step: Step, ray: &Ray, sampler: Option<Sampler>) {
+    fn push(&mut self, parent: Parent, ray: &Ray, sampler: Option<Sampler>) {
         let lane = self.from.len() % 8;
         if lane == 0 {
             self.rays.push(Rays8::NONE);
@@ -93,54 +94,62 @@ impl Onward {
         if let (Some(samplers), Some(sampler)) = (self.samplers.last_mut(), sampler) {
             samplers.set(lane, sampler);
         }
-        self.from.push(step);
+        self.from.push(parent);
     }
 }
 
 impl Integrator<'_> {
-    /// Traces a ray from the camera, and all that follow from it. It is in the first lane.
+    /// Traces a ray from the camera and its mirror and refracted rays. The result is in the first lane.
     pub(crate) fn trace_one<W: Witness>(
         &self,
         ray: CameraRay,
         counts: &mut RayCounts,
         witness: &mut W,
     ) -> Radiance8 {
-        self.trace(&ray.into(), &mut Work::default(), counts, witness)[0]
+        self.trace(&ray.into(), &mut ScratchBuffer::default(), counts, witness)[0]
     }
 
-    /// Traces rays from the camera, and all that follow from them; what each brings, in its lane.
+    /// Traces rays from the camera and their mirror and refracted rays. Each result is in its ray's lane.
     pub(crate) fn trace<'w, W: Witness>(
         &self,
         bundle: &Bundle,
-        work: &'w mut Work,
+        scratch: &'w mut ScratchBuffer,
         counts: &mut RayCounts,
         witness: &mut W,
     ) -> &'w [Radiance8] {
         counts.primary += count(&bundle.rays);
         let height = |i: usize, lane: usize| bundle.heights[i][lane];
-        self.follow(&bundle.rays, &bundle.samplers, &height, self.depth, work, counts, witness);
-        &work.out
+        self.trace_bundle(
+            &bundle.rays,
+            &bundle.samplers,
+            &height,
+            self.depth,
+            scratch,
+            counts,
+            witness,
+        );
+        &scratch.out
     }
 
-    /// The road itself. `height` tells where in the background's height a ray ends that meets
-    /// nothing; `bounces` are left. What the rays bring is in `work.out`.
-    #[expect(clippy::too_many_arguments, reason = "the state of the road, handed on as it is")]
-    fn follow<W: Witness>(
+    /// Traces a bundle. `height` gives the place in a gradient background, 0 to 1, of a ray that hits
+    /// nothing; `bounces` is how many more are allowed. The results are in `scratch.out`.
+    #[expect(clippy::too_many_arguments, reason = "the state of the recursion")]
+    fn trace_bundle<W: Witness>(
         &self,
         rays: &[Rays8],
         samplers: &[Samplers8],
         height: &dyn Fn(usize, usize) -> f32,
         bounces: u32,
-        work: &mut Work,
+        scratch: &mut ScratchBuffer,
         counts: &mut RayCounts,
         witness: &mut W,
     ) {
-        let Work { met, lights, out, deeper } = work;
+        let ScratchBuffer { interactions, lights, out, deeper } = scratch;
         if self.is_stopped() {
             out.resize(rays.len(), Radiance8::NONE);
             return;
         }
-        met.meet(self, rays, height, out);
+        interactions.intersect(self, rays, height, out);
         if W::LISTENS {
             for (i, (rays8, out)) in rays.iter().zip(&*out).enumerate() {
                 for lane in lanes(rays8.there) {
@@ -148,7 +157,7 @@ impl Integrator<'_> {
                     if out.met >> lane & 1 != 0 {
                         witness.met(
                             &rays8.get(lane),
-                            &met.at(rays, i, lane, self.scene.materials().len()),
+                            &interactions.at(rays, i, lane, self.scene.materials().len()),
                             terms,
                         );
                     } else {
@@ -161,34 +170,35 @@ impl Integrator<'_> {
             if self.is_stopped() {
                 return;
             }
-            counts.shadow += self.send(light, rays, met, samplers, lights);
+            counts.shadow += self.sample_light(light, rays, interactions, samplers, lights);
             if self.scene.has_ambient_per_light() {
-                self.ambient_of_light(light, met, lights, out);
+                self.ambient_of_light(light, interactions, lights, out);
             }
             if W::LISTENS {
-                self.tell(light, rays, met, lights, witness);
+                self.report_light(light, rays, interactions, lights, witness);
             }
-            self.shade(light, rays, met, lights, out);
+            self.shade(light, rays, interactions, lights, out);
         }
         if !self.scene.has_bounces() {
             return;
         }
         for branch in [Branch::Reflection, Branch::Transmission] {
-            let (onward, work) = &mut **deeper.get_or_insert_default();
-            self.go_on(branch, rays, met, samplers, bounces, onward, witness);
-            if onward.from.is_empty() {
+            let (secondary, scratch) = &mut **deeper.get_or_insert_default();
+            self.scatter(branch, rays, interactions, samplers, bounces, secondary, witness);
+            if secondary.from.is_empty() {
                 continue;
             }
-            for (k, Step { weight, fresnel, .. }) in onward.from.iter().enumerate() {
-                witness.entered(branch, *weight, *fresnel, &onward.rays[k / 8].get(k % 8));
+            for (k, Parent { weight, fresnel, .. }) in secondary.from.iter().enumerate() {
+                witness.entered(branch, *weight, *fresnel, &secondary.rays[k / 8].get(k % 8));
             }
-            counts.secondary += onward.from.len() as u64;
+            counts.secondary += secondary.from.len() as u64;
             let up = self.scene.camera().up();
-            let height = |i: usize, lane: usize| 0.5 - 0.5 * onward.rays[i].get(lane).dir.dot(up);
-            let Onward { rays, samplers, from, .. } = &*onward;
-            self.follow(rays, samplers, &height, bounces - 1, work, counts, witness);
-            for (k, &Step { parent: (i, lane), weight, .. }) in from.iter().enumerate() {
-                let light = work.out[k / 8].terms.get(k % 8).total();
+            let height =
+                |i: usize, lane: usize| 0.5 - 0.5 * secondary.rays[i].get(lane).dir.dot(up);
+            let SecondaryRays { rays, samplers, from, .. } = &*secondary;
+            self.trace_bundle(rays, samplers, &height, bounces - 1, scratch, counts, witness);
+            for (k, &Parent { ray: (i, lane), weight, .. }) in from.iter().enumerate() {
+                let light = scratch.out[k / 8].terms.get(k % 8).total();
                 witness.left(branch, light);
                 let term = branch.term();
                 set(&mut out[i].terms[term], lane, (weight * light).to_array());
@@ -201,35 +211,35 @@ impl Integrator<'_> {
         self.stop.is_some_and(|stop| stop.load(Ordering::Relaxed))
     }
 
-    /// The mirror rays, or the refracted ones, that go on from the surfaces met.
-    #[expect(clippy::too_many_arguments, reason = "the state of the road, handed on as it is")]
-    fn go_on<W: Witness>(
+    /// Collects the mirror rays, or the refracted ones, of the surfaces.
+    #[expect(clippy::too_many_arguments, reason = "the state of the recursion")]
+    fn scatter<W: Witness>(
         &self,
         branch: Branch,
         rays: &[Rays8],
-        met: &Met,
+        interactions: &Interactions,
         samplers: &[Samplers8],
         bounces: u32,
-        onward: &mut Onward,
+        secondary: &mut SecondaryRays,
         witness: &mut W,
     ) {
-        onward.clear();
-        let mut partings = std::mem::take(&mut onward.partings);
-        partings.resize(rays.len(), Parting8::NONE);
-        let to = &mut *partings;
-        self.scene.world().run(Part { scene: self.scene, branch, rays, met, to });
-        for (i, parting) in partings.iter().enumerate() {
-            for lane in lanes(parting.goes) {
-                let (weight, fresnel) = parting.weight(lane);
+        secondary.clear();
+        let mut scattered = std::mem::take(&mut secondary.scattered);
+        scattered.resize(rays.len(), Scattered8::NONE);
+        let to = &mut *scattered;
+        self.scene.world().run(Scatter { scene: self.scene, branch, rays, interactions, to });
+        for (i, scattered) in scattered.iter().enumerate() {
+            for lane in lanes(scattered.there) {
+                let (weight, fresnel) = scattered.weight(lane);
                 if bounces == 0 {
                     witness.cut(branch, weight, fresnel);
                     continue;
                 }
                 let sampler = samplers.get(i).map(|s| s.get(lane).branch(branch as u32));
-                let step = Step { parent: (i, lane), weight, fresnel };
-                onward.push(step, &parting.ray(lane), sampler);
+                let parent = Parent { ray: (i, lane), weight, fresnel };
+                secondary.push(parent, &scattered.ray(lane), sampler);
             }
         }
-        onward.partings = partings;
+        secondary.scattered = scattered;
     }
 }

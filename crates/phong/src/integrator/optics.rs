@@ -1,11 +1,11 @@
-//! Where mirror and glass rays go, and what they weigh, eight at a time.
+//! The directions and weights of mirror and refracted rays, eight at a time.
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 use glam::DVec3;
 use phong_bvh::{Kernel, Lanes, Ray, Rays8, offset_origins};
 use phong_scene::Rgb;
 
-use super::met::{Met, material, same_material, to_eye};
+use super::interactions::{Interactions, material, same_material, to_eye};
 use crate::material::Material;
 use crate::math::lanes::{
     Lanes3, dot, get, load3, mirror, neg, normalize, scale, select3, splat3, store3,
@@ -14,70 +14,70 @@ use crate::reflectance::fresnel;
 use crate::view::View;
 use crate::witness::Branch;
 
-/// What goes on from eight surfaces.
+/// The mirror or refracted rays of eight surfaces.
 #[derive(Clone, Copy)]
 #[repr(align(32))]
-pub(super) struct Parting8 {
+pub(super) struct Scattered8 {
     origin: [[f64; 8]; 3],
     dir: Lanes3,
     weight: Lanes3,
-    /// The reflectance F where the material wants it; else it is not a number.
+    /// The reflectance F where the material uses it, else NaN.
     fresnel: [f32; 8],
-    /// The surfaces that a ray of any weight goes on from, a bit each.
-    pub(super) goes: u32,
+    /// The surfaces whose ray has a weight above 0, one bit each.
+    pub(super) there: u32,
 }
 
-impl Parting8 {
+impl Scattered8 {
     pub(super) const NONE: Self = Self {
         origin: [[0.0; 8]; 3],
         dir: [[0.0; 8]; 3],
         weight: [[0.0; 8]; 3],
         fresnel: [f32::NAN; 8],
-        goes: 0,
+        there: 0,
     };
 
-    /// The ray that goes on from one surface.
+    /// The ray of one surface.
     pub(super) fn ray(&self, lane: usize) -> Ray {
         let origin = self.origin.map(|all| all[lane]);
         Ray::new(DVec3::from_array(origin), get(&self.dir, lane).into())
     }
 
-    /// Its weight, and F where it was asked for.
+    /// Its weight, and F where the material uses it.
     pub(super) fn weight(&self, lane: usize) -> (Rgb, Option<f32>) {
         let fresnel = Some(self.fresnel[lane]).filter(|f| !f.is_nan());
         (Rgb::from(get(&self.weight, lane)), fresnel)
     }
 }
 
-/// Sends the mirror rays, or the refracted ones, on from all surfaces met.
-pub(super) struct Part<'a> {
+/// Works out the mirror rays, or the refracted ones, of all surfaces.
+pub(super) struct Scatter<'a> {
     pub(super) scene: &'a View,
     pub(super) branch: Branch,
     pub(super) rays: &'a [Rays8],
-    pub(super) met: &'a Met,
-    pub(super) to: &'a mut [Parting8],
+    pub(super) interactions: &'a Interactions,
+    pub(super) to: &'a mut [Scattered8],
 }
 
-impl Kernel for Part<'_> {
+impl Kernel for Scatter<'_> {
     type Output = ();
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Self { scene, branch, rays, met, to } = self;
+        let Self { scene, branch, rays, interactions, to } = self;
         for (i, (rays, to)) in rays.iter().zip(to).enumerate() {
-            let (surface, dressed) = (&met.surfaces[i], &met.dressed[i]);
-            to.goes = 0;
-            let mut left = met.hits[i].met;
+            let (surface, shading) = (&interactions.surfaces[i], &interactions.shading[i]);
+            to.there = 0;
+            let mut left = interactions.hits[i].met;
             while left != 0 {
-                let (number, same) = same_material(simd, &dressed.material, left);
+                let (number, same) = same_material(simd, &shading.material, left);
                 left &= !same;
-                let material = material(scene, &met.made, number);
+                let material = material(scene, &interactions.made, number);
                 if !material.bounces() {
                     continue;
                 }
                 let at = Side::new(
                     material,
-                    load3(simd, &dressed.n),
+                    load3(simd, &shading.n),
                     load3(simd, &surface.ng),
                     to_eye(simd, rays),
                 );
@@ -88,7 +88,7 @@ impl Kernel for Part<'_> {
                 let zero = weight[0].splat(0.0);
                 let black =
                     weight[0].simd_eq(zero) & weight[1].simd_eq(zero) & weight[2].simd_eq(zero);
-                to.goes |= same & !(black.to_bitmask() as u32);
+                to.there |= same & !(black.to_bitmask() as u32);
                 let origins = offset_origins(simd, surface, dir);
                 for (to, from) in to.origin.iter_mut().zip(origins) {
                     for (lane, (to, from)) in to.iter_mut().zip(from).enumerate() {
@@ -105,10 +105,10 @@ impl Kernel for Part<'_> {
     }
 }
 
-/// Where a ray goes on, its weight, and F, which is NaN where it was not asked for.
-type Parted<F> = ([F; 3], [F; 3], F);
+/// The direction of a ray, its weight, and F, which is NaN where the material does not use it.
+type Scattered<F> = ([F; 3], [F; 3], F);
 
-/// A surface, or eight, from the side that the rays came from.
+/// One surface or eight, seen from the side the rays came from.
 struct Side<F> {
     n: [F; 3],
     e: [F; 3],
@@ -136,7 +136,7 @@ impl<F: Lanes<Scalar = f32>> Side<F> {
 
     /// The mirror ray.
     #[inline(always)]
-    fn mirrored(&self, material: &Material) -> Parted<F> {
+    fn mirrored(&self, material: &Material) -> Scattered<F> {
         let Self { n, e, facing, eta } = *self;
         let dir = mirror(n, e);
         // A shading normal can send the mirror ray into the surface: the real normal does not.
@@ -158,7 +158,7 @@ impl<F: Lanes<Scalar = f32>> Side<F> {
 
     /// The refracted ray; without weight under total internal reflection.
     #[inline(always)]
-    fn refracted(&self, material: &Material) -> Parted<F> {
+    fn refracted(&self, material: &Material) -> Scattered<F> {
         let (dir, passes) = self.refract();
         let zero = self.eta.splat(0.0);
         let weight = splat3(zero, material.transmission.to_array());
@@ -171,7 +171,7 @@ impl<F: Lanes<Scalar = f32>> Side<F> {
         (dir, select3(passes, weight, [zero; 3]), f)
     }
 
-    /// Where light goes beyond the surface, and where it does.
+    /// The direction of the refracted ray, and where there is one.
     #[inline(always)]
     fn refract(&self) -> ([F; 3], F::Mask) {
         let Self { n, e, facing, eta } = *self;

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use super::queue::{Queue, Task};
-use super::tile::{Desk, Painter};
+use super::tile::{TileBuffers, TileRenderer};
 use super::{Cancel, Event, Pass, Progress, RenderOptions};
 use crate::film::{Film, FilmTile, LayerKind};
 use crate::integrator::{Integrator, RayCounts};
@@ -117,16 +117,16 @@ impl<'a> Rendering<'a> {
             shadows: self.options.shadows(),
             stop: Some(cancel.flag()),
         };
-        let painter = Painter::new(integrator, self.options, cancel);
+        let renderer = TileRenderer::new(integrator, self.options, cancel);
         let queue = Mutex::new(Queue::new(&self.state().film, self.options, &self.passes));
         // One job a thread that takes tiles in order, so that no thread idles while tiles are left.
         let threads = (0..rayon::current_num_threads()).into_par_iter().with_max_len(1);
         threads.for_each(|_| {
             let _abandon = AbandonOnPanic(&queue);
-            let mut desk = Desk::default();
+            let mut buffers = TileBuffers::default();
             while !cancel.is_cancelled() {
                 let Some(task) = unpoisoned(&queue).take() else { break };
-                if !self.tile(task, &painter, &queue, &mut desk, listen) {
+                if !self.tile(task, &renderer, &queue, &mut buffers, listen) {
                     break;
                 }
             }
@@ -138,9 +138,9 @@ impl<'a> Rendering<'a> {
     fn tile(
         &self,
         task: Task,
-        painter: &Painter<'_>,
+        renderer: &TileRenderer<'_>,
         queue: &Mutex<Queue>,
-        desk: &mut Desk,
+        buffers: &mut TileBuffers,
         listen: &(dyn Fn(Event<'_>) + Sync),
     ) -> bool {
         let Task { pass: number, tile } = task;
@@ -149,19 +149,19 @@ impl<'a> Rendering<'a> {
         let earlier = self.state().film.sums(tile).cloned();
         let begun = earlier.as_ref().map_or(0, |sums| sums.samples());
         let mut rays = RayCounts::default();
-        let Ok(sums) = painter.paint(window, pass, earlier.as_deref(), desk, &mut rays) else {
+        let Ok(sums) = renderer.render(window, pass, earlier.as_deref(), buffers, &mut rays) else {
             return false;
         };
         let last = pass.samples() == self.options.samples();
         {
             let State { film, progress } = &mut *self.state();
             if earlier.is_some() {
-                film.take_variables(tile, desk.values_mut());
+                film.take_variables(tile, buffers.values_mut());
             }
             if last {
-                film.put(tile, desk.values());
+                film.put(tile, buffers.values());
             } else {
-                film.put_unfinished(tile, desk.values(), sums.map(Arc::new));
+                film.put_unfinished(tile, buffers.values(), sums.map(Arc::new));
             }
             progress.tiles_done += usize::from(last);
             let drawn = pass.samples().saturating_sub(begun);
@@ -169,7 +169,7 @@ impl<'a> Rendering<'a> {
             progress.rays.add(&rays);
         }
         let pass_number = number as u32;
-        listen(Event::Tile { pass: pass_number, index: tile, window, values: desk.values() });
+        listen(Event::Tile { pass: pass_number, index: tile, window, values: buffers.values() });
         let pass_done = unpoisoned(queue).done(task);
         listen(Event::Progress(self.progress()));
         if pass_done {

@@ -10,28 +10,28 @@ use super::{Cancel, Cancelled, Pass, RenderOptions};
 use crate::aov::Aov;
 use crate::film::{LayerKind, Sums8, TileSums, Window, coverage};
 use crate::filter::Filter;
-use crate::integrator::{CameraRay, Integrator, RayCounts, Work};
+use crate::integrator::{CameraRay, Integrator, RayCounts, ScratchBuffer};
 use crate::math::lanes::{Lanes3, store3};
 use crate::sampling::Sampler;
 use crate::terms::{Terms, Terms8};
-use crate::witness::{Branch, LightTold, Witness};
+use crate::witness::{Branch, LightContribution, Witness};
 
 /// Pixels are visited in squares of this edge within a tile: rays near one another in a bundle
 /// are near one another in space.
 const SQUARE: u32 = 8;
 
 /// Eights of pixels in a bundle of several samples each: a square's.
-const LOT: usize = SQUARE as usize;
+const EIGHTS_PER_BUNDLE: usize = SQUARE as usize;
 
 /// Samples of each pixel in a bundle.
-const LOTS: u32 = 2;
+const SAMPLES_PER_BUNDLE: u32 = 2;
 
 /// The most eights of pixels in a bundle of one sample each, so that a large tile notices in the
 /// middle that it is cancelled.
 const MOST_EIGHTS: usize = 128;
 
-/// Paints tiles.
-pub(super) struct Painter<'a> {
+/// Renders tiles.
+pub(super) struct TileRenderer<'a> {
     integrator: Integrator<'a>,
     options: &'a RenderOptions,
     cancel: &'a Cancel,
@@ -39,19 +39,19 @@ pub(super) struct Painter<'a> {
     filter: Filter,
 }
 
-/// A thread's room for painting, used again from tile to tile.
+/// A thread's memory for rendering a tile, used again for the next one.
 #[derive(Default)]
-pub(super) struct Desk {
+pub(super) struct TileBuffers {
     pixels: Vec<Pixels8>,
     drawn: Samples,
-    work: Work,
+    scratch: ScratchBuffer,
     sums: Vec<Sums8>,
     /// For each layer the tile's rows.
     values: Vec<Vec<f32>>,
 }
 
-impl Desk {
-    /// What was painted last: the values of the tile's pixels, for each layer its rows.
+impl TileBuffers {
+    /// The values of the tile that was rendered last: for each layer its rows of pixels.
     pub(super) fn values(&self) -> &[Vec<f32>] {
         &self.values
     }
@@ -61,7 +61,7 @@ impl Desk {
     }
 }
 
-impl<'a> Painter<'a> {
+impl<'a> TileRenderer<'a> {
     pub(super) fn new(
         integrator: Integrator<'a>,
         options: &'a RenderOptions,
@@ -71,49 +71,49 @@ impl<'a> Painter<'a> {
         Self { integrator, options, cancel, layers: options.layers(), filter }
     }
 
-    /// Paints a tile; the sums from which a later pass goes on, unless this is the last one.
-    pub(super) fn paint(
+    /// Renders a tile. Returns the sums from which a later pass goes on, unless this is the last one.
+    pub(super) fn render(
         &self,
         window: Window,
         pass: Pass,
         earlier: Option<&TileSums>,
-        desk: &mut Desk,
+        buffers: &mut TileBuffers,
         counts: &mut RayCounts,
     ) -> Result<Option<TileSums>, Cancelled> {
-        let values = &mut desk.values;
+        let values = &mut buffers.values;
         values.resize_with(self.layers.len(), Vec::new);
         for (kind, values) in self.layers.iter().zip(values) {
             if matches!(kind, LayerKind::Aov(_)) {
-                // A variable is put where there is something to say.
+                // Only pixels that show a surface get a value.
                 values.clear();
             }
             let len = window.width() as usize * window.height() as usize;
             values.resize(len * kind.channels(), 0.0);
         }
         let samples = match pass {
-            Pass::Coarse => return self.coarse(window, desk, counts).map(|()| None),
+            Pass::Coarse => return self.coarse(window, buffers, counts).map(|()| None),
             Pass::UpTo(samples) => samples,
         };
-        cut(window, self.options, &mut desk.pixels);
+        cut(window, self.options, &mut buffers.pixels);
         let kept = if self.options.samples() == 1 {
-            self.one_sample(window, desk, counts)?;
+            self.one_sample(window, buffers, counts)?;
             None
         } else {
-            self.samples(window, samples, earlier, desk, counts)?
+            self.samples(window, samples, earlier, buffers, counts)?
         };
         // Variables are of the centre ray, and do not change from pass to pass.
         if earlier.is_none() && !self.options.aovs().is_empty() {
             for y in window.y0..window.y1 {
                 for x in window.x0..window.x1 {
-                    self.heed()?;
-                    self.variables([x, y], of_window(window, [x, y]), &mut desk.values);
+                    self.check_cancelled()?;
+                    self.variables([x, y], of_window(window, [x, y]), &mut buffers.values);
                 }
             }
         }
         Ok(kept)
     }
 
-    fn heed(&self) -> Result<(), Cancelled> {
+    fn check_cancelled(&self) -> Result<(), Cancelled> {
         if self.cancel.is_cancelled() { Err(Cancelled) } else { Ok(()) }
     }
 
@@ -121,22 +121,22 @@ impl<'a> Painter<'a> {
     fn one_sample(
         &self,
         window: Window,
-        Desk { pixels, drawn, work, values, .. }: &mut Desk,
+        TileBuffers { pixels, drawn, scratch, values, .. }: &mut TileBuffers,
         counts: &mut RayCounts,
     ) -> Result<(), Cancelled> {
         let (integrator, background) = (&self.integrator, self.options.background());
         for pixels in pixels.chunks(MOST_EIGHTS) {
             drawn.draw(integrator, self.options, &self.filter, pixels, 0..1);
-            let brought = integrator.trace(&drawn.bundle, work, counts, &mut ());
+            let brought = integrator.trace(&drawn.bundle, scratch, counts, &mut ());
             // What was cut short is not to be seen.
-            self.heed()?;
+            self.check_cancelled()?;
             // One sample, which weighs 1, is its pixel: nothing to sum.
             let one = brought.iter().map(|sample| {
                 let covered = |lane| coverage((sample.met >> lane & 1) as f32, background);
                 (&sample.terms, std::array::from_fn(covered))
             });
             let (resolved, layers) = (pixels.iter().zip(one), &self.layers);
-            integrator.scene.world().run(Put { window, layers, resolved, values });
+            integrator.scene.world().run(WriteLayers { window, layers, resolved, values });
         }
         Ok(())
     }
@@ -147,32 +147,34 @@ impl<'a> Painter<'a> {
         window: Window,
         to: u32,
         earlier: Option<&TileSums>,
-        Desk { pixels, drawn, work, sums, values }: &mut Desk,
+        TileBuffers { pixels, drawn, scratch, sums, values }: &mut TileBuffers,
         counts: &mut RayCounts,
     ) -> Result<Option<TileSums>, Cancelled> {
         let (integrator, background) = (&self.integrator, self.options.background());
         let bvh = integrator.scene.world();
         let begin = earlier.map_or(0, TileSums::samples);
         let mut kept = (to < self.options.samples()).then(|| Vec::with_capacity(pixels.len()));
-        for (lot, pixels) in pixels.chunks(LOT).enumerate() {
+        for (chunk, pixels) in pixels.chunks(EIGHTS_PER_BUNDLE).enumerate() {
             sums.clear();
             match earlier {
                 Some(earlier) => {
-                    sums.extend_from_slice(&earlier.eights()[lot * LOT..][..pixels.len()]);
+                    sums.extend_from_slice(
+                        &earlier.eights()[chunk * EIGHTS_PER_BUNDLE..][..pixels.len()],
+                    );
                 }
                 None => sums.resize(pixels.len(), Sums8::NONE),
             }
-            for from in (begin..to).step_by(LOTS as usize) {
-                let indices = from..to.min(from + LOTS);
+            for from in (begin..to).step_by(SAMPLES_PER_BUNDLE as usize) {
+                let indices = from..to.min(from + SAMPLES_PER_BUNDLE);
                 drawn.draw(integrator, self.options, &self.filter, pixels, indices);
-                let brought = integrator.trace(&drawn.bundle, work, counts, &mut ());
-                self.heed()?;
+                let brought = integrator.trace(&drawn.bundle, scratch, counts, &mut ());
+                self.check_cancelled()?;
                 Sums8::add(bvh, sums, brought, &drawn.weights);
             }
             for (pixels, sums) in pixels.iter().zip(&*sums) {
                 let (terms, alpha) = sums.resolve(bvh, to, background);
                 let resolved = std::iter::once((pixels, (&terms, alpha)));
-                bvh.run(Put { window, layers: &self.layers, resolved, values });
+                bvh.run(WriteLayers { window, layers: &self.layers, resolved, values });
             }
             if let Some(kept) = &mut kept {
                 kept.extend_from_slice(sums);
@@ -185,18 +187,18 @@ impl<'a> Painter<'a> {
     fn coarse(
         &self,
         window: Window,
-        desk: &mut Desk,
+        buffers: &mut TileBuffers,
         counts: &mut RayCounts,
     ) -> Result<(), Cancelled> {
         let centres = self.options.one_sample();
         let middle = |square: &Window| middle_of(*square, self.options.size());
-        let Desk { pixels, drawn, work, values, .. } = desk;
+        let TileBuffers { pixels, drawn, scratch, values, .. } = buffers;
         for squares in coarse_squares(window).chunks(MOST_EIGHTS) {
             pixels.clear();
             pixels.extend(squares.iter().map(|square| Pixels8::new(middle(square), 1, &centres)));
             drawn.draw(&self.integrator, &centres, &self.filter, pixels, 0..1);
-            let brought = self.integrator.trace(&drawn.bundle, work, counts, &mut ());
-            self.heed()?;
+            let brought = self.integrator.trace(&drawn.bundle, scratch, counts, &mut ());
+            self.check_cancelled()?;
             for (square, sample) in squares.iter().zip(brought) {
                 let terms = sample.terms.get(0);
                 let alpha = coverage((sample.met & 1) as f32, self.options.background());
@@ -292,9 +294,9 @@ impl LightsSeen {
 impl Witness for LightsSeen {
     fn missed(&mut self, _: &phong_bvh::Ray, _: Rgb) {}
     fn met(&mut self, _: &phong_bvh::Ray, _: &crate::interaction::SurfaceInteraction, _: Terms) {}
-    fn lit(&mut self, told: &LightTold) {
+    fn lit(&mut self, light: &LightContribution) {
         self.lights += 1;
-        self.seen += u32::from(told.visible);
+        self.seen += u32::from(light.visible);
     }
     fn entered(&mut self, _: Branch, _: Rgb, _: Option<f32>, _: &phong_bvh::Ray) {}
     fn left(&mut self, _: Branch, _: Rgb) {}
@@ -333,15 +335,15 @@ fn cut(window: Window, options: &RenderOptions, pixels: &mut Vec<Pixels8>) {
     }
 }
 
-/// Puts what pixels are into the layers, at their places in the tile.
-struct Put<'a, R> {
+/// Writes pixels into the layers, at their places in the tile.
+struct WriteLayers<'a, R> {
     window: Window,
     layers: &'a [LayerKind],
     resolved: R,
     values: &'a mut [Vec<f32>],
 }
 
-impl<'a, R: Iterator<Item = (&'a Pixels8, (&'a Terms8, [f32; 8]))>> Kernel for Put<'a, R> {
+impl<'a, R: Iterator<Item = (&'a Pixels8, (&'a Terms8, [f32; 8]))>> Kernel for WriteLayers<'a, R> {
     type Output = ();
 
     #[inline(always)]

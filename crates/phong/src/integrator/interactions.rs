@@ -1,4 +1,4 @@
-//! The surfaces that the rays of a bundle met, eight side by side, each in the lane of its ray.
+//! The surfaces that the rays of a bundle hit, eight side by side, each in the lane of its ray.
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*, u32x8};
 use glam::{DVec3, Vec3};
@@ -13,21 +13,22 @@ use crate::math::lanes::{direction, dot, get, load3, select3, set, splat3, store
 use crate::terms::{Term, TermSet};
 use crate::view::{MadeMaterial, Shading8, View};
 
-/// The surfaces that the rays of a bundle met; eight for eight rays. Where a ray met nothing, the
-/// numbers are of no account.
+/// The surfaces that the rays of a bundle hit, eight for eight rays. The numbers of rays that hit
+/// nothing are unspecified.
 #[derive(Default)]
-pub(super) struct Met {
+pub(super) struct Interactions {
     pub(super) hits: Vec<Hits8>,
     pub(super) surfaces: Vec<Surfaces8>,
-    pub(super) dressed: Vec<Shading8>,
+    pub(super) shading: Vec<Shading8>,
     /// Materials made for surfaces that textures vary, numbered behind those of the view.
     pub(super) made: Vec<MadeMaterial>,
 }
 
-impl Met {
-    /// Sends rays out, and begins what they bring with the background and the ambient term.
-    /// `height` tells where in the background's height a ray ends that meets nothing.
-    pub(super) fn meet(
+impl Interactions {
+    /// Intersects rays with the scene, and begins their radiance with the background and the terms that
+    /// need no light. `height` gives the place in a gradient background, 0 to 1, of a ray that hits
+    /// nothing.
+    pub(super) fn intersect(
         &mut self,
         integrator: &Integrator<'_>,
         rays: &[Rays8],
@@ -37,15 +38,22 @@ impl Met {
         let (scene, background) = (integrator.scene, integrator.background);
         self.hits.resize(rays.len(), Hits8::NONE);
         self.surfaces.resize(rays.len(), Surfaces8::default());
-        self.dressed.resize(rays.len(), Shading8::NONE);
+        self.shading.resize(rays.len(), Shading8::NONE);
         self.made.clear();
         out.resize(rays.len(), Radiance8::NONE);
         scene.world().intersect_eights(rays, &mut self.hits);
         scene.world().surface_eights(rays, &self.hits, &mut self.surfaces);
-        scene.world().run(Begin { scene, background, height, rays, met: self, out });
+        scene.world().run(BeginRadiance {
+            scene,
+            background,
+            height,
+            rays,
+            interactions: self,
+            out,
+        });
     }
 
-    /// The surface that one ray met. `materials` are as many as the view has.
+    /// The surface that one ray hit. `materials` are as many as the view has.
     pub(super) fn at(
         &self,
         rays: &[Rays8],
@@ -53,8 +61,8 @@ impl Met {
         lane: usize,
         materials: usize,
     ) -> SurfaceInteraction {
-        let (surface, dressed) = (&self.surfaces[i], &self.dressed[i]);
-        let number = dressed.material[lane];
+        let (surface, shading) = (&self.surfaces[i], &self.shading[i]);
+        let number = shading.material[lane];
         let made = (number as usize).checked_sub(materials).map(|made| &self.made[made]);
         SurfaceInteraction {
             hit: self.hits[i].get(lane),
@@ -62,9 +70,9 @@ impl Met {
             p: DVec3::from_array(surface.p.map(|all| all[lane])),
             p_error: Vec3::from(get(&surface.p_error, lane)),
             ng: direction(&surface.ng, lane),
-            n: direction(&dressed.n, lane),
+            n: direction(&shading.n, lane),
             e: -direction(&rays[i].dir, lane),
-            color: Rgb::from(get(&dressed.color, lane)),
+            color: Rgb::from(get(&shading.color, lane)),
         }
     }
 }
@@ -96,26 +104,26 @@ pub(super) fn material<'m>(
     own.get(number).unwrap_or_else(|| &made[number - own.len()].material)
 }
 
-struct Begin<'a> {
+struct BeginRadiance<'a> {
     scene: &'a View,
     background: Background,
     height: &'a dyn Fn(usize, usize) -> f32,
     rays: &'a [Rays8],
-    met: &'a mut Met,
+    interactions: &'a mut Interactions,
     out: &'a mut [Radiance8],
 }
 
-impl Kernel for Begin<'_> {
+impl Kernel for BeginRadiance<'_> {
     type Output = ();
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         /// What lights add to in any case, and the ambient term.
         const LOCAL: TermSet = TermSet::of(&[Term::Ambient, Term::Diffuse, Term::Specular]);
-        let Self { scene, background, height, rays, met, out } = self;
-        let Met { hits, surfaces, dressed, made } = met;
-        let eights = rays.iter().zip(hits).zip(surfaces).zip(dressed).zip(out);
-        for (i, ((((rays, hits), surface), dressed), out)) in eights.enumerate() {
+        let Self { scene, background, height, rays, interactions, out } = self;
+        let Interactions { hits, surfaces, shading, made } = interactions;
+        let eights = rays.iter().zip(hits).zip(surfaces).zip(shading).zip(out);
+        for (i, ((((rays, hits), surface), shading), out)) in eights.enumerate() {
             let met = hits.met;
             out.begin(met);
             let missed = rays.there & !met;
@@ -142,17 +150,17 @@ impl Kernel for Begin<'_> {
                 continue;
             }
             let (ng, e) = (load3(simd, &surface.ng), to_eye(simd, rays));
-            scene.shading8(simd, hits, ng, e, dressed);
+            scene.shading8(simd, hits, ng, e, shading);
             if scene.has_textures() {
-                scene.vary(rays, hits, surface, dressed, made);
+                scene.vary(rays, hits, surface, shading, made);
             }
             out.brought = out.brought.or(LOCAL);
             let mut left = met;
             while left != 0 {
-                let (number, same) = same_material(simd, &dressed.material, left);
+                let (number, same) = same_material(simd, &shading.material, left);
                 left &= !same;
                 let material = material(scene, made, number);
-                let color = load3(simd, &dressed.color);
+                let color = load3(simd, &shading.color);
                 let same = mask32x8::from_bitmask(simd, same.into());
                 let ambient = &mut out.terms[Term::Ambient];
                 let own = material.ambient_of(color, scene.ambient());
@@ -198,7 +206,7 @@ mod tests {
             |i: usize, k: usize| Dir3::new(Vec3::new(x(i, k), x(i, k + 1), x(i, k + 2))).unwrap();
         let mut above = 0;
         for round in 0..40 {
-            let (mut surface, mut dressed) = (Surfaces8::default(), Shading8::NONE);
+            let (mut surface, mut shading) = (Surfaces8::default(), Shading8::NONE);
             let (mut rays, mut l) = (Rays8::NONE, [[0.0; 8]; 3]);
             for lane in 0..8 {
                 let i = 8 * round + lane;
@@ -211,22 +219,22 @@ mod tests {
                 let ng = if lane == 1 { -Dir3::Y } else { dir(i, 4) };
                 set(&mut surface.ng, lane, ng.to_array());
                 let e = dir(i, 7);
-                set(&mut dressed.n, lane, dir(i, 5).facing(e).to_array());
+                set(&mut shading.n, lane, dir(i, 5).facing(e).to_array());
                 set(&mut rays.dir, lane, (-e).to_array());
                 set(&mut l, lane, dir(i, 11).to_array());
             }
             let l8 = load3(simd, &l);
-            let (n, ng) = (load3(simd, &dressed.n), load3(simd, &surface.ng));
+            let (n, ng) = (load3(simd, &shading.n), load3(simd, &surface.ng));
             let mask = is_above(l8, n, ng, to_eye(simd, &rays)).to_bitmask();
             let origins = offset_origins(simd, &surface, l8);
-            let met = Met {
+            let interactions = Interactions {
                 hits: vec![Hits8::NONE],
                 surfaces: vec![surface],
-                dressed: vec![dressed],
+                shading: vec![shading],
                 made: Vec::new(),
             };
             for lane in 0..8 {
-                let (at, l) = (met.at(&[rays], 0, lane, 1), direction(&l, lane));
+                let (at, l) = (interactions.at(&[rays], 0, lane, 1), direction(&l, lane));
                 let is_above = l.dot(at.n) > 0.0 && l.dot(at.facing_ng()) > 0.0;
                 assert_eq!(mask >> lane & 1 != 0, is_above);
                 let start = at.spawn(l, 1.0).origin.to_array();
