@@ -8,7 +8,7 @@ use std::sync::{Mutex, PoisonError};
 use glam::DVec3;
 use phong_scene::{
     Blob, CameraKind, Diagnostic, Folder, Format, Limits, Memory, Reading, Scene, Severity, Side,
-    Source, closest, trouble,
+    Source, closest, path_of, trouble,
 };
 
 use crate::args::{InputArgs, View, ViewArgs};
@@ -33,12 +33,13 @@ impl Source for Files {
         if self.stdin && path == "-" {
             return piped(path, io::stdin().lock());
         }
-        let meta = fs::metadata(path)?;
-        self.opened.lock().unwrap_or_else(PoisonError::into_inner).push(path.into());
+        let file = path_of(path);
+        let meta = fs::metadata(&file)?;
+        self.opened.lock().unwrap_or_else(PoisonError::into_inner).push(file.clone());
         if meta.is_file() || meta.is_dir() {
             Folder.open(path)
         } else {
-            piped(path, File::open(path)?)
+            piped(path, File::open(file)?)
         }
     }
 }
@@ -146,7 +147,7 @@ pub(crate) fn read(args: &InputArgs) -> Result<(Reading, Vec<PathBuf>), Failure>
     let mut reading = phong_scene::read(&args.input, args.format, &files, &limits);
     // Of a file that cannot be opened nothing else is said.
     if let ([only], false) = (&mut reading.diagnostics[..], stdin) {
-        let path = Path::new(&args.input);
+        let path = &path_of(&args.input);
         let way_out = hindrance(path).and_then(|error| way_out(path, &error));
         only.help = way_out.or_else(|| only.help.take());
     }
@@ -250,6 +251,6 @@ impl From<View> for Side {
 
 /// The name of an input without folder and ending: what its picture is called.
 pub(crate) fn stem(input: &str) -> String {
-    let stem = Path::new(input).file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    let stem = path_of(input).file_stem().map(|stem| stem.to_string_lossy().into_owned());
     stem.filter(|stem| input != "-" && !stem.is_empty()).unwrap_or_else(|| "picture".to_owned())
 }

@@ -45,7 +45,7 @@ pub use material::{
 pub use mesh::{Mesh, NO_INDEX, Points, Shared};
 pub use scene::{Background, FilterKind, Group, Image, Object, Reading, Scene};
 pub use shape::{GroupId, Shape};
-pub use source::{Blob, Folder, Memory, Source, trouble};
+pub use source::{Blob, Folder, Memory, Source, path_of, path_text, trouble};
 pub use texture::{
     Channel, Param, Texture, TextureId, TextureKind, TextureRef, TextureSpace, Textured,
 };

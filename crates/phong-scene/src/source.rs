@@ -1,6 +1,9 @@
 //! Where bytes come from: the only input in this crate.
 
 use std::collections::BTreeMap;
+use std::ffi::OsStr;
+#[cfg(unix)]
+use std::ffi::OsString;
 use std::fmt;
 use std::fs::File;
 use std::io;
@@ -15,6 +18,58 @@ pub trait Source: fmt::Debug + Send + Sync {
     /// # Errors
     /// Whatever the system says: not found, not permitted, a folder.
     fn open(&self, path: &str) -> io::Result<Box<dyn Blob>>;
+}
+
+/// The first of 256 letters of a private area that stand for bytes which are no UTF-8, so that every
+/// path can be text.
+const BYTES: u32 = 0x0010_ff00;
+
+/// A path as text, whatever bytes it is of: [`path_of`] gives the path back.
+///
+/// ```
+/// use phong_scene::{path_of, path_text};
+/// assert_eq!(path_text("scenes/café.obj".as_ref()), "scenes/café.obj");
+/// # #[cfg(unix)] {
+/// use std::ffi::OsStr;
+/// use std::os::unix::ffi::OsStrExt;
+/// let latin = OsStr::from_bytes(b"caf\xe9.obj");
+/// assert_eq!(path_of(&path_text(latin)).as_os_str(), latin);
+/// # }
+/// ```
+pub fn path_text(path: &OsStr) -> String {
+    let mut text = String::new();
+    for chunk in path.as_encoded_bytes().utf8_chunks() {
+        text.push_str(chunk.valid());
+        text.extend(chunk.invalid().iter().map(|byte| byte_letter(*byte)));
+    }
+    text
+}
+
+/// The path of a text that [`path_text`] may have made.
+pub fn path_of(text: &str) -> PathBuf {
+    #[cfg(unix)]
+    if text.chars().any(|letter| letter_byte(letter).is_some()) {
+        use std::os::unix::ffi::OsStringExt;
+        let mut bytes = Vec::with_capacity(text.len());
+        for letter in text.chars() {
+            match letter_byte(letter) {
+                Some(byte) => bytes.push(byte),
+                None => bytes.extend_from_slice(letter.encode_utf8(&mut [0; 4]).as_bytes()),
+            }
+        }
+        return OsString::from_vec(bytes).into();
+    }
+    PathBuf::from(text)
+}
+
+/// The letter that stands for a byte which is no UTF-8.
+pub(crate) fn byte_letter(byte: u8) -> char {
+    char::from_u32(BYTES + u32::from(byte)).unwrap_or(char::REPLACEMENT_CHARACTER)
+}
+
+#[cfg(unix)]
+fn letter_byte(letter: char) -> Option<u8> {
+    u32::from(letter).checked_sub(BYTES).and_then(|byte| u8::try_from(byte).ok())
 }
 
 /// What the system says of a file that cannot be opened, read or written, in plain words: a clause
@@ -81,7 +136,7 @@ pub struct Folder;
 
 impl Source for Folder {
     fn open(&self, path: &str) -> io::Result<Box<dyn Blob>> {
-        let file = File::open(PathBuf::from(path))?;
+        let file = File::open(path_of(path))?;
         let meta = file.metadata()?;
         if meta.is_dir() {
             return Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder"));

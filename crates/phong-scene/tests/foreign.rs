@@ -344,3 +344,24 @@ fn a_packed_model_is_read_as_it_is_whatever_its_name_says() {
     let limits = Limits { bytes: 100, ..Limits::default() };
     assert!(told(&read_with(&[("a.ply.gz", &bytes)], &limits)).contains("more than 100 bytes"));
 }
+
+#[test]
+#[cfg(unix)]
+fn names_need_not_be_utf8() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+    let folder = std::env::temp_dir().join(format!("phong-names-{}", std::process::id()));
+    fs::create_dir_all(&folder).expect("a folder");
+    let latin = |name: &[u8]| folder.join(OsStr::from_bytes(name));
+    let obj = b"mtllib caf\xe9.mtl\nusemtl gr\xfcn\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n\
+                usemtl gr\xf6n\nf 3 2 1\n";
+    fs::write(latin(b"mod\xe8le.obj"), obj).expect("a file");
+    let mtl = b"newmtl gr\xfcn\nKd 0 1 0\nnewmtl gr\xf6n\nKd 0 0 1\n";
+    fs::write(latin(b"caf\xe9.mtl"), mtl).expect("a file");
+    let path = phong_scene::path_text(latin(b"mod\xe8le.obj").as_os_str());
+    let reading = read(&path, None, &phong_scene::Folder, &Limits::default());
+    fs::remove_dir_all(&folder).expect("the folder");
+    assert_eq!(told(&reading), "");
+    let names: Vec<_> = scene(reading).materials.into_iter().map(|m| m.name).collect();
+    assert_eq!(names, ["default", "grün", "grön"]);
+}

@@ -17,7 +17,7 @@ pub(crate) use values::{
 /// What to read, and how.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct InputArgs {
-    #[arg(help = values::input_help())]
+    #[arg(help = values::input_help(), value_parser = values::path())]
     pub(crate) input: String,
 
     #[arg(long, value_name = "NAME", value_parser = values::format, help = values::format_help())]

@@ -3,6 +3,7 @@
 use std::fmt::Display;
 use std::str::FromStr;
 
+use clap::builder::{OsStringValueParser, TypedValueParser};
 use phong::aov::Aov;
 use phong_scene::{Background, ColorError, Format, Rgb, closest};
 
@@ -181,6 +182,11 @@ fn known_format(text: &str, usual: &[Format]) -> Result<Format, String> {
     let text = text.trim_start_matches('.');
     let names: Vec<&str> = usual.iter().map(|format| format.ending()).collect();
     Format::of_ending(text).ok_or_else(|| one_of(text, &names))
+}
+
+/// A path, whatever bytes its name is of.
+pub(crate) fn path() -> impl TypedValueParser<Value = String> {
+    OsStringValueParser::new().map(|path| phong_scene::path_text(&path))
 }
 
 /// What INPUT may be.

@@ -44,7 +44,7 @@ use std::sync::Arc;
 pub(crate) use write::{Difference, write as write_material};
 
 use self::draft::Draft;
-use super::text::{Cursor, Decimal, Findings, Piece, blame, read_text, whole};
+use super::text::{Cursor, Decimal, Findings, Piece, blame, name_of, read_text, whole};
 use crate::color::{Rgb, are_bytes};
 use crate::diagnostic::Diagnostic;
 use crate::limits::{LARGEST, Limits};
@@ -146,7 +146,7 @@ impl Reader<'_> {
         let here = cursor.clone();
         let keyword = cursor.word();
         if keyword == b"newmtl" {
-            let name = String::from_utf8_lossy(cursor.rest_of_line()).into_owned();
+            let name = name_of(cursor.rest_of_line());
             self.drafts.push(Draft::new(name, here.here(self.file)));
             return;
         }

@@ -1,5 +1,7 @@
 //! Texture statements: which file is meant, among options before and behind its name.
 
+use crate::format::text::name_of;
+
 /// The file a texture statement names; `None` if `keyword` is no texture statement.
 pub(super) fn file_name(keyword: &[u8], rest: &[u8]) -> Option<String> {
     let keyword = keyword.to_ascii_lowercase();
@@ -7,7 +9,7 @@ pub(super) fn file_name(keyword: &[u8], rest: &[u8]) -> Option<String> {
     if !keyword.starts_with(b"map_") && !known.contains(&keyword.as_slice()) {
         return None;
     }
-    let text = String::from_utf8_lossy(rest);
+    let text = name_of(rest);
     // Names may hold blanks: all from the first word that is no option to the last of them.
     let (mut start, mut end) = (None, 0);
     let mut words = words(&text).peekable();

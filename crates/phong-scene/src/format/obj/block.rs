@@ -10,7 +10,7 @@ use glam::{DVec3, Vec2, Vec3};
 
 use crate::color::{Rgb, srgb_decode};
 use crate::diagnostic::Span;
-use crate::format::text::{Cursor, Decimal, Findings, Piece, blame, take_digits};
+use crate::format::text::{Cursor, Decimal, Findings, Piece, blame, name_of, take_digits};
 use crate::mesh::{FLAT, NO_INDEX};
 
 /// An index that no file can use: out of range, said where it is resolved.
@@ -412,12 +412,12 @@ impl Block {
             b"usemtl" => {
                 cursor.more();
                 let start = cursor.clone();
-                let name = String::from_utf8_lossy(cursor.rest_of_line()).into_owned();
+                let name = name_of(cursor.rest_of_line());
                 let triangle = self.indices[0].triangles.len() as u32;
                 self.materials.push((triangle, name, start.here(&context.file)));
             }
             b"mtllib" => {
-                let names = String::from_utf8_lossy(cursor.rest_of_line()).into_owned();
+                let names = name_of(cursor.rest_of_line());
                 self.libraries.push((names, at()));
             }
             // Names, levels of detail and display attributes do not change a shape.

@@ -5,7 +5,7 @@ use crate::format::input::Input;
 use crate::format::mtl::Library;
 use crate::format::text::Findings;
 use crate::material::Material;
-use crate::source::Source;
+use crate::source::{Source, byte_letter};
 
 /// The MTL files that are read; of materials of one name, the first counts.
 #[derive(Debug, Default)]
@@ -83,7 +83,17 @@ fn locate(name: &str, path: &str, source: &dyn Source) -> Option<String> {
         if name.starts_with('/') || drive { name.clone() } else { format!("{folder}{name}") };
     let bare = name.rsplit('/').next().unwrap_or(&name);
     let beside = format!("{folder}{bare}");
-    [written, beside].into_iter().find(|at| !name.is_empty() && source.open(at).is_ok())
+    // Where the file's name is in another encoding than the text, its bytes are the letters'.
+    let bytes = |path: &String| -> String {
+        let letter = |c: char| match u8::try_from(c) {
+            Ok(byte) if !c.is_ascii() => byte_letter(byte),
+            _ => c,
+        };
+        path.chars().map(letter).collect()
+    };
+    let named = [bytes(&written), bytes(&beside)];
+    let all = [written, beside].into_iter().chain(named);
+    all.into_iter().find(|at| !name.is_empty() && source.open(at).is_ok())
 }
 
 fn split_at_blanks(names: &str) -> Vec<String> {

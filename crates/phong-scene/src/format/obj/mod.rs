@@ -1,18 +1,23 @@
 //! Wavefront OBJ: polygons, with normals, texture coordinates, vertex colours and materials.
 //!
-//! A file becomes one mesh. What `o`, `g` and `s` say is not kept: names are for editors, and
-//! smoothing is by the normals in the file or else by angle. Lines, point elements and free-form
-//! surfaces are not drawn, which is a warning.
+//! A file becomes one mesh, and a cloud of points where it has point elements, or no faces and lines.
+//! What `o` and `g` say is not kept: names are for editors. Lines and free-form surfaces are not
+//! drawn, which is a warning.
 //!
 //! | statement | read as |
 //! |---|---|
 //! | `v x y z` | a position; what stands far from the origin is kept relative to [`Mesh::origin`](crate::Mesh::origin) |
 //! | `v x y z w` | the same: polygons do not use the weight |
-//! | `v x y z r g b` | a position with a linear colour; beside such, a position without one is grey |
+//! | `v x y z r g b` | a position with a colour, which is sRGB; beside such, a position without one is grey; if all are whole numbers up to 255 and one is at least 2, they are bytes |
 //! | `vt u v`, `vn x y z` | a texture coordinate, a normal; `vt` may lack v, and more is ignored |
 //! | `f a b c …` | a polygon of corners `v`, `v/vt`, `v//vn`, `v/vt/vn`; negative indices count back from the last; concave polygons are cut by clipping ears |
+//! | `s number`, `s off` | in a file without normals: faces of one group are smooth among themselves, those of none are flat; without any `s`, smooth where faces meet under 60° |
+//! | `p v1 v2 …` | points, drawn as those of PLY files are |
 //! | `usemtl name` | the material of the faces that follow; before the first, the default material |
 //! | `mtllib names` | MTL files beside the OBJ file; see the `mtl` module |
+//!
+//! A position, normal or colour that is NaN, and a normal or texture coordinate out of range, are
+//! left out and counted; a position out of range refuses the file, unless it is read leniently.
 //!
 //! Any statement may go on behind a `\` at its line's end. UTF-16 is read where a byte-order mark
 //! says so. An index may count forward to a vertex that comes later.

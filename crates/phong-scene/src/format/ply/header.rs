@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::names::is_used;
 use crate::diagnostic::Span;
-use crate::format::text::{Cursor, Decimal, Findings, Piece, whole};
+use crate::format::text::{Cursor, Decimal, Findings, Piece, name_of, whole};
 use crate::source::Blob;
 
 /// Bytes that a header may take.
@@ -208,7 +208,7 @@ impl Parser<'_> {
             b"comment" => {
                 if cursor.more() && cursor.rest().starts_with(b"TextureFile") {
                     cursor.word();
-                    let name = String::from_utf8_lossy(cursor.rest_of_line()).into_owned();
+                    let name = name_of(cursor.rest_of_line());
                     self.findings.warning(
                         "textures",
                         || here.here(self.file),
@@ -253,7 +253,7 @@ impl Parser<'_> {
     }
 
     fn element(&mut self, cursor: &mut Cursor<'_>, start: &Cursor<'_>) {
-        let name = String::from_utf8_lossy(cursor.word()).into_owned();
+        let name = name_of(cursor.word());
         cursor.more();
         let here = cursor.clone();
         let count = cursor.decimal().and_then(Decimal::to_integer);
@@ -290,7 +290,7 @@ impl Parser<'_> {
     fn push(&mut self, cursor: &mut Cursor<'_>, list: Option<Type>, kind: Type) {
         cursor.more();
         let here = cursor.clone();
-        let name = String::from_utf8_lossy(cursor.word()).into_owned();
+        let name = name_of(cursor.word());
         let span = here.here(self.file);
         let Some(element) = self.elements.last_mut() else {
             self.error(&here, |word| format!("the property `{word}` belongs to no element"));

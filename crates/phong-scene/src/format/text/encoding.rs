@@ -71,6 +71,15 @@ pub(crate) fn decode(mut bytes: Vec<u8>) -> Vec<u8> {
     bytes
 }
 
+/// A name of a file that need not be UTF-8: what is not is taken for Latin-1, so that different names
+/// stay different.
+pub(crate) fn name_of(bytes: &[u8]) -> String {
+    match str::from_utf8(bytes) {
+        Ok(name) => name.to_owned(),
+        Err(_) => bytes.iter().map(|byte| char::from(*byte)).collect(),
+    }
+}
+
 fn is_utf16(head: &[u8]) -> bool {
     head.starts_with(&[0xff, 0xfe]) || head.starts_with(&[0xfe, 0xff])
 }
