@@ -124,6 +124,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Picture, ReadError> {
         let side = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
         let channels = header.channels.list.len().max(1) as u64;
         count(side(header.layer_size.0), side(header.layer_size.1), channels)?;
+        let shown = header.shared_attributes.display_window.size;
+        count(side(shown.0), side(shown.1), channels)?;
     }
     let image = exr::prelude::read()
         .no_deep_data()
@@ -143,14 +145,42 @@ pub(super) fn read(bytes: &[u8]) -> Result<Picture, ReadError> {
         },
     });
     let Vec2(width, height) = layer.size;
-    let planes: Vec<_> = planes.collect();
+    let mut planes: Vec<_> = planes.collect();
     if planes.iter().any(|plane| plane.values.len() != width * height) {
         return Err(ReadError::Broken("OpenEXR: subsampled channels are not read".to_owned()));
     }
+    // The picture is the display window; what the file holds may be more of it, or less.
+    let window = image.attributes.display_window;
+    let corner = layer.attributes.layer_position - window.position;
+    let shown = window.size;
+    if corner != Vec2(0, 0) || shown != layer.size {
+        for plane in &mut planes {
+            plane.values = placed(&plane.values, layer.size, corner, shown);
+        }
+    }
+    let Vec2(width, height) = shown;
     Ok(Picture {
         size: [width as u32, height as u32],
         planes,
         transfer: Transfer::Linear,
         levels: None,
     })
+}
+
+/// The pixels of a picture of size `shown` of which `values` of `size` begin at `corner`; 0 where
+/// there are none.
+fn placed(values: &[f32], size: Vec2<usize>, corner: Vec2<i32>, shown: Vec2<usize>) -> Vec<f32> {
+    let within = |at: usize, corner: i32, size: usize| {
+        let inside = at as i64 - i64::from(corner);
+        usize::try_from(inside).ok().filter(|&inside| inside < size)
+    };
+    let mut all = vec![0.0; shown.area()];
+    for (i, value) in all.iter_mut().enumerate() {
+        let x = within(i % shown.0, corner.0, size.0);
+        let y = within(i / shown.0, corner.1, size.1);
+        if let (Some(x), Some(y)) = (x, y) {
+            *value = values[y * size.0 + x];
+        }
+    }
+    all
 }

@@ -50,6 +50,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<Picture, ReadError> {
         .filter(|s: &f32| s.is_finite() && *s != 0.0)
         .ok_or_else(|| broken("the scale must be a number other than 0"))?;
     let values = count(width, height, channels)?;
+    // The header may end its lines as Windows does, and pixels may begin with any byte.
+    let end = bytes.len() - rest.len();
+    if bytes[end - 1] == b'\r' && rest.first() == Some(&b'\n') && rest.len() as u64 > 4 * values {
+        rest = &rest[1..];
+    }
     if (rest.len() as u64) < 4 * values {
         return Err(broken(&format!("{} bytes of pixels, not {}", rest.len(), 4 * values)));
     }

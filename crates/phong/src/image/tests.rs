@@ -194,6 +194,38 @@ fn bytes_do_not_depend_on_the_number_of_threads() {
 }
 
 #[test]
+fn a_pfm_header_may_end_its_lines_as_windows_does() {
+    let pixels: Vec<u8> = [1.0_f32, 2.0].iter().flat_map(|v| v.to_le_bytes()).collect();
+    for end in ["\n", "\r\n", " "] {
+        let header = format!("Pf{end}2 1{end}-1.0{end}");
+        let picture = Picture::read(&[header.as_bytes(), &pixels].concat()).unwrap();
+        assert_eq!(picture.planes[0].values, [1.0, 2.0], "{end:?}");
+    }
+}
+
+#[cfg(feature = "exr")]
+#[test]
+fn the_picture_of_an_exr_file_is_its_display_window() {
+    use ::exr::prelude::{
+        Encoding, Image, IntegerBounds, Layer, LayerAttributes, SpecificChannels, Vec2,
+        WritableImage,
+    };
+    // 2 × 2 pixels at (1, 1), of which a picture of 4 × 2 shows the upper row.
+    let pixel = |at: Vec2<usize>| (1.0_f32 + at.x() as f32, 0.0_f32, 10.0 * at.y() as f32);
+    let attributes = LayerAttributes { layer_position: Vec2(1, 1), ..LayerAttributes::default() };
+    let channels = SpecificChannels::rgb(pixel);
+    let layer = Layer::new((2, 2), attributes, Encoding::UNCOMPRESSED, channels);
+    let mut image = Image::from_layer(layer);
+    image.attributes.display_window = IntegerBounds::from_dimensions((4, 2));
+    let mut file = Cursor::new(Vec::new());
+    image.write().to_buffered(&mut file).unwrap();
+    let picture = Picture::read(file.get_ref()).unwrap();
+    assert_eq!(picture.size, [4, 2]);
+    let red = picture.planes.iter().find(|plane| plane.name == "R").unwrap();
+    assert_eq!(red.values, [0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 2.0, 0.0]);
+}
+
+#[test]
 fn damaged_files_are_errors_and_no_panic() {
     let picture: Vec<f32> = (0..3 * 20 * 20).map(|i| (i % 7) as f32 / 6.0).collect();
     let film = film([20, 20], &[(PICTURE, &picture)]);
