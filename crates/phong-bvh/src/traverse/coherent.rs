@@ -112,10 +112,10 @@ impl<E: Query, C: Content> Kernel for Groups<'_, E, C> {
 fn signs<S: Simd>(simd: S, rays: &[Rays8]) -> [[u32; 3]; PACKETS] {
     let mut signs = [[0; 3]; PACKETS];
     for (rays, signs) in rays.iter().zip(&mut signs) {
-        for axis in 0..3 {
-            let bits = f32x8::load_array_ref(simd, &rays.dir[axis]).bitcast::<u32x8<S>>();
+        for (dir, signs) in rays.dir.iter().zip(signs) {
+            let bits = f32x8::load_array_ref(simd, dir).bitcast::<u32x8<S>>();
             let sign = u32x8::splat(simd, 1 << 31);
-            signs[axis] = bits.simd_ge(sign).to_bitmask() as u32;
+            *signs = bits.simd_ge(sign).to_bitmask() as u32;
         }
     }
     signs
