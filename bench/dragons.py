@@ -101,6 +101,7 @@ def main():
     parser.add_argument("--out", type=Path, default=Path("dragons"), help="a folder (default: %(default)s)")
     parser.add_argument("--threads", type=int, default=os.cpu_count(), help="default: all")
     parser.add_argument("--phong", type=Path, default=ROOT / "target/release/phong", help="the program")
+    parser.add_argument("more", nargs="*", help="after --: more of what `phong render` takes, as --size 640x360")
     args = parser.parse_args()
     args.out.mkdir(parents=True, exist_ok=True)
     mesh = args.out / args.ply.name.removesuffix(".gz")
@@ -110,7 +111,7 @@ def main():
     scene = write(args.phong, args.out, mesh, args.count)
 
     picture = scene.with_suffix(".png")
-    command = [str(args.phong), "render", str(scene), "-o", str(picture), "--quiet", "--stats", f"--threads={args.threads}"]
+    command = [str(args.phong), "render", str(scene), "-o", str(picture), "--quiet", f"--threads={args.threads}", *args.more]
     began = time.perf_counter()
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     said = process.stdout.read()

@@ -149,9 +149,10 @@ impl Geometry {
     }
 
     /// The geometry of a scene that differs in some objects: as [`Geometry::new`] would build it, to
-    /// the bit, with the same options. Trees of meshes and clouds whose arrays are the very same are
-    /// taken over, so moving, adding or removing one of those takes no time that grows with its
-    /// size, and neither does a clone of the scene.
+    /// the bit, with the same options. Trees of meshes and clouds whose arrays are the very same, as
+    /// those of a clone of the scene are, are taken over, so moving, adding or removing one of those
+    /// builds only the tree above them. Of what it takes then, only the check of the scene grows with
+    /// their size.
     ///
     /// # Errors
     /// [`GeometryError`].
