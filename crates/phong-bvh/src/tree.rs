@@ -1,9 +1,12 @@
 //! The tree of one object: built once, and shared by all instances of it.
 
-use glam::DVec3;
+use std::sync::Arc;
+
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
 
 use crate::{
-    Aabb, Level, Primitives,
+    Aabb, Level, Primitives, Sphere,
     build::{self, BuildError, BuildOptions, Nodes},
     level::Token,
     traverse,
@@ -36,13 +39,18 @@ pub struct Tree {
 impl Tree {
     /// Builds the tree of one object in the current rayon pool; it does not depend on the pool's size.
     ///
+    /// Arrays are shared, not copied, but for an object that is farther from its own origin than it is
+    /// large: that one is moved to its own middle, so that f32 is fine enough for it.
+    ///
     /// # Errors
     /// [`BuildError::TooMany`], [`BuildError::NoSuchLevel`]; [`BuildError::Unbounded`] for a plane.
     pub fn build(primitives: Primitives, options: BuildOptions) -> Result<Self, BuildError> {
         if matches!(primitives, Primitives::Plane(_)) {
             return Err(BuildError::Unbounded);
         }
-        Self::of(vec![primitives], options)
+        let center = middle(&primitives);
+        let moved = if center == DVec3::ZERO { primitives } else { moved(&primitives, -center) };
+        Ok(Self { center, ..Self::of(vec![moved], options)? })
     }
 
     /// The tree over several batches, whose primitives are numbered through. Planes are numbered as well,
@@ -122,8 +130,123 @@ impl Tree {
     }
 }
 
+/// The most points that the middle of an object is taken from.
+const SAMPLE: usize = 1024;
+/// Up to so many sizes from its own origin an object stays where it is.
+const NEAR: f64 = 16.0;
+
+/// What to take off an object's coordinates: its median point, rounded to a power of two about as large as
+/// the object, so that little is lost in f32. 0 where the object is around its own origin: it then keeps its
+/// bits, and its arrays need not be copied.
+///
+/// Medians and quantiles, not the box: one stray point says nothing of where the others are.
+fn middle(primitives: &Primitives) -> DVec3 {
+    let (points, radius) = sample(primitives);
+    if points.is_empty() {
+        return DVec3::ZERO;
+    }
+    let along = |axis: usize| {
+        let mut all: Vec<f32> = points.iter().map(|p| p[axis]).collect();
+        all.sort_unstable_by(f32::total_cmp);
+        let at = |share: usize| f64::from(all[(all.len() - 1) * share / 10]);
+        (at(5), at(9) - at(1))
+    };
+    let [x, y, z] = [along(0), along(1), along(2)];
+    let (middle, size) =
+        (DVec3::new(x.0, y.0, z.0), x.1.max(y.1).max(z.1).max(2.0 * f64::from(radius)));
+    let is_far = middle.abs().max_element() > NEAR * size;
+    if !is_far || size == 0.0 || !middle.is_finite() {
+        return DVec3::ZERO;
+    }
+    // The power of two is made of the exponent's bits.
+    let step = f64::from_bits(size.to_bits() & 0x7ff0_0000_0000_0000) * 2.0;
+    (middle / step).round() * step
+}
+
+/// Points of up to [`SAMPLE`] primitives, evenly spread over their numbers, and a usual radius.
+fn sample(primitives: &Primitives) -> (Vec<Vec3>, f32) {
+    let step = primitives.len().div_ceil(SAMPLE).max(1);
+    match primitives {
+        Primitives::Triangles { positions, indices } => {
+            (indices.iter().step_by(step).map(|&[a, ..]| positions[a as usize]).collect(), 0.0)
+        }
+        Primitives::Spheres(spheres) => {
+            let some = || spheres.iter().step_by(step);
+            let mut radii: Vec<f32> = some().map(|sphere| sphere.radius).collect();
+            radii.sort_unstable_by(f32::total_cmp);
+            let radius = radii.get(radii.len() / 2).copied().unwrap_or_default();
+            (some().map(|sphere| sphere.center).collect(), radius)
+        }
+        // These are f64 as they are.
+        Primitives::Plane(_) | Primitives::Solid(_) => (Vec::new(), 0.0),
+    }
+}
+
+/// The same primitives, elsewhere.
+fn moved(primitives: &Primitives, by: DVec3) -> Primitives {
+    let place = |p: Vec3| (p.as_dvec3() + by).as_vec3();
+    match primitives {
+        Primitives::Triangles { positions, indices } => {
+            let positions: Vec<Vec3> = positions.par_iter().map(|&p| place(p)).collect();
+            Primitives::triangles(positions, Arc::clone(indices))
+        }
+        Primitives::Spheres(spheres) => {
+            let sphere = |s: &Sphere| Sphere { center: place(s.center), ..*s };
+            Primitives::spheres(spheres.par_iter().map(sphere).collect::<Vec<_>>())
+        }
+        Primitives::Plane(_) | Primitives::Solid(_) => primitives.clone(),
+    }
+}
+
 /// The vector instructions asked for.
 pub(crate) fn token(options: BuildOptions) -> Result<Token, BuildError> {
     let level = options.level.unwrap_or_else(Level::detect);
     Token::of(level).ok_or(BuildError::NoSuchLevel(level))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cloud(at: Vec3, stray: bool) -> Primitives {
+        let place = |i: u32| at + Vec3::new((i % 7) as f32, (i % 11) as f32, (i % 13) as f32);
+        let mut spheres: Vec<_> =
+            (0..3000).map(|i| Sphere { center: place(i), radius: 0.25 }).collect();
+        if stray {
+            spheres[1500].center = Vec3::splat(-4e6);
+        }
+        Primitives::spheres(spheres)
+    }
+
+    #[test]
+    fn an_object_far_from_its_origin_is_moved_to_its_middle_whatever_strays() {
+        let at = Vec3::new(512_000.0, -40_960.0, 64.0);
+        for stray in [false, true] {
+            let cloud = cloud(at, stray);
+            let tree = Tree::build(cloud.clone(), BuildOptions::default()).unwrap();
+            let (Primitives::Spheres(before), Primitives::Spheres(after)) =
+                (&cloud, tree.primitives())
+            else {
+                panic!("spheres stay spheres");
+            };
+            assert_eq!(tree.center() % 16.0, DVec3::ZERO, "{}", tree.center());
+            assert!(after[7].center.abs().max_element() < 32.0, "{}", after[7].center);
+            for (before, after) in before.iter().zip(&**after) {
+                let there = after.center.as_dvec3() + tree.center();
+                assert_eq!(there, before.center.as_dvec3(), "nothing is lost");
+            }
+        }
+    }
+
+    #[test]
+    fn an_object_around_its_origin_shares_its_arrays() {
+        let near = cloud(Vec3::new(100.0, -60.0, 3.0), false);
+        let tree = Tree::build(near.clone(), BuildOptions::default()).unwrap();
+        assert_eq!(tree.center(), DVec3::ZERO);
+        let (Primitives::Spheres(before), Primitives::Spheres(after)) = (&near, tree.primitives())
+        else {
+            panic!("spheres stay spheres");
+        };
+        assert!(Arc::ptr_eq(before, after));
+    }
 }

@@ -382,6 +382,35 @@ fn a_small_thing_seen_from_ten_million_away_is_where_it_is() {
 }
 
 #[test]
+fn an_object_written_far_from_its_own_origin_is_met_where_it_stands() {
+    let mut numbers = Numbers(9);
+    let far = Vec3::new(524_288.0, -262_144.0, 1024.0);
+    let corner = |_| (16.0 * numbers.point()).round().as_vec3() / 16.0;
+    let corners: Vec<Vec3> = (0..300).map(corner).collect();
+    let moved: Vec<Vec3> = corners.iter().map(|p| p + far).collect();
+    let indices: Vec<[u32; 3]> = (0..100).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    let placed = |positions: Vec<Vec3>, to_world: DAffine3| {
+        let mesh = Primitives::triangles(positions, indices.clone());
+        let tree = Arc::new(Tree::build(mesh, BuildOptions::default()).unwrap());
+        world(&[Part::Instance { tree, to_world }], BuildOptions::default())
+    };
+    let turn = DAffine3::from_rotation_y(0.7);
+    let here = placed(corners, turn);
+    let there = placed(moved, turn * DAffine3::from_translation(-far.as_dvec3()));
+    let mut count = 0;
+    for _ in 0..2000 {
+        let ray = Ray::new(3.0 * numbers.point(), numbers.direction().as_vec3());
+        let (near, far) = (here.intersect(&ray), there.intersect(&ray));
+        assert_eq!((near.part, near.prim), (far.part, far.prim), "{ray:?}");
+        if near.is_some() {
+            assert!((near.t - far.t).abs() <= 1e-5 * (1.0 + near.t), "{} {}", near.t, far.t);
+            count += 1;
+        }
+    }
+    assert!(count > 100, "{count}");
+}
+
+#[test]
 fn a_transform_without_an_inverse_is_an_error() {
     let ball = Primitives::spheres(vec![Sphere { center: Vec3::ZERO, radius: 1.0 }]);
     let tree = Arc::new(Tree::build(ball, BuildOptions::default()).unwrap());
