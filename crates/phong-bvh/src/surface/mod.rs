@@ -30,7 +30,7 @@ use self::point::{Point, corners, flat, line, on_plane, on_sphere, rounded, sphe
 use crate::{
     Coordinates, Hit, Hits8, Kernel, Primitives, Ray, Rays8, Sphere, Surface,
     eights::whole,
-    frame::{Frame, Way, unit},
+    frame::{Frame, Way, unit, wide as wide8},
     lanes, local,
     primitives::{ellipsoid, patch::Patch, sphere::Closest},
 };
@@ -159,6 +159,11 @@ fn put<S: Simd>(simd: S, to: &mut [[f32; 8]; 3], lanes: mask32x8<S>, value: [f32
     }
 }
 
+#[inline(always)]
+fn join<S: Simd>(l: [f64x4<S>; 3], h: [f64x4<S>; 3]) -> [f32x8<S>; 3] {
+    [l[0].narrow(h[0]), l[1].narrow(h[1]), l[2].narrow(h[2])]
+}
+
 /// The surfaces of eight rays that met primitives of one part, put into `lanes` of `out`; false: they have
 /// to be worked out one by one.
 #[inline(always)]
@@ -171,11 +176,10 @@ fn eight<S: Simd>(
     lanes: mask32x8<S>,
     out: &mut Surfaces8,
 ) -> bool {
-    let load = |lanes: &[f32; 8]| f32x8::load_array_ref(simd, lanes).widen();
     let [a, b, c, d, e, f, g, h] = *locals;
     let [low, high] = match primitives {
         Primitives::Triangles { positions, indices } => {
-            let (u, v) = (load(&hits.u), load(&hits.v));
+            let (u, v) = (wide8(simd, &hits.u), wide8(simd, &hits.v));
             let four = |of| corners_of_four(simd, positions, indices, of);
             [triangle(four([a, b, c, d]), u.0, v.0), triangle(four([e, f, g, h]), u.1, v.1)]
         }
@@ -187,13 +191,13 @@ fn eight<S: Simd>(
                 return false;
             }
             let local::Rays8 { origin: [ox, oy, oz], dir: [dx, dy, dz], .. } = &local;
-            let (ox, oy, oz) = (load(ox), load(oy), load(oz));
-            let (dx, dy, dz) = (load(dx), load(dy), load(dz));
+            let (ox, oy, oz) = (wide8(simd, ox), wide8(simd, oy), wide8(simd, oz));
+            let (dx, dy, dz) = (wide8(simd, dx), wide8(simd, dy), wide8(simd, dz));
             let (low_o, high_o) = ([ox.0, oy.0, oz.0], [ox.1, oy.1, oz.1]);
             let (low_d, high_d) = ([dx.0, dy.0, dz.0], [dx.1, dy.1, dz.1]);
             match others {
                 Primitives::Spheres(spheres) => {
-                    let t = load(&hits.t);
+                    let t = wide8(simd, &hits.t);
                     // As `Way::there` has it.
                     let (t_low, t_high) =
                         (t.0 * low.scale - low.skip, t.1 * high.scale - high.skip);
@@ -210,9 +214,6 @@ fn eight<S: Simd>(
                 _ => unreachable!("triangles are above, and solids are worked out one by one"),
             }
         }
-    };
-    let join = |l: [f64x4<S>; 3], h: [f64x4<S>; 3]| -> [f32x8<S>; 3] {
-        [l[0].narrow(h[0]), l[1].narrow(h[1]), l[2].narrow(h[2])]
     };
     let [x, y, z] = join(low.p, high.p);
     let (x, y, z) = (x.widen(), y.widen(), z.widen());

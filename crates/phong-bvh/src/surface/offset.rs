@@ -48,16 +48,20 @@ const HALF: f32 = f32::EPSILON / 2.0;
 #[inline(always)]
 pub fn offset_origins<S: Simd>(simd: S, surface: &Surfaces8, dir: [f32x8<S>; 3]) -> [[f64; 8]; 3] {
     let zero = f32x8::splat(simd, 0.0);
-    let load = |lanes: &[f32; 8]| f32x8::load_array_ref(simd, lanes);
-    let ng = [load(&surface.ng[0]), load(&surface.ng[1]), load(&surface.ng[2])];
-    let error = [load(&surface.p_error[0]), load(&surface.p_error[1]), load(&surface.p_error[2])];
+    let (ng, error) = (load3(simd, &surface.ng), load3(simd, &surface.p_error));
     let below = (dir[0] * ng[0] + dir[1] * ng[1] + dir[2] * ng[2]).simd_lt(zero);
     let keep = ng[0].abs() * error[0] + ng[1].abs() * error[1] + ng[2].abs() * error[2];
-    let away = |axis: usize| {
-        let offset = keep * below.select(-ng[axis], ng[axis]);
-        away(simd, &surface.p[axis], error[axis], offset)
-    };
-    [away(0), away(1), away(2)]
+    let [x, y, z] = ng;
+    [
+        away(simd, &surface.p[0], error[0], keep * below.select(-x, x)),
+        away(simd, &surface.p[1], error[1], keep * below.select(-y, y)),
+        away(simd, &surface.p[2], error[2], keep * below.select(-z, z)),
+    ]
+}
+
+#[inline(always)]
+fn load3<S: Simd>(simd: S, [x, y, z]: &[[f32; 8]; 3]) -> [f32x8<S>; 3] {
+    [f32x8::load_array_ref(simd, x), f32x8::load_array_ref(simd, y), f32x8::load_array_ref(simd, z)]
 }
 
 #[inline(always)]

@@ -83,20 +83,37 @@ impl<S: Simd> Slabs<S> {
 /// that are not there what is said is unspecified.
 #[inline(always)]
 pub(crate) fn meet<S: Simd>(simd: S, rays: &Rays8, bounds: &Aabb, t_max: f32x8<S>) -> u32 {
-    let load = |lanes: &[f32; 8]| f32x8::load_array_ref(simd, lanes);
-    let [x, y, z] = [load(&rays.origin[0]), load(&rays.origin[1]), load(&rays.origin[2])];
+    let (x, y, z) =
+        (load(simd, &rays.origin[0]), load(simd, &rays.origin[1]), load(simd, &rays.origin[2]));
     let pad = x.abs().max(y.abs()).max(z.abs()) * SLACK + 1e-24;
-    let (one, zero) = (f32x8::splat(simd, 1.0), f32x8::splat(simd, 0.0));
-    let (mut enter, mut leave) = (load(&rays.t_min), t_max);
-    for (axis, origin) in [x, y, z].into_iter().enumerate() {
-        let dir = load(&rays.dir[axis]);
-        let reciprocal = (one / dir).max(f32x8::splat(simd, -1e37)).min(f32x8::splat(simd, 1e37));
-        let back = reciprocal.simd_lt(zero);
-        let (lo, hi) = (bounds.lo[axis], bounds.hi[axis]);
-        let (low, high) = (f32x8::splat(simd, lo) - pad, f32x8::splat(simd, hi) + pad);
-        let (near, far) = (back.select(high, low), back.select(low, high));
-        enter = enter.max((near - origin) * reciprocal);
-        leave = leave.min((far - origin) * (reciprocal * (1.0 + SLACK)));
-    }
+    let Aabb { lo, hi } = *bounds;
+    let (x0, x1) = slab(simd, x, load(simd, &rays.dir[0]), [lo.x, hi.x], pad);
+    let (y0, y1) = slab(simd, y, load(simd, &rays.dir[1]), [lo.y, hi.y], pad);
+    let (z0, z1) = slab(simd, z, load(simd, &rays.dir[2]), [lo.z, hi.z], pad);
+    let enter = x0.max(y0).max(z0.max(load(simd, &rays.t_min)));
+    let leave = x1.min(y1).min(z1.min(t_max));
     enter.simd_le(leave).to_bitmask() as u32
+}
+
+/// Where eight rays are between two sides of a box.
+#[inline(always)]
+fn slab<S: Simd>(
+    simd: S,
+    origin: f32x8<S>,
+    dir: f32x8<S>,
+    [lo, hi]: [f32; 2],
+    pad: f32x8<S>,
+) -> (f32x8<S>, f32x8<S>) {
+    let reciprocal = (f32x8::splat(simd, 1.0) / dir)
+        .max(f32x8::splat(simd, -1e37))
+        .min(f32x8::splat(simd, 1e37));
+    let back = reciprocal.simd_lt(f32x8::splat(simd, 0.0));
+    let (low, high) = (f32x8::splat(simd, lo) - pad, f32x8::splat(simd, hi) + pad);
+    let (near, far) = (back.select(high, low), back.select(low, high));
+    ((near - origin) * reciprocal, (far - origin) * (reciprocal * (1.0 + SLACK)))
+}
+
+#[inline(always)]
+fn load<S: Simd>(simd: S, lanes: &[f32; 8]) -> f32x8<S> {
+    f32x8::load_array_ref(simd, lanes)
 }

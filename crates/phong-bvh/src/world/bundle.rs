@@ -174,24 +174,25 @@ impl Kernel for Name<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let Self { loose, found, hits } = self;
-        let splat = |number: u32| u32x8::splat(simd, number);
         let mut batch = 0;
         for (found, hits) in found.iter().zip(hits) {
             let local::Hits8 { t, prim, u, v, met } = *found;
             (hits.t, hits.u, hits.v, hits.met) = (t, u, v, met);
             let number = u32x8::load_array_ref(simd, &prim);
-            let (mut part, mut prim) = (splat(u32::MAX), splat(u32::MAX));
+            let (mut part, mut prim) = (u32x8::splat(simd, u32::MAX), u32x8::splat(simd, u32::MAX));
             let mut left = met;
             while left != 0 {
                 // Neighbours are mostly of one batch.
                 batch = loose.batch(batch, found.prim[left.trailing_zeros() as usize & 7]);
                 let numbers = loose.numbers(batch);
-                let from = number.simd_ge(splat(numbers.start));
-                let same = left & (from & number.simd_lt(splat(numbers.end))).to_bitmask() as u32;
+                let (start, end) =
+                    (u32x8::splat(simd, numbers.start), u32x8::splat(simd, numbers.end));
+                let same = number.simd_ge(start) & number.simd_lt(end);
+                let same = left & same.to_bitmask() as u32;
                 left &= !same;
                 let same = mask32x8::from_bitmask(simd, same.into());
-                part = same.select(splat(loose.part(batch)), part);
-                prim = same.select(number - splat(numbers.start), prim);
+                part = same.select(u32x8::splat(simd, loose.part(batch)), part);
+                prim = same.select(number - start, prim);
             }
             part.store_array(&mut hits.part);
             prim.store_array(&mut hits.prim);
@@ -246,12 +247,11 @@ impl Kernel for Enter<'_> {
             if rays.there == 0 {
                 continue;
             }
-            let load = |lanes: &[f32; 8]| f32x8::load_array_ref(simd, lanes);
             let [low, high] = frame.rays(simd, rays, local);
-            let end = load(&local.t_max);
-            let best = load(&hits.t);
+            let end = load(simd, &local.t_max);
+            let best = load(simd, &hits.t);
             let met = mask32x8::from_bitmask(simd, hits.met.into())
-                & best.simd_lt(down(load(&rays.t_max)));
+                & best.simd_lt(down(load(simd, &rays.t_max)));
             let (best_low, best_high) = best.widen();
             let reach: f32x8<S> = (best_low * low.scale * SLACK - low.skip)
                 .narrow(best_high * high.scale * SLACK - high.skip);
@@ -318,27 +318,36 @@ impl Kernel for Offer<'_> {
             if found.met == 0 {
                 continue;
             }
-            let load = |lanes: &[f32; 8]| f32x8::load_array_ref(simd, lanes);
-            let numbers = |lanes: &[u32; 8]| u32x8::load_array_ref(simd, lanes);
             // [`Way::back`], step by step.
-            let (low, high) = load(&found.t).widen();
+            let (low, high) = load(simd, &found.t).widen();
             let (scale, skip) = (halves(simd, &ways.scale), halves(simd, &ways.skip));
             let t: f32x8<S> = ((low + skip[0]) / scale[0]).narrow((high + skip[1]) / scale[1]);
-            let (least, most) = (up(load(&rays.t_min).abs()), down(load(&rays.t_max)));
+            let (least, most) = (up(load(simd, &rays.t_min).abs()), down(load(simd, &rays.t_max)));
             let t = t.simd_gt(least).select(t, least);
             let t = t.simd_lt(most).select(t, most);
             let had = mask32x8::from_bitmask(simd, hits.met.into());
-            let (best, best_part) = (load(&hits.t), numbers(&hits.part));
+            let (best, best_part) = (load(simd, &hits.t), numbers(simd, &hits.part));
             let nearer = t.simd_lt(best) | (t.simd_eq(best) & part.simd_lt(best_part));
             let new = mask32x8::from_bitmask(simd, found.met.into()) & (nearer | !had);
             new.select(t, best).store_array(&mut hits.t);
             new.select(part, best_part).store_array(&mut hits.part);
-            new.select(numbers(&found.prim), numbers(&hits.prim)).store_array(&mut hits.prim);
-            new.select(load(&found.u), load(&hits.u)).store_array(&mut hits.u);
-            new.select(load(&found.v), load(&hits.v)).store_array(&mut hits.v);
+            new.select(numbers(simd, &found.prim), numbers(simd, &hits.prim))
+                .store_array(&mut hits.prim);
+            new.select(load(simd, &found.u), load(simd, &hits.u)).store_array(&mut hits.u);
+            new.select(load(simd, &found.v), load(simd, &hits.v)).store_array(&mut hits.v);
             hits.met |= found.met;
         }
     }
+}
+
+#[inline(always)]
+fn load<S: Simd>(simd: S, lanes: &[f32; 8]) -> f32x8<S> {
+    f32x8::load_array_ref(simd, lanes)
+}
+
+#[inline(always)]
+fn numbers<S: Simd>(simd: S, lanes: &[u32; 8]) -> u32x8<S> {
+    u32x8::load_array_ref(simd, lanes)
 }
 
 /// The next number above, of numbers from 0 up.
