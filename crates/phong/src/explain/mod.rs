@@ -1,8 +1,8 @@
 //! Why a pixel is the colour it is: every ray, vector, dot product, term and shadow test.
 //!
 //! Nothing is computed here that the picture is made of: the integrator tells it through its
-//! [`Witness`](crate::witness::Witness), and the samples are summed by the film's own sums. So
-//! the explanation's picture is the film's pixel, bit for bit.
+//! [`Witness`], and the samples are summed by the film's own sums. So the explanation's picture is
+//! the film's pixel, bit for bit.
 
 mod record;
 

@@ -70,7 +70,6 @@ fn reach<'a>(part: &str, imports: &'a Imports) -> BTreeSet<&'a str> {
 }
 
 #[test]
-#[expect(clippy::print_stdout, reason = "the count is asked for")]
 fn no_imports_run_in_a_circle() {
     let mut tree = tree::tree();
     let mut all = Vec::new();
