@@ -86,7 +86,7 @@ impl Numbers {
             let tree = Arc::clone(&trees[(self.bits() % 3) as usize]);
             let to_world = self.placement(spread);
             let twice = self.bits().is_multiple_of(6);
-            for _ in 0..1 + u64::from(twice) {
+            for _ in 0..=u64::from(twice) {
                 let tree = Arc::clone(&tree);
                 parts.push(Part::Instance { tree, to_world });
             }
@@ -249,7 +249,7 @@ proptest! {
                 let bound = surface.ng.as_dvec3().abs().dot(surface.p_error.as_dvec3());
                 prop_assert!(off <= bound, "{off} off the plane, over {bound}");
                 // Outwards stays outwards under a mirror image.
-                let want = normal.normalize() * to_world.matrix3.determinant().signum();
+                let want = normal / normal.length() * to_world.matrix3.determinant().signum();
                 prop_assert!((surface.ng.as_dvec3() - want).length() < 1e-4);
             } else if least < -margin {
                 prop_assert!(!hit.is_some(), "a hit at {}, not at {t}", hit.t);

@@ -7,6 +7,8 @@
 //! Prints a Markdown table: building everything anew, which is what any change once cost, against
 //! changing the look or updating the geometry; and the drawing itself, which is the same for both.
 
+#![expect(clippy::print_stdout, reason = "an example talks")]
+
 use std::error::Error;
 use std::sync::Arc;
 use std::time::Instant;

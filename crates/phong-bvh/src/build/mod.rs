@@ -38,6 +38,7 @@ const WIDTH: usize = 8;
 
 /// The nodes and leaves of a tree.
 #[derive(Debug, Default)]
+#[expect(clippy::struct_field_names, reason = "what it counts are nodes, too")]
 pub(crate) struct Nodes {
     /// Nodes and leaves.
     pub(crate) rows: Rows,

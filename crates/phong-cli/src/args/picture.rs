@@ -88,6 +88,7 @@ pub(crate) struct ImageArgs {
 /// How the work is done.
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Work")]
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own")]
 pub(crate) struct WorkArgs {
     /// Threads to use [default: all cores]
     #[arg(long, value_name = "N", value_parser = values::whole(1_u32, 4096), allow_hyphen_values = true)]

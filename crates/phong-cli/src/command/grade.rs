@@ -113,7 +113,7 @@ fn as_json(path: &Path, graded: &Grade) -> Value {
         })
         .collect();
     let terms: serde_json::Map<String, Value> =
-        graded.terms.iter().map(|(name, factor)| ((*name).to_owned(), json!(factor))).collect();
+        graded.terms.iter().map(|(name, factor)| ((*name).clone(), json!(factor))).collect();
     json!({
         "image": path.to_string_lossy(),
         "verdict": if graded.pass { "pass" } else { "fail" },

@@ -78,6 +78,7 @@ fn lamp(position: DVec3) -> Light {
     light(LightKind::Point { position, attenuation: [1.0, 0.0, 0.0], radius: 0.0 })
 }
 
+#[expect(clippy::needless_pass_by_value, reason = "each test makes its scene for this")]
 fn compiled(scene: Scene) -> (View, RenderOptions) {
     let aovs = vec![Aov::Normal, Aov::Position];
     let options =

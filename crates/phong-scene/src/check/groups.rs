@@ -62,12 +62,11 @@ impl Judge<'_> {
                 continue;
             };
             first.get_or_insert((i, object));
-            match counts.get(inner.0 as usize) {
-                Some(count) => all = all.saturating_add(*count),
-                None => {
-                    let message = self.no_group(inner.0 as usize);
-                    self.object_error(At::Top(i), object, &message);
-                }
+            if let Some(count) = counts.get(inner.0 as usize) {
+                all = all.saturating_add(*count);
+            } else {
+                let message = self.no_group(inner.0 as usize);
+                self.object_error(At::Top(i), object, &message);
             }
         }
         if let Some((i, object)) = first

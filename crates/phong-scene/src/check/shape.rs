@@ -90,7 +90,7 @@ fn axis(from: DVec3, to: DVec3, faults: &mut Faults) {
 pub(crate) fn transform(transform: &DAffine3, faults: &mut Faults) {
     let m = transform.matrix3;
     let columns = [m.x_axis, m.y_axis, m.z_axis, transform.translation];
-    let finite = columns.into_iter().fold(true, |all, v| all && faults.vector("matrix", v));
+    let finite = columns.into_iter().all(|v| faults.vector("matrix", v));
     if finite && !is_regular(m) {
         faults.say("matrix", "`matrix` is singular: it leaves nothing of the shape");
     }

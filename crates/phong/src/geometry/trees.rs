@@ -67,12 +67,11 @@ impl Trees {
         if let Some(Entry { tree, .. }) = self.0.get(&key) {
             return Ok(Arc::clone(tree));
         }
-        let entry = match earlier.0.get(&key) {
-            Some(entry) => entry.clone(),
-            None => {
-                let tree = Arc::new(Tree::build(arrays.primitives(), options)?);
-                Entry { arrays, tree }
-            }
+        let entry = if let Some(entry) = earlier.0.get(&key) {
+            entry.clone()
+        } else {
+            let tree = Arc::new(Tree::build(arrays.primitives(), options)?);
+            Entry { arrays, tree }
         };
         let tree = Arc::clone(&entry.tree);
         self.0.insert(key, entry);

@@ -168,9 +168,9 @@ impl Assembly {
         let points = self.take_points(unplaced.as_deref(), input.radius, context);
         let mesh = self.triangulate(unplaced.as_deref(), context);
         let shapes = mesh.map(Shape::from).into_iter().chain(points.map(Shape::from));
-        let mut fragment = Fragment::default();
-        fragment.objects =
-            shapes.map(|shape| Object { name: String::new(), ..Object::from(shape) }).collect();
+        let nameless = |shape| Object { name: String::new(), ..Object::from(shape) };
+        let objects = shapes.map(nameless).collect();
+        let mut fragment = Fragment { objects, ..Fragment::default() };
         fragment.materials.extend(materials);
         if fragment.objects.is_empty() {
             self.findings.error("empty models", at_file, || {

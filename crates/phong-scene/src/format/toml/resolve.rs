@@ -191,12 +191,11 @@ impl Resolver {
             DraftShape::Shape(shape) => (shape, material),
             DraftShape::Part(shape, number, fragment) => {
                 let mut object = Object { shape, material: number, ..Object::default() };
-                match own {
-                    Some(material) => object.make_of(material),
-                    None => {
-                        let first = self.first_of_fragment[fragment];
-                        object.renumber_materials(self.default, first);
-                    }
+                if let Some(material) = own {
+                    object.make_of(material);
+                } else {
+                    let first = self.first_of_fragment[fragment];
+                    object.renumber_materials(self.default, first);
                 }
                 (object.shape, object.material)
             }
