@@ -7,7 +7,7 @@
 //! ```
 //!
 //! Scenes: `bunny` (3.7 k triangles) `dragon` (871 k) `terrain` (2.1 M) `sticks` (360 k thin ones),
-//! `spheres` (1 M) `clusters` (1 M of mixed radii). Rays: `primary` (1024², in 8 × 8 tiles), `shadow`
+//! `spheres` (1 M) `clusters` (1 M of mixed radii) `bonds` (1 M capsules, ours alone). Rays: `primary` (1024², in 8 × 8 tiles), `shadow`
 //! (to two point lights), `ao` (eight cosine rays a hit), `bounce` (one), `shuffled` (those in no
 //! order). Naming some runs only those. `--quick` takes 256² pixels and 64 k rays a set, fewer
 //! rounds, no `COMPACT` build: for the ratio's first digit, in seconds. `--bundle N` sets how many
@@ -141,18 +141,20 @@ fn main() -> ExitCode {
 }
 
 fn measure(name: &str, geometry: Primitives, embree: Option<&Embree>, options: &Options) {
-    let arrays = Arrays::of(&geometry);
-    if let Some(embree) = embree {
+    let contest = embree.filter(|_| !matches!(geometry, Primitives::Cylinders { .. }));
+    let contest = contest.map(|embree| (embree, Arrays::of(&geometry)));
+    if let Some((embree, arrays)) = &contest {
         let presets = [(Flavour::Default, Preset::Balanced), (Flavour::Compact, Preset::Compact)];
         let builds = if options.quick { &presets[..1] } else { &presets[..] };
         for &(flavour, preset) in builds {
-            compare_builds(name, &geometry, (embree, &arrays, flavour), preset, options);
+            compare_builds(name, &geometry, (embree, arrays, flavour), preset, options);
         }
     }
     let triangles = matches!(geometry, Primitives::Triangles { .. });
     let bvh = build(geometry, Preset::Balanced);
-    let scene = embree.map(|embree| embree.build(&arrays, Flavour::Default));
-    let robust = embree.filter(|_| triangles).map(|embree| embree.build(&arrays, Flavour::Robust));
+    let theirs = |flavour| contest.as_ref().map(|(embree, arrays)| embree.build(arrays, flavour));
+    let scene = theirs(Flavour::Default);
+    let robust = if triangles { theirs(Flavour::Robust) } else { None };
 
     let primary = rays::primary(bvh.primitives(0), options.side());
     let mut hits = vec![Hit::NONE; primary.len()];

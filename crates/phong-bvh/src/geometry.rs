@@ -1,6 +1,6 @@
 //! What rays can meet. All numbers are finite; the caller has checked them.
 //!
-//! Triangles and spheres are met in f32: beyond coordinates of 10¹⁸, or below sizes of 10⁻¹⁸, their
+//! Triangles, spheres and capsules are met in f32: beyond coordinates of 10¹⁸, or below sizes of 10⁻¹⁸, their
 //! squares overflow or vanish, and hits are missed or made up; nothing worse happens.
 
 use std::sync::Arc;
@@ -27,6 +27,13 @@ pub enum Primitives {
     },
     /// Spheres.
     Spheres(Arc<Vec<Sphere>>),
+    /// Cylinders whose ends are all alike.
+    Cylinders {
+        /// Where they are.
+        cylinders: Arc<Vec<Cylinder>>,
+        /// What their ends look like.
+        caps: Caps,
+    },
     /// One infinite plane: one primitive.
     Plane(Plane),
     /// One curved or flat solid under any invertible transform: one primitive.
@@ -47,11 +54,17 @@ impl Primitives {
         Self::Spheres(spheres.into())
     }
 
+    /// Cylinders, from an array that is shared already or becomes so.
+    pub fn cylinders(cylinders: impl Into<Arc<Vec<Cylinder>>>, caps: Caps) -> Self {
+        Self::Cylinders { cylinders: cylinders.into(), caps }
+    }
+
     /// How many primitives the batch holds.
     pub fn len(&self) -> usize {
         match self {
             Self::Triangles { indices, .. } => indices.len(),
             Self::Spheres(spheres) => spheres.len(),
+            Self::Cylinders { cylinders, .. } => cylinders.len(),
             Self::Plane(_) | Self::Solid(_) => 1,
         }
     }
@@ -63,6 +76,7 @@ impl Primitives {
                 size_of_val(&positions[..]) + size_of_val(&indices[..])
             }
             Self::Spheres(spheres) => size_of_val(&spheres[..]),
+            Self::Cylinders { cylinders, .. } => size_of_val(&cylinders[..]),
             Self::Plane(plane) => size_of_val(plane),
             Self::Solid(solid) => size_of_val(solid),
         };
@@ -83,6 +97,34 @@ pub struct Sphere {
     pub center: Vec3,
     /// Distance of the surface from the middle; > 0.
     pub radius: f32,
+}
+
+/// A cylinder between two points; with two different radii a cone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
+pub struct Cylinder {
+    /// The first end, on the axis.
+    pub from: Vec3,
+    /// The radius there; > 0.
+    pub radius: f32,
+    /// The second end. With round ends it may be the same as the first: that is a sphere. Else a
+    /// cylinder without length is never hit.
+    pub to: Vec3,
+    /// The radius there; > 0.
+    pub radius_to: f32,
+}
+
+/// What the ends of a cylinder look like.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Caps {
+    /// The surface is that of a sphere swept along the axis, whose radius goes linearly from one to
+    /// the other. With one radius that is a capsule.
+    #[default]
+    Round,
+    /// Discs close the ends.
+    Flat,
+    /// The ends are open, and the side is seen from within too.
+    Open,
 }
 
 /// An infinite plane.

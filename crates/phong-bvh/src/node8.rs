@@ -5,6 +5,7 @@
 //! | node | 8 | lo x, hi x, lo y, hi y, lo z, hi z, [`Ref`], – |
 //! | triangles | 10 | x, y, z of the three corners; number |
 //! | spheres | 5 | x, y, z, radius; number |
+//! | cylinders | 9 | x, y, z of the first end; the same of half the way to the second; the two radii, whose signs tell the ends; number |
 //! | solid | 1 | number, index of its geometry, – |
 //! | indexed triangles | 2 | number within its geometry; index of its geometry; none: 2³² − 1 |
 //!
@@ -56,6 +57,7 @@ pub(crate) enum Kind {
     Solid,
     /// Triangles that are looked up in their geometry: less memory, more time.
     Indexed,
+    Cylinders,
 }
 
 impl Kind {
@@ -65,6 +67,7 @@ impl Kind {
             Primitives::Triangles { .. } => Some(Self::Triangles),
             Primitives::Spheres(_) => Some(Self::Spheres),
             Primitives::Solid(_) => Some(Self::Solid),
+            Primitives::Cylinders { .. } => Some(Self::Cylinders),
             Primitives::Plane(_) => None,
         }
     }
@@ -95,7 +98,8 @@ impl Ref {
             1 => Some(Kind::Triangles),
             2 => Some(Kind::Spheres),
             3 => Some(Kind::Solid),
-            _ => Some(Kind::Indexed),
+            4 => Some(Kind::Indexed),
+            _ => Some(Kind::Cylinders),
         }
     }
 
@@ -118,7 +122,8 @@ mod tests {
 
     #[test]
     fn a_reference_keeps_its_kind_and_counts_from_anywhere() {
-        for kind in [Kind::Triangles, Kind::Spheres, Kind::Solid, Kind::Indexed] {
+        let leaves = [Kind::Triangles, Kind::Spheres, Kind::Solid, Kind::Indexed, Kind::Cylinders];
+        for kind in leaves {
             let leaf = Ref::leaf(kind, 7).from(100);
             assert_eq!((leaf.kind(), leaf.row()), (Some(kind), 107));
             let last = Ref::leaf(kind, MAX_ROWS - 1);

@@ -45,7 +45,8 @@ pub struct Hit {
     pub part: u32,
     /// Number of the primitive within its part.
     pub prim: u32,
-    /// Triangles: barycentric weight of the second corner. Else 0.
+    /// Triangles: barycentric weight of the second corner. Cylinders of a bundle: 1 in the half of the second
+    /// end. Else 0.
     pub u: f32,
     /// Triangles: barycentric weight of the third corner. Else 0.
     pub v: f32,

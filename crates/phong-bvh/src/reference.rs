@@ -6,7 +6,7 @@
 use crate::{
     Primitives, Tree,
     local::{Hit, Ray},
-    primitives::{sphere, triangle},
+    primitives::{capsule, sphere, tapered::Tapered, triangle},
     traverse::Best,
 };
 
@@ -31,6 +31,18 @@ pub(crate) fn intersect(tree: &Tree, ray: &Ray) -> Hit {
                 for (prim, sphere) in (first..).zip(&**spheres) {
                     if let Some(t) = closest.intersect(sphere) {
                         best.offer(t, prim, 0.0, 0.0);
+                    }
+                }
+            }
+            Primitives::Cylinders { cylinders, caps } => {
+                for (prim, cylinder) in (first..).zip(cylinders.iter()) {
+                    let at = if capsule::is_capsule(cylinder, *caps) {
+                        capsule::intersect(&closest, cylinder)
+                    } else {
+                        Tapered::new(cylinder, *caps).intersect(ray)
+                    };
+                    if let Some(at) = at {
+                        best.offer_cylinder(at, prim);
                     }
                 }
             }

@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use crate::{
-    Aabb, Level, Primitives, Sphere,
+    Aabb, Cylinder, Level, Primitives, Sphere,
     build::{self, BuildError, BuildOptions, Nodes},
     level::Token,
     traverse,
@@ -177,6 +177,13 @@ fn sample(primitives: &Primitives) -> (Vec<Vec3>, f32) {
             let radius = radii.get(radii.len() / 2).copied().unwrap_or_default();
             (some().map(|sphere| sphere.center).collect(), radius)
         }
+        Primitives::Cylinders { cylinders, .. } => {
+            let some = || cylinders.iter().step_by(step);
+            let mut radii: Vec<f32> = some().map(|cylinder| cylinder.radius).collect();
+            radii.sort_unstable_by(f32::total_cmp);
+            let radius = radii.get(radii.len() / 2).copied().unwrap_or_default();
+            (some().flat_map(|cylinder| [cylinder.from, cylinder.to]).collect(), radius)
+        }
         // These are f64 as they are.
         Primitives::Plane(_) | Primitives::Solid(_) => (Vec::new(), 0.0),
     }
@@ -193,6 +200,10 @@ fn moved(primitives: &Primitives, by: DVec3) -> Primitives {
         Primitives::Spheres(spheres) => {
             let sphere = |s: &Sphere| Sphere { center: place(s.center), ..*s };
             Primitives::spheres(spheres.par_iter().map(sphere).collect::<Vec<_>>())
+        }
+        Primitives::Cylinders { cylinders, caps } => {
+            let cylinder = |c: &Cylinder| Cylinder { from: place(c.from), to: place(c.to), ..*c };
+            Primitives::cylinders(cylinders.par_iter().map(cylinder).collect::<Vec<_>>(), *caps)
         }
         Primitives::Plane(_) | Primitives::Solid(_) => primitives.clone(),
     }

@@ -6,7 +6,7 @@ use crate::{
     Aabb, Primitives, Tree,
     build::Nodes,
     node8::{Kind, NODE, REFS, Ref, Row, rows},
-    primitives::{sphere, triangle},
+    primitives::{capsule, sphere, triangle},
 };
 
 /// What is wrong with a tree, or nothing.
@@ -34,7 +34,7 @@ fn belongs(geometry: &Primitives, local: usize) -> bool {
         Primitives::Triangles { positions, indices } => {
             !triangle::is_degenerate(indices[local].map(|i| positions[i as usize]))
         }
-        Primitives::Spheres(_) | Primitives::Solid(_) => true,
+        Primitives::Spheres(_) | Primitives::Cylinders { .. } | Primitives::Solid(_) => true,
         Primitives::Plane(_) => false,
     }
 }
@@ -90,6 +90,15 @@ fn visit(tree: &Tree, at: Ref, bounds: &Aabb, seen: &mut [bool]) -> Result<(), S
                 let (center, radius) = (Vec3::new(x, y, z), Vec3::splat(r));
                 let inside = Aabb { lo: center - radius, hi: center + radius };
                 found(block[sphere::BLOCK - 1].bits(lane), inside)?;
+            }
+        }
+        Some(Kind::Cylinders) => {
+            let block: &[Row; capsule::BLOCK] = rows(tree, at.row());
+            for lane in 0..8 {
+                let [x, y, z, hx, hy, hz, ..] = block.map(|row| row.0[lane]);
+                let (from, half) = (Vec3::new(x, y, z), Vec3::new(hx, hy, hz));
+                let (low, high) = (from.min(from + half), from.max(from + half));
+                found(block[capsule::BLOCK - 1].bits(lane), Aabb { lo: low, hi: high })?;
             }
         }
         Some(Kind::Solid) => {

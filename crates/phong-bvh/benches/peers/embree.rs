@@ -233,7 +233,9 @@ impl Arrays {
                 let four = |s: &phong_bvh::Sphere| [s.center.x, s.center.y, s.center.z, s.radius];
                 (SPHERE_POINT, spheres.iter().flat_map(four).collect(), Vec::new())
             }
-            Primitives::Plane(_) | Primitives::Solid(_) => panic!("Embree has no such primitive"),
+            Primitives::Cylinders { .. } | Primitives::Plane(_) | Primitives::Solid(_) => {
+                panic!("not asked of Embree")
+            }
         };
         vertices.extend([0.0; 4]);
         Self { kind, vertices, indices }

@@ -131,6 +131,9 @@ fn bounds(geometry: &Primitives) -> (Vec3, Vec3) {
     match geometry {
         Primitives::Triangles { positions, .. } => around(&mut positions.iter().map(|&p| (p, 0.0))),
         Primitives::Spheres(spheres) => around(&mut spheres.iter().map(|s| (s.center, s.radius))),
+        Primitives::Cylinders { cylinders, .. } => {
+            around(&mut cylinders.iter().flat_map(|c| [(c.from, c.radius), (c.to, c.radius_to)]))
+        }
         Primitives::Plane(_) | Primitives::Solid(_) => (Vec3::NEG_ONE, Vec3::ONE),
     }
 }

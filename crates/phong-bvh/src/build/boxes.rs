@@ -4,7 +4,11 @@ use fearless_simd::{Simd, f32x8, prelude::*};
 use glam::Vec3;
 use rayon::prelude::*;
 
-use crate::{Aabb, Primitives, primitives::triangle, simd::Rows};
+use crate::{
+    Aabb, Primitives,
+    primitives::{tapered, triangle},
+    simd::Rows,
+};
 
 /// A primitive's box as `[−lo, index within its geometry, hi, index of the geometry]`.
 ///
@@ -107,6 +111,12 @@ fn fill(boxes: &mut [Boxed], first: usize, geometry: &Primitives, index: usize) 
                 let sphere = spheres[local];
                 let radius = Vec3::splat(sphere.radius);
                 let bounds = Aabb { lo: sphere.center - radius, hi: sphere.center + radius };
+                *slot = Boxed::boxed(bounds, local, index);
+            }
+        }
+        Primitives::Cylinders { cylinders, caps } => {
+            for (local, slot) in (first..).zip(boxes) {
+                let bounds = tapered::bounds(&cylinders[local], *caps);
                 *slot = Boxed::boxed(bounds, local, index);
             }
         }

@@ -8,7 +8,7 @@ use super::{
 use crate::{
     Primitives,
     node8::{Kind, NODE, REFS, Ref, Row},
-    primitives::{sphere, triangle},
+    primitives::{capsule, sphere, triangle},
     simd::prefetch_item,
 };
 
@@ -91,6 +91,7 @@ fn leaf_rows(kind: Kind, indexed: bool) -> usize {
         Kind::Spheres => sphere::BLOCK,
         Kind::Solid => 1,
         Kind::Indexed => 2,
+        Kind::Cylinders => capsule::BLOCK,
     }
 }
 
@@ -158,6 +159,7 @@ impl Writer<'_> {
                 match &self.geometry[b.geometry()] {
                     Primitives::Triangles { indices, .. } => prefetch_item(indices, b.local()),
                     Primitives::Spheres(spheres) => prefetch_item(spheres, b.local()),
+                    Primitives::Cylinders { cylinders, .. } => prefetch_item(cylinders, b.local()),
                     Primitives::Solid(_) | Primitives::Plane(_) => {}
                 }
             }
@@ -205,6 +207,12 @@ impl Writer<'_> {
                     let sphere = spheres[b.local()];
                     let [x, y, z] = sphere.center.to_array();
                     for (row, value) in [x, y, z, sphere.radius].into_iter().enumerate() {
+                        block[row].0[lane] = value;
+                    }
+                }
+                Primitives::Cylinders { cylinders, caps } => {
+                    let numbers = capsule::lane(&cylinders[b.local()], *caps);
+                    for (row, value) in numbers.into_iter().enumerate() {
                         block[row].0[lane] = value;
                     }
                 }

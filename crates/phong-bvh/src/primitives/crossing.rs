@@ -111,6 +111,13 @@ impl Span {
         (enter.t <= leave.t).then_some(Self { enter, leave })
     }
 
+    /// From where the line first is inside one of the two to where it last is.
+    pub(crate) fn or(self, other: Self) -> Self {
+        let enter = if other.enter.t < self.enter.t { other.enter } else { self.enter };
+        let leave = if other.leave.t > self.leave.t { other.leave } else { self.leave };
+        Self { enter, leave }
+    }
+
     /// How far it reaches in `t`.
     pub(crate) fn length(&self) -> f64 {
         self.leave.t - self.enter.t

@@ -13,6 +13,7 @@
 //! An affine map keeps `t`: the point at `t` in one space is the point at `t` in the other.
 
 mod box_;
+pub(crate) mod capsule;
 mod cone;
 pub(crate) mod crossing;
 mod cylinder;
@@ -22,6 +23,7 @@ pub(crate) mod patch;
 pub(crate) mod plane;
 pub(crate) mod solid;
 pub(crate) mod sphere;
+pub(crate) mod tapered;
 mod torus;
 pub(crate) mod triangle;
 

@@ -22,12 +22,12 @@ use crate::{
 /// What the test needs of a ray.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Closest {
-    origin: [f32; 3],
-    dir: [f32; 3],
+    pub(super) origin: [f32; 3],
+    pub(super) dir: [f32; 3],
     /// 1 / d·d.
-    scale: f32,
-    t_min: f32,
-    t_max: f32,
+    pub(super) scale: f32,
+    pub(super) t_min: f32,
+    pub(super) t_max: f32,
 }
 
 impl Closest {
@@ -67,11 +67,11 @@ pub(crate) const BLOCK: usize = 5;
 /// [`Closest`] for eight spheres at once.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Closest8<S: Simd> {
-    origin: [f32x8<S>; 3],
-    dir: [f32x8<S>; 3],
-    scale: f32x8<S>,
-    t_min: f32x8<S>,
-    t_max: f32x8<S>,
+    pub(super) origin: [f32x8<S>; 3],
+    pub(super) dir: [f32x8<S>; 3],
+    pub(super) scale: f32x8<S>,
+    pub(super) t_min: f32x8<S>,
+    pub(super) t_max: f32x8<S>,
 }
 
 impl<S: Simd> Closest8<S> {

@@ -14,6 +14,7 @@
 //! | disc, cap | (x + 1)/2, (y + 1)/2 over the radius |
 //! | box | 0…1 along the two axes after the face's own, against the first on a lower face |
 //! | cylinder, cone | angle / 2π from x towards y, z |
+//! | cylinder of a bundle | the same; with round ends v is that of the foot on the axis, 0 or 1 beyond the ends |
 //! | torus | angle / 2π around the axis, angle / 2π around the tube from the outermost circle up |
 //!
 //! (x, y and z are the solid's own; spheres are not turned.)
@@ -26,13 +27,22 @@ pub use offset::{offset_origin, offset_origins};
 use fearless_simd::{Simd, f32x8, f64x4, mask32x8, prelude::*, u32x8};
 use glam::{DVec2, DVec3, Vec3};
 
-use self::point::{Point, corners, flat, line, on_plane, on_sphere, rounded, sphere, triangle};
+use self::point::{
+    Capsule, Point, capsule, corners, flat, line, on_capsule, on_plane, on_sphere, rounded, sphere,
+    triangle,
+};
 use crate::{
-    Coordinates, Hit, Hits8, Kernel, Primitives, Ray, Rays8, Sphere, Surface,
+    Coordinates, Cylinder, Hit, Hits8, Kernel, Primitives, Ray, Rays8, Sphere, Surface,
     eights::whole,
     frame::{Frame, Way, unit, wide as wide8},
     lanes, local,
-    primitives::{ellipsoid, patch::Patch, sphere::Closest},
+    primitives::{
+        capsule::{self, half, is_capsule},
+        ellipsoid,
+        patch::{Patch, turn},
+        sphere::Closest,
+        tapered::{self, Tapered},
+    },
 };
 
 /// What knows all parts of a world.
@@ -55,6 +65,18 @@ pub(crate) fn surface(world: &impl Places, ray: &Ray, hit: &Hit) -> Surface {
             let (o, d) = line(&ray);
             sphere(center.as_dvec3().to_array(), radius.into(), o, d, t.into())
         }
+        Primitives::Cylinders { cylinders, caps } => {
+            let cylinder = &cylinders[local];
+            if is_capsule(cylinder, *caps) {
+                let (o, d) = line(&ray);
+                capsule(one_capsule(cylinder), o, d, t.into())
+            } else {
+                let tapered = Tapered::new(cylinder, *caps);
+                let Patch { p, normal, curvature, .. } = tapered.patch(&ray, t);
+                let slack = f64::EPSILON * 64.0 * tapered.largest();
+                rounded(p.to_array(), unit(normal.to_array()), curvature, slack.to_array())
+            }
+        }
         Primitives::Plane(plane) => {
             let (o, d) = line(&ray);
             flat(plane, o, d)
@@ -76,6 +98,15 @@ fn distance(primitives: &Primitives, ray: &local::Ray, way: Way<f64>, hit: &Hit)
     let again = match primitives {
         Primitives::Spheres(spheres) if way.skip > 0.0 => {
             Closest::new(ray).intersect(&spheres[hit.prim as usize])
+        }
+        Primitives::Cylinders { cylinders, caps } if way.skip > 0.0 => {
+            let cylinder = &cylinders[hit.prim as usize];
+            let at = if is_capsule(cylinder, *caps) {
+                capsule::intersect(&Closest::new(ray), cylinder)
+            } else {
+                Tapered::new(cylinder, *caps).intersect(ray)
+            };
+            at.map(|at| at.t)
         }
         Primitives::Solid(solid) if way.skip > 0.0 => solid.intersect(ray),
         _ => None,
@@ -139,7 +170,7 @@ impl<P: Places> Kernel for Surfaces<'_, P> {
                 // What is in lanes without a hit is unspecified.
                 let all = same == hits.met;
                 let to = mask32x8::from_bitmask(simd, if all { 0xff } else { same.into() });
-                let one_by_one = matches!(primitives, Primitives::Solid(_))
+                let one_by_one = is_one_by_one(primitives, &locals)
                     || !eight(simd, (primitives, frame), &locals, rays, hits, to, out);
                 if one_by_one {
                     for lane in lanes(same) {
@@ -148,6 +179,18 @@ impl<P: Places> Kernel for Surfaces<'_, P> {
                 }
             }
         }
+    }
+}
+
+/// Whether surfaces are worked out one by one: solids, and cylinders that are no capsules.
+#[inline(always)]
+fn is_one_by_one(primitives: &Primitives, locals: &[usize; 8]) -> bool {
+    match primitives {
+        Primitives::Solid(_) => true,
+        Primitives::Cylinders { cylinders, caps } => {
+            !locals.iter().all(|&local| is_capsule(&cylinders[local], *caps))
+        }
+        _ => false,
     }
 }
 
@@ -187,7 +230,7 @@ fn eight<S: Simd>(
             let mut local = local::Rays8::NONE;
             let [low, high] = frame.rays(simd, rays, &mut local);
             let far = low.skip.simd_gt(0.0).any_true() || high.skip.simd_gt(0.0).any_true();
-            if far && matches!(others, Primitives::Spheres(_)) {
+            if far && !matches!(others, Primitives::Plane(_)) {
                 return false;
             }
             let local::Rays8 { origin: [ox, oy, oz], dir: [dx, dy, dz], .. } = &local;
@@ -195,14 +238,18 @@ fn eight<S: Simd>(
             let (dx, dy, dz) = (wide8(simd, dx), wide8(simd, dy), wide8(simd, dz));
             let (low_o, high_o) = ([ox.0, oy.0, oz.0], [ox.1, oy.1, oz.1]);
             let (low_d, high_d) = ([dx.0, dy.0, dz.0], [dx.1, dy.1, dz.1]);
+            let t = wide8(simd, &hits.t);
+            // As `Way::there` has it.
+            let (t_low, t_high) = (t.0 * low.scale - low.skip, t.1 * high.scale - high.skip);
+            let t: f32x8<S> = t_low.narrow(t_high);
+            let t = t.widen();
             match others {
+                Primitives::Cylinders { cylinders, .. } => {
+                    let four = |of| four_capsules(simd, cylinders, of);
+                    let low = capsule(four([a, b, c, d]), low_o, low_d, t.0);
+                    [low, capsule(four([e, f, g, h]), high_o, high_d, t.1)]
+                }
                 Primitives::Spheres(spheres) => {
-                    let t = wide8(simd, &hits.t);
-                    // As `Way::there` has it.
-                    let (t_low, t_high) =
-                        (t.0 * low.scale - low.skip, t.1 * high.scale - high.skip);
-                    let t: f32x8<S> = t_low.narrow(t_high);
-                    let t = t.widen();
                     let (center, radius) = four_spheres(simd, spheres, [a, b, c, d]);
                     let low = sphere(center, radius, low_o, low_d, t.0);
                     let (center, radius) = four_spheres(simd, spheres, [e, f, g, h]);
@@ -260,6 +307,29 @@ fn four_spheres<S: Simd>(
     (center, wide(simd, [a.radius, b.radius, c.radius, d.radius]))
 }
 
+fn one_capsule(cylinder: &Cylinder) -> Capsule<f64> {
+    Capsule {
+        from: cylinder.from.as_dvec3().to_array(),
+        half: half(cylinder).map(f64::from),
+        radius: cylinder.radius.into(),
+    }
+}
+
+#[inline(always)]
+fn four_capsules<S: Simd>(
+    simd: S,
+    cylinders: &[Cylinder],
+    [a, b, c, d]: [usize; 4],
+) -> Capsule<f64x4<S>> {
+    let [a, b, c, d] = [&cylinders[a], &cylinders[b], &cylinders[c], &cylinders[d]];
+    let halves = [half(a).into(), half(b).into(), half(c).into(), half(d).into()];
+    Capsule {
+        from: wide3(simd, [a.from, b.from, c.from, d.from]),
+        half: wide3(simd, halves),
+        radius: wide(simd, [a.radius, b.radius, c.radius, d.radius]),
+    }
+}
+
 #[inline(always)]
 fn corners_of_four<S: Simd>(
     simd: S,
@@ -293,6 +363,21 @@ pub(crate) fn coordinates(world: &impl Places, ray: &Ray, hit: &Hit) -> Coordina
             let normal = on_sphere(center, radius.into(), o, d, t.into());
             let patch = ellipsoid::patch(DVec3::from_array(normal));
             (patch.normal, patch.tangent, patch.uv)
+        }
+        Primitives::Cylinders { cylinders, caps } => {
+            let cylinder = &cylinders[local];
+            if is_capsule(cylinder, *caps) {
+                let (o, d) = line(&ray);
+                let (normal, foot) = on_capsule(one_capsule(cylinder), o, d, t.into());
+                let normal = DVec3::from_array(normal);
+                let frame = tapered::frame(DVec3::from_array(half(cylinder).map(f64::from)));
+                let DVec3 { x, y, .. } = frame.transpose() * normal;
+                let tangent = frame * DVec3::new(-y, x, 0.0);
+                (normal, tangent, DVec2::new(turn(y, x), 0.5 * (1.0 + foot)))
+            } else {
+                let patch = Tapered::new(cylinder, *caps).patch(&ray, t);
+                (patch.normal, patch.tangent, patch.uv)
+            }
         }
         Primitives::Plane(plane) => {
             let [u, v] = plane.axes();

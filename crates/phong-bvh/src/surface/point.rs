@@ -88,6 +88,85 @@ pub(super) fn on_sphere<F: Lanes<Scalar = f64>>(
     unit(along(off, reach, d))
 }
 
+/// The first end of a capsule, half of the way to the second, and the radius.
+#[derive(Clone, Copy)]
+pub(super) struct Capsule<F> {
+    pub(super) from: [F; 3],
+    pub(super) half: [F; 3],
+    pub(super) radius: F,
+}
+
+/// The point of the capsule that the ray meets near `t`.
+#[inline(always)]
+pub(super) fn capsule<F: Lanes<Scalar = f64>>(
+    capsule: Capsule<F>,
+    o: [F; 3],
+    d: [F; 3],
+    t: F,
+) -> Point<F> {
+    let Capsule { from, half, radius } = capsule;
+    let (normal, along_axis) = on_capsule(capsule, o, d, t);
+    let middle = along(from, along_axis + 1.0, half);
+    let slack = (dot(half, half).sqrt() * 2.0 + radius) * (16.0 * ROUNDING);
+    let curvature = radius.splat(1.0) / radius;
+    rounded(along(middle, radius, normal), normal, curvature, [slack, slack, slack])
+}
+
+/// The normal of the capsule there, and how far along the axis its foot is: −1 at the first end, 1 at
+/// the second.
+///
+/// The steps are those of the kernel (`primitives/capsule.rs`); the ray goes in or out there by the
+/// normal at the hit as it is known.
+#[inline(always)]
+pub(super) fn on_capsule<F: Lanes<Scalar = f64>>(
+    Capsule { from, half, radius }: Capsule<F>,
+    o: [F; 3],
+    d: [F; 3],
+    t: F,
+) -> ([F; 3], F) {
+    let (zero, one) = (t.splat(0.0), t.splat(1.0));
+    let clamp = |k: F| {
+        let k = F::select(k.gt(one), one, k);
+        F::select((-one).gt(k), -one, k)
+    };
+    let o = sub(sub(o, from), half);
+    let per_length = one / dot(d, d);
+    let b = -dot(o, d) * per_length;
+    let f = along(o, b, d);
+    let s = t - b;
+    let per_hh = one / dot(half, half).max(t.splat(1e-74));
+    let (d_along, f_along) = (dot(d, half) * per_hh, dot(f, half) * per_hh);
+    let near = along(f, s, d);
+    let out = along(near, -clamp(f_along + s * d_along), half);
+    let side = F::select(dot(out, d).gt(zero), one, -one);
+    // The side of the cylinder.
+    let e = along(d, -d_along, half);
+    let g = along(f, -f_along, half);
+    let per_ee = one / dot(e, e).max(t.splat(1e-40));
+    let c = -dot(g, e) * per_ee;
+    let q = along(g, c, e);
+    let reach = ((radius * radius - dot(q, q)).max(zero) * per_ee).sqrt();
+    let s = c + side * reach;
+    let foot = f_along + s * d_along;
+    let on_side = along(g, s, e);
+    // The sphere at the end.
+    let end = clamp(foot);
+    let v = along(f, -end, half);
+    let k = -dot(v, d) * per_length;
+    let w = along(v, k, d);
+    let reach = ((radius * radius - dot(w, w)).max(zero) * per_length).sqrt();
+    let on_end = along(w, side * reach, d);
+    // Whether it is beyond the ends.
+    let beyond = foot.abs().gt(one);
+    let choose = |at_end: F, at_side: F| F::select(beyond, at_end, at_side);
+    let normal = [
+        choose(on_end[0], on_side[0]),
+        choose(on_end[1], on_side[1]),
+        choose(on_end[2], on_side[2]),
+    ];
+    (unit(normal), end)
+}
+
 /// Where the ray meets the plane. The plane's own numbers round in f64 only.
 #[inline(always)]
 pub(super) fn flat<F: Lanes<Scalar = f64>>(plane: &Plane, o: [F; 3], d: [F; 3]) -> Point<F> {

@@ -1,17 +1,19 @@
 //! The primitives of a leaf against one ray.
 //!
-//! Most trees hold only triangles or only spheres. Each kind of tree has its own copy of the traversal,
-//! which prepares only what its leaves need of a ray.
+//! Most trees hold only triangles, only spheres or only cylinders. Each kind of tree has its own copy of the
+//! traversal, which prepares only what its leaves need of a ray.
 
 use fearless_simd::{Simd, prelude::*};
 
 use super::{Best, World};
 use crate::{
-    Primitives,
+    Primitives, lanes,
     local::Ray,
     node8::{Kind, Ref, Row, rows},
     primitives::{
+        capsule::{self, At, Met},
         sphere::{self, Closest, Closest8},
+        tapered::Tapered,
         triangle::{self, Shear, Shear8},
     },
 };
@@ -43,6 +45,8 @@ pub(super) trait Leaves<S: Simd>: Copy {
 pub(super) struct OnlyTriangles;
 /// Spheres alone.
 pub(super) struct OnlySpheres;
+/// Cylinders alone.
+pub(super) struct OnlyCylinders;
 /// All there is.
 pub(super) struct Anything;
 
@@ -52,6 +56,12 @@ impl Content for OnlyTriangles {
 
 impl Content for OnlySpheres {
     type Leaves<S: Simd> = Spheres<S>;
+    const TRIANGLES: bool = false;
+    const ANY_TOGETHER: bool = false;
+}
+
+impl Content for OnlyCylinders {
+    type Leaves<S: Simd> = Cylinders<S>;
     const TRIANGLES: bool = false;
     const ANY_TOGETHER: bool = false;
 }
@@ -153,11 +163,77 @@ impl<S: Simd> Leaves<S> for Spheres<S> {
     }
 }
 
+/// A ray prepared for cylinders: as for spheres. Leaves are functions of their own for each level:
+/// inlined into every traversal they made compiling the crate take far longer.
+#[derive(Clone, Copy)]
+pub(super) struct Cylinders<S: Simd> {
+    closest8: Closest8<S>,
+}
+
+impl<S: Simd> Leaves<S> for Cylinders<S> {
+    #[inline(always)]
+    fn new(simd: S, ray: &Ray) -> Self {
+        Self { closest8: Closest8::new(simd, &Closest::new(ray)) }
+    }
+
+    #[inline(never)]
+    fn offer(&self, simd: S, world: &World<'_>, ray: &Ray, leaf: Ref, best: &mut Best) {
+        let block: &[Row; capsule::BLOCK] = rows(world.rows, leaf.row());
+        let met = capsule::intersect8(simd, &self.closest8, block);
+        let mut offer = |lane: usize, at: At| {
+            best.offer_cylinder(at, block[capsule::BLOCK - 1].bits(lane));
+        };
+        let mut hit = met.hit;
+        while hit != 0 {
+            let lane = hit.trailing_zeros() as usize & 7;
+            hit &= hit - 1;
+            offer(lane, met.at(lane));
+        }
+        if met.open != 0 {
+            tapered(block, met.open, ray, &mut offer);
+        }
+    }
+
+    #[inline(never)]
+    fn any(&self, simd: S, world: &World<'_>, ray: &Ray, leaf: Ref) -> bool {
+        let block: &[Row; capsule::BLOCK] = rows(world.rows, leaf.row());
+        let Met { hit, open, .. } = capsule::intersect8(simd, &self.closest8, block);
+        let mut any = hit != 0;
+        if !any && open != 0 {
+            tapered(block, open, ray, &mut |_, _| any = true);
+        }
+        any
+    }
+}
+
+/// Tells which of the lanes `open`, which are no capsules, a ray meets, and where.
+#[inline(never)]
+fn tapered(block: &[Row; capsule::BLOCK], open: u32, ray: &Ray, found: &mut dyn FnMut(usize, At)) {
+    for lane in lanes(open) {
+        // An unused lane repeats the first.
+        if block[capsule::BLOCK - 1].bits(lane) == u32::MAX {
+            break;
+        }
+        let numbers = std::array::from_fn(|row| block[row].0[lane]);
+        if let Some(at) = Tapered::of_lane(numbers).intersect(ray) {
+            found(lane, at);
+        }
+    }
+}
+
 /// A ray prepared for everything.
 #[derive(Clone, Copy)]
 pub(super) struct Mixed<S: Simd> {
     triangles: Triangles<S>,
     spheres: Spheres<S>,
+}
+
+impl<S: Simd> Mixed<S> {
+    /// The same ray for cylinders.
+    #[inline(always)]
+    fn cylinders(&self) -> Cylinders<S> {
+        Cylinders { closest8: self.spheres.closest8 }
+    }
 }
 
 impl<S: Simd> Leaves<S> for Mixed<S> {
@@ -180,6 +256,7 @@ impl<S: Simd> Leaves<S> for Mixed<S> {
             Some(Kind::Indexed) => {
                 self.triangles.offer_block(simd, &gather(world, leaf), best);
             }
+            Some(Kind::Cylinders) => self.cylinders().offer(simd, world, ray, leaf, best),
             None => {}
         }
     }
@@ -191,6 +268,7 @@ impl<S: Simd> Leaves<S> for Mixed<S> {
             Some(Kind::Spheres) => self.spheres.any(simd, world, ray, leaf),
             Some(Kind::Solid) => solid(world, ray, leaf).0.is_some(),
             Some(Kind::Indexed) => self.triangles.any_block(simd, &gather(world, leaf)),
+            Some(Kind::Cylinders) => self.cylinders().any(simd, world, ray, leaf),
             None => false,
         }
     }

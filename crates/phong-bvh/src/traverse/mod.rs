@@ -23,7 +23,7 @@ use self::{
     coherent::{Group, Groups},
     eights::{AnyOfFew, ClosestOfFew},
     interleaved::{Interleaved, RAYS, Stacks},
-    leaves::{Anything, Content, OnlySpheres, OnlyTriangles},
+    leaves::{Anything, Content, OnlyCylinders, OnlySpheres, OnlyTriangles},
     query::{AnyHit, ClosestHit, Query},
 };
 use crate::{
@@ -32,7 +32,7 @@ use crate::{
     level::Token,
     local::{Hit, Hits8, Ray, Rays8},
     node8::{Kind, Ref, Row, rows},
-    primitives::sphere,
+    primitives::{capsule::At, sphere},
 };
 
 /// A tree and what its leaves refer to.
@@ -65,6 +65,7 @@ impl<'a> World<'a> {
         match self.only {
             Some(Kind::Triangles) => self.closest_in::<OnlyTriangles>(ray, best, meter),
             Some(Kind::Spheres) => self.closest_in::<OnlySpheres>(ray, best, meter),
+            Some(Kind::Cylinders) => self.closest_in::<OnlyCylinders>(ray, best, meter),
             _ => self.closest_in::<Anything>(ray, best, meter),
         }
     }
@@ -96,6 +97,7 @@ impl<'a> World<'a> {
         match self.only {
             Some(Kind::Triangles) => self.many_in::<OnlyTriangles, _>(rays, ClosestHit(hits)),
             Some(Kind::Spheres) => self.many_in::<OnlySpheres, _>(rays, ClosestHit(hits)),
+            Some(Kind::Cylinders) => self.many_in::<OnlyCylinders, _>(rays, ClosestHit(hits)),
             _ => self.many_in::<Anything, _>(rays, ClosestHit(hits)),
         }
     }
@@ -114,6 +116,7 @@ impl<'a> World<'a> {
         match self.only {
             Some(Kind::Triangles) => self.many_in::<OnlyTriangles, _>(rays, AnyHit(blocked)),
             Some(Kind::Spheres) => self.many_in::<OnlySpheres, _>(rays, AnyHit(blocked)),
+            Some(Kind::Cylinders) => self.many_in::<OnlyCylinders, _>(rays, AnyHit(blocked)),
             _ => self.many_in::<Anything, _>(rays, AnyHit(blocked)),
         }
     }
@@ -129,6 +132,7 @@ impl<'a> World<'a> {
         match self.only {
             Some(Kind::Triangles) => self.any_in::<OnlyTriangles>(ray),
             Some(Kind::Spheres) => self.any_in::<OnlySpheres>(ray),
+            Some(Kind::Cylinders) => self.any_in::<OnlyCylinders>(ray),
             _ => self.any_in::<Anything>(ray),
         }
     }
@@ -252,6 +256,12 @@ impl Best {
         if t < self.0.t || (t == self.0.t && prim < self.0.prim) {
             self.0 = Hit { t, prim, u, v };
         }
+    }
+
+    /// Takes a cylinder's hit that is nearer, or as near and of a lower number.
+    #[inline(always)]
+    pub(crate) fn offer_cylinder(&mut self, at: At, prim: u32) {
+        self.offer(at.t, prim, f32::from(u8::from(at.second_half)), 0.0);
     }
 
     /// The hit, if any.

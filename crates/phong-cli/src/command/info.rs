@@ -42,6 +42,7 @@ pub(crate) fn run(Args { question: args }: &Args) -> Result<(), Failure> {
             "format": format,
             "triangles": held.triangles,
             "spheres": held.spheres,
+            "cylinders": held.cylinders,
             "primitives": held.primitives(),
             "lights": lights,
             "materials": names.len(),
@@ -60,6 +61,7 @@ pub(crate) fn run(Args { question: args }: &Args) -> Result<(), Failure> {
     };
     line("triangles", held.triangles.to_string());
     line("spheres", held.spheres.to_string());
+    line("cylinders", held.cylinders.to_string());
     line("other", held.other.to_string());
     line("lights", lights.to_string());
     line("materials", format!("{}: {}", names.len(), shortened(&names)));

@@ -10,6 +10,8 @@ pub struct Holdings {
     pub triangles: u64,
     /// Spheres, those of clouds included.
     pub spheres: u64,
+    /// Cylinders of bundles.
+    pub cylinders: u64,
     /// Everything else: planes and solids.
     pub other: u64,
     /// Inner nodes of the trees.
@@ -29,6 +31,7 @@ impl Holdings {
             let of_kind = match primitives {
                 Primitives::Triangles { .. } => &mut all.triangles,
                 Primitives::Spheres(_) => &mut all.spheres,
+                Primitives::Cylinders { .. } => &mut all.cylinders,
                 Primitives::Plane(_) | Primitives::Solid(_) => &mut all.other,
             };
             *of_kind += primitives.len() as u64;
@@ -38,7 +41,7 @@ impl Holdings {
 
     /// Primitives of every kind.
     pub fn primitives(&self) -> u64 {
-        self.triangles + self.spheres + self.other
+        self.triangles + self.spheres + self.cylinders + self.other
     }
 
     /// Bytes for each primitive; of an empty geometry its bytes.
