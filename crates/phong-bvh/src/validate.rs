@@ -93,7 +93,7 @@ fn visit(tree: &Tree, at: Ref, bounds: &Aabb, seen: &mut [bool]) -> Result<(), S
             }
         }
         Some(Kind::Cylinders) => {
-            let block: &[Row; capsule::BLOCK] = rows(tree, at.row());
+            let block: &[Row; capsule::BLOCK] = rows(nodes, at.row());
             for lane in 0..8 {
                 let [x, y, z, hx, hy, hz, ..] = block.map(|row| row.0[lane]);
                 let (from, half) = (Vec3::new(x, y, z), Vec3::new(hx, hy, hz));

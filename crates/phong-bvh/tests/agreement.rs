@@ -3,8 +3,8 @@
 
 use glam::{DAffine3, DVec3, Vec3};
 use phong_bvh::{
-    BuildOptions, Canonical, Hit, Hits8, Level, Plane, Preset, Primitives, Ray, Rays8, Solid,
-    Sphere, World,
+    BuildOptions, Canonical, Caps, Cylinder, Hit, Hits8, Level, Plane, Preset, Primitives, Ray,
+    Rays8, Solid, Sphere, World,
 };
 use proptest::prelude::*;
 
@@ -43,14 +43,38 @@ impl Numbers {
     }
 }
 
-/// Some triangles, spheres, planes and solids: many coincide, are flat, thin, huge or tiny.
+/// A cylinder: often with one radius, along an axis, without length, or long and thin.
+fn cylinder(numbers: &mut Numbers, scale: f32, from: Vec3) -> Cylinder {
+    let away = match numbers.below(4) {
+        0 => Vec3::new(0.0, numbers.signed(), 0.0),
+        1 => [Vec3::ZERO, Vec3::X, Vec3::NEG_Z][numbers.below(3)],
+        _ => numbers.point(),
+    };
+    let thick = [1e-4, 0.01, 0.3, 2.0][numbers.below(4)];
+    let radius = scale * thick * (0.01 + numbers.signed().abs());
+    let radius_to = radius * [1.0, 1.0, 0.5, 4.0][numbers.below(4)];
+    Cylinder { from, radius, to: from + scale * away, radius_to }
+}
+
+/// Some triangles, spheres, cylinders, planes and solids: many coincide, are flat, thin, huge or tiny.
 fn geometry(numbers: &mut Numbers, most: usize) -> Vec<Primitives> {
     let mut all = Vec::new();
     for _ in 0..numbers.below(4) {
         let (scale, at) = (numbers.scale(), numbers.point());
         let size = numbers.scale().min(1.0);
         let count = numbers.below(most);
-        all.push(match numbers.below(8) {
+        all.push(match numbers.below(11) {
+            8..=10 => {
+                let caps = [Caps::Round, Caps::Round, Caps::Flat, Caps::Open][numbers.below(4)];
+                let one_radius = numbers.below(2) == 0;
+                let cylinders = (0..count).map(|_| {
+                    let from = scale * (at + size * numbers.point());
+                    let cylinder = cylinder(numbers, scale * size, from);
+                    let same = Cylinder { radius_to: cylinder.radius, ..cylinder };
+                    if one_radius { same } else { cylinder }
+                });
+                Primitives::cylinders(cylinders.collect::<Vec<_>>(), caps)
+            }
             0..=3 => {
                 let vertices = 3 + count / 2;
                 let positions = (0..vertices).map(|_| scale * (at + size * numbers.point()));
@@ -102,6 +126,11 @@ fn ray(numbers: &mut Numbers, geometry: &[Primitives]) -> Ray {
         Some(Primitives::Spheres(spheres)) if !spheres.is_empty() => {
             let sphere = spheres[numbers.below(spheres.len())];
             sphere.center + sphere.radius * [Vec3::ZERO, Vec3::Y, numbers.point()][numbers.below(3)]
+        }
+        Some(Primitives::Cylinders { cylinders, .. }) if !cylinders.is_empty() => {
+            let Cylinder { from, radius, to, .. } = cylinders[numbers.below(cylinders.len())];
+            let axis = from.lerp(to, [0.0, 1.0, 0.5, 1.0 + numbers.signed()][numbers.below(4)]);
+            axis + radius * [Vec3::ZERO, Vec3::Y, numbers.point()][numbers.below(3)]
         }
         _ => numbers.point(),
     };
@@ -202,6 +231,31 @@ proptest! {
         let mut numbers = Numbers(seed);
         let geometry = geometry(&mut numbers, 120);
         let rays: Vec<Ray> = (0..70).map(|_| ray(&mut numbers, &geometry)).collect();
+        agrees_with_brute_force(&geometry, &rays);
+    }
+
+    #[test]
+    fn cylinders_alone_are_found_as_brute_force_finds_them(seed: u64) {
+        let mut numbers = Numbers(seed);
+        let (scale, size) = (numbers.scale(), numbers.scale().min(1.0));
+        let caps = [Caps::Round, Caps::Round, Caps::Flat, Caps::Open][numbers.below(4)];
+        let cylinders = (0..=numbers.below(200)).map(|_| {
+            let from = scale * numbers.point();
+            cylinder(&mut numbers, scale * size, from)
+        });
+        let geometry = [Primitives::cylinders(cylinders.collect::<Vec<_>>(), caps)];
+        let mut rays: Vec<Ray> = (0..70).map(|_| ray(&mut numbers, &geometry)).collect();
+        // Along the axes and beside them by little.
+        if let [Primitives::Cylinders { cylinders, .. }] = &geometry {
+            rays.extend((0..40).map(|i| {
+                let Cylinder { from, radius, to, .. } = cylinders[i % cylinders.len()];
+                let along = (to - from).normalize_or(Vec3::X);
+                let aside = [0.0, 1e-4, 0.03][numbers.below(3)] * numbers.point();
+                let dir = (along + aside).normalize_or(Vec3::X);
+                let beside = radius * 1.2 * numbers.signed() * numbers.point().cross(along);
+                Ray::new(from.lerp(to, 0.5) + beside - dir * scale * numbers.scale(), dir)
+            }));
+        }
         agrees_with_brute_force(&geometry, &rays);
     }
 

@@ -1,4 +1,4 @@
-//! The triangle and the sphere against plain f64 geometry, which shares no line with the kernels.
+//! The triangle, the sphere and the cylinder against plain f64 geometry, which shares no line with the kernels.
 //!
 //! The kernels work in f32, so for a ray that all but grazes an edge either answer is right. Where the
 //! line between is, and how far `t` may be off, is stated here: with `M` the distance of what is
@@ -9,12 +9,14 @@
 //!   the corners as seen are exact. So a ray that passes all edges at more than that is decided rightly,
 //!   and meets the plane at most `8 u M / |cos|` from where it should;
 //! - the vector from the ray to a sphere's middle is off by at most `16 u M`, which moves a root by as
-//!   much and by `16 u M r / h` more, `h` being half the chord.
+//!   much and by `16 u M r / h` more, `h` being half the chord;
+//! - a cylinder is seen at most `24 u M` beside its place, whatever its ends and radii. The oracle knows it by the
+//!   distance of a point from it alone. Along a ray that is a convex function, so its roots are found by halving.
 //!
 //! Every other answer is held to these bounds, and enough cases must lie outside of the doubt.
 
 use glam::{DVec3, Vec3};
-use phong_bvh::{BuildOptions, Hit, Primitives, Ray, Sphere, World};
+use phong_bvh::{BuildOptions, Caps, Cylinder, Hit, Primitives, Ray, Sphere, World};
 
 const U: f64 = 1.0 / 16_777_216.0;
 
@@ -104,6 +106,71 @@ fn sphere(ray: &Ray, sphere: &Sphere) -> Verdict {
         // The ray may begin within, and then leaves.
         Verdict::Miss if middle - h < f64::from(ray.t_min) => within(ray, middle + h, bound),
         Verdict::Miss => Verdict::Miss,
+        verdict => verdict,
+    }
+}
+
+/// Where a convex function is least.
+fn least(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
+    for _ in 0..120 {
+        let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
+        if f(a) < f(b) { high = b } else { low = a }
+    }
+    (low + high) / 2.0
+}
+
+/// Where a function that is negative at `inside` and positive at `outside` is zero.
+fn root(mut inside: f64, mut outside: f64, f: impl Fn(f64) -> f64) -> f64 {
+    for _ in 0..120 {
+        let middle = (inside + outside) / 2.0;
+        if f(middle) < 0.0 { inside = middle } else { outside = middle }
+    }
+    (inside + outside) / 2.0
+}
+
+/// How far a point is outside of a closed cylinder; negative: within.
+fn outside(p: DVec3, cylinder: &Cylinder, caps: Caps) -> f64 {
+    let (from, to) = (cylinder.from.as_dvec3(), cylinder.to.as_dvec3());
+    let (r, r_to) = (f64::from(cylinder.radius), f64::from(cylinder.radius_to));
+    if caps == Caps::Round {
+        let beyond = |s: f64| (p - from.lerp(to, s)).length() - (r + s * (r_to - r));
+        let s = least(0.0, 1.0, beyond);
+        return beyond(s).min(beyond(0.0)).min(beyond(1.0));
+    }
+    let (axis, length) = (to - from).normalize_and_length();
+    let z = (p - from).dot(axis);
+    let side = (p - from - z * axis).length() - (r + z / length * (r_to - r));
+    let lean = ((r_to - r) / length).hypot(1.0);
+    (side / lean).max(-z).max(z - length)
+}
+
+fn cylinder(ray: &Ray, cylinder: &Cylinder, caps: Caps) -> Verdict {
+    let (o, d) = (ray.origin, ray.dir.as_dvec3());
+    let (from, to) = (cylinder.from.as_dvec3() - o, cylinder.to.as_dvec3() - o);
+    let r = f64::from(cylinder.radius.max(cylinder.radius_to));
+    let off = 24.0 * U * (from.length() + to.length() + r);
+    let f = |t: f64| outside(o + t * d, cylinder, caps);
+    let reach = 2.0 * ((to - from).length() + r);
+    let near = (from + to).dot(d) / 2.0;
+    let best = least(near - reach, near + reach, f);
+    let depth = -f(best);
+    if depth < -off {
+        return Verdict::Miss;
+    }
+    if depth < off {
+        return Verdict::Doubt;
+    }
+    // A convex function is no flatter at its root than from there to where it is least.
+    let crossing = |end: f64| {
+        let t = root(best, end, f);
+        (t, off * (1.0 + (t - best).abs() / depth) + U * t.abs())
+    };
+    let (enter, bound) = crossing(near - 2.0 * reach);
+    match within(ray, enter, bound) {
+        Verdict::Miss if enter < f64::from(ray.t_min) => {
+            let (leave, bound) = crossing(near + 2.0 * reach);
+            within(ray, leave, bound)
+        }
         verdict => verdict,
     }
 }
@@ -209,4 +276,48 @@ fn a_sphere_is_hit_where_f64_says() {
         assert_eq!(bvh.occluded(&ray), hit.is_some(), "{ray:?} {s:?}");
     }
     assert!(hits > 40_000 && misses > 10_000, "{hits} hits, {misses} misses, {doubts} in doubt");
+}
+
+#[test]
+fn a_cylinder_is_hit_where_f64_says() {
+    let mut random = Random(3);
+    let (mut hits, mut misses, mut doubts) = (0, 0, 0);
+    for _ in 0..20_000 {
+        let scale = random.of(&[1e-12, 1e-6, 1.0, 1.0, 1e4, 1e12]);
+        let from = random.point();
+        let axis = random.point();
+        let axis = random.of(&[DVec3::X, DVec3::NEG_Y, axis, axis]);
+        let thick = random.of(&[2e-3, 0.02, 0.3, 2.0]);
+        let caps = random.of(&[Caps::Round, Caps::Round, Caps::Flat]);
+        let taper = random.of(&[1.0, 1.0, 0.5, 3.0]);
+        let radius = (scale * thick) as f32;
+        let c = Cylinder {
+            from: (scale * from).as_vec3(),
+            radius,
+            to: (scale * (from + random.of(&[1.0, 1.0, 0.01]) * axis)).as_vec3(),
+            radius_to: radius * taper as f32,
+        };
+        let (a, b, r) = (c.from.as_dvec3(), c.to.as_dvec3(), f64::from(radius));
+        // Across, or all but along the axis.
+        let graze = (b - a).normalize_or(DVec3::X) + random.of(&[0.1, 1e-2, 1e-3]) * random.point();
+        let dir = if random.bits().is_multiple_of(3) { graze } else { random.point() };
+        let dir = dir.try_normalize().unwrap_or(DVec3::X);
+        let beside = dir.cross(b - a).try_normalize().unwrap_or(dir.any_orthonormal_vector());
+        let rim = 1.0 + random.of(&[1e-2, 1e-4, 1e-6, -1e-6, -1e-4, -1e-2]);
+        // Between the ends, and beyond them.
+        let middle = a.lerp(b, 0.5 + 0.6 * random.signed());
+        let target = middle + r * beside * random.of(&[0.0, 0.5, rim, rim]);
+        let ray = ray(&mut random, target, dir, scale);
+        let bvh = bvh(Primitives::cylinders(vec![c], caps));
+        let (hit, verdict) = (bvh.intersect(&ray), cylinder(&ray, &c, caps));
+        if !holds(verdict, hit, &(ray, c, caps)) {
+            doubts += 1;
+        } else if hit.is_some() {
+            hits += 1;
+        } else {
+            misses += 1;
+        }
+        assert_eq!(bvh.occluded(&ray), hit.is_some(), "{ray:?} {c:?}");
+    }
+    assert!(hits > 8_000 && misses > 4_000, "{hits} hits, {misses} misses, {doubts} in doubt");
 }

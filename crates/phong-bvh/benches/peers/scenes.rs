@@ -1,12 +1,13 @@
-//! What is traced: two scanned meshes and four made by rule, the same on every machine.
+//! What is traced: two scanned meshes and five made by rule, the same on every machine.
 
 use std::{fs, io, path::Path};
 
 use glam::Vec3;
-use phong_bvh::{Primitives, Sphere};
+use phong_bvh::{Caps, Cylinder, Primitives, Sphere};
 
 /// The names of all scenes.
-pub(crate) const NAMES: [&str; 6] = ["bunny", "dragon", "terrain", "sticks", "spheres", "clusters"];
+pub(crate) const NAMES: [&str; 7] =
+    ["bunny", "dragon", "terrain", "sticks", "spheres", "clusters", "bonds"];
 
 /// A scene by name; the meshes are read from `folder`.
 pub(crate) fn load(name: &str, folder: &Path) -> io::Result<Primitives> {
@@ -16,6 +17,7 @@ pub(crate) fn load(name: &str, folder: &Path) -> io::Result<Primitives> {
         "sticks" => sticks(30_000),
         "spheres" => uniform(1_000_000),
         "clusters" => clustered(1_000_000),
+        "bonds" => bonds(1_000_000),
         _ => panic!("there is no scene {name}"),
     })
 }
@@ -159,4 +161,16 @@ fn clustered(count: u32) -> Primitives {
         Sphere { center, radius: spread * (0.002 + 0.04 * size * size * size) }
     };
     Primitives::spheres((0..count).map(sphere).collect::<Vec<_>>())
+}
+
+/// Capsules all over a cube, every way up, and about eight radii long between the middles of their
+/// ends, as bonds are. Half as thick as the spheres of [`uniform`], they hide about as much.
+fn bonds(count: u32) -> Primitives {
+    let mut random = Random(1);
+    let bond = |_| {
+        let (middle, radius) = (random.cube(), 0.002 * (0.5 + random.unit()));
+        let half = 0.008 * random.direction();
+        Cylinder { from: middle - half, radius, to: middle + half, radius_to: radius }
+    };
+    Primitives::cylinders((0..count).map(bond).collect::<Vec<_>>(), Caps::Round)
 }

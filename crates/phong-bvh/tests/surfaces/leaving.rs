@@ -2,8 +2,8 @@
 
 use glam::{DVec3, Vec3};
 use phong_bvh::{
-    BuildOptions, Canonical, Hit, Hits8, Plane, Primitives, Ray, Rays8, Solid, Sphere, Surface,
-    Surfaces8, World, offset_origin,
+    BuildOptions, Canonical, Caps, Cylinder, Hit, Hits8, Plane, Primitives, Ray, Rays8, Solid,
+    Sphere, Surface, Surfaces8, World, offset_origin,
 };
 use proptest::prelude::*;
 
@@ -32,6 +32,13 @@ impl Landing {
         let up = dir.z.abs().max(1e-4) * if out { 1.0 } else { -1.0 };
         let dir = (dir.x * x + dir.y * n.cross(x) + up * n).as_vec3();
         let dir = dir.try_normalize().unwrap_or(ng);
+        Ray::new(offset_origin(p, p_error, ng, dir), dir)
+    }
+
+    /// A ray that leaves towards `dir`.
+    fn towards(&self, dir: DVec3) -> Ray {
+        let Surface { p, p_error, ng } = self.surface;
+        let dir = dir.as_vec3().normalize_or(ng);
         Ray::new(offset_origin(p, p_error, ng, dir), dir)
     }
 
@@ -146,6 +153,37 @@ proptest! {
                 let hit = landing.bvh.intersect(&inwards);
                 prop_assert!((f64::from(hit.t) - chord).abs() < 0.1 * r, "{} not {chord}", hit.t);
             }
+        }
+    }
+
+    #[test]
+    fn a_ray_that_leaves_a_cylinder_outwards_does_not_meet_it(
+        at in places(), size in size(), axis in directions(), aspect in (-4.0..1.0_f64),
+        taper in prop_oneof![2 => Just(1.0_f64), 1 => 0.1..5.0_f64], flat in any::<bool>(),
+        along in -0.1..1.1_f64, side in directions(), from in directions(),
+        distance in distances(), dir in directions(), lean in prop_oneof![Just(1.0), 1e-3..1.0_f64],
+    ) {
+        let radius = size * libm::exp10(aspect);
+        let caps = if flat { Caps::Flat } else { Caps::Round };
+        let cylinder = Cylinder {
+            from: at.as_vec3(),
+            radius: radius as f32,
+            to: (at + size * axis).as_vec3(),
+            radius_to: (radius * taper) as f32,
+        };
+        // Also from all but along the axis, and off that way.
+        let lean = |v: DVec3| (axis + lean * (v - axis)).try_normalize().unwrap_or(axis);
+        let target = at + along * size * axis + 0.9 * radius * side;
+        let ray = toward(target, lean(from), distance * size);
+        let geometry = Primitives::cylinders(vec![cylinder], caps);
+        if let Some(landing) = Landing::of(geometry, ray) {
+            landing.check(size + radius * taper.max(1.0))?;
+            landing.never_meets_itself(dir, &[true])?;
+            let n = landing.surface.ng.as_dvec3();
+            let near = lean(dir);
+            let near = near * near.dot(n).signum();
+            let ray = landing.towards(near);
+            prop_assert!(!landing.bvh.occluded(&ray), "{ray:?} met what it left");
         }
     }
 
