@@ -42,7 +42,7 @@ pub use material::{
     AmbientRule, ConstantMaterial, Dialect, Distribution, Fresnel, Material, MaterialId, Model,
     Shadowing, Tint, Viewer, WardForm,
 };
-pub use mesh::{Mesh, NO_INDEX, Points, Shared};
+pub use mesh::{Caps, Cylinders, Mesh, NO_INDEX, Points, Shared};
 pub use scene::{Background, FilterKind, Group, Image, Object, Reading, Scene};
 pub use shape::{GroupId, Shape};
 pub use source::{Blob, Folder, Memory, Source, path_of, path_text, trouble};

@@ -147,6 +147,24 @@
 //! | `radius` | a number above 0 | the file's own; an error where it has none | Radius of the spheres; the file's own per point win. |
 //! | `material` | the name of a material, in quotes | the file's own, else the default material | The name of its material; replaces the file's own. |
 //!
+//! # `[[cylinders]]`
+//!
+//! ```toml
+//! [[cylinders]]
+//! file = "bonds.ply"
+//! radius = 0.1
+//! ```
+//!
+//! | key | value | default | meaning |
+//! |---|---|---|---|
+//! | `file` | the path of a file, in quotes | required | A file of segments: a PLY with an element `edge` of `vertex1` and `vertex2`. |
+//! | `radius` | a number above 0 | that of the vertices; an error where they have none | Radius of the cylinders; the file's own per edge (`radius`, or `radius1` and `radius2` for its ends) win. |
+//! | `caps` | "round", "flat" or "none" | "round" | What the ends look like: half spheres, discs, or open. |
+//! | `material` | the name of a material, in quotes | the file's own, else the default material | The name of its material; replaces the file's own. |
+//!
+//! Colours of the edges replace the material's. Without, colours of the vertices do: each half of a cylinder is of the
+//! colour of its end, as bonds are drawn.
+//!
 //! # `[[instance]]`
 //!
 //! ```toml
@@ -174,7 +192,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::mesh::{Mesh, Points};
+use crate::mesh::{Cylinders, Mesh, Points};
 
 /// Index into [`Scene::groups`](crate::Scene::groups).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -261,6 +279,8 @@ pub enum Shape {
     Mesh(Box<Mesh>),
     /// A sphere at every point.
     Points(Box<Points>),
+    /// A cylinder along every segment.
+    Cylinders(Box<Cylinders>),
     /// All objects of a group, placed by the object's transform.
     Instance(GroupId),
 }
@@ -284,6 +304,12 @@ impl From<Points> for Shape {
     }
 }
 
+impl From<Cylinders> for Shape {
+    fn from(cylinders: Cylinders) -> Self {
+        Self::Cylinders(Box::new(cylinders))
+    }
+}
+
 impl Shape {
     /// The name of its table in the scene text: `sphere`, `mesh`, ….
     #[must_use]
@@ -299,6 +325,7 @@ impl Shape {
             Self::Torus { .. } => "torus",
             Self::Mesh(_) => "mesh",
             Self::Points(_) => "points",
+            Self::Cylinders(_) => "cylinders",
             Self::Instance(_) => "instance",
         }
     }

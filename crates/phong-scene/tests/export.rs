@@ -1,8 +1,9 @@
 //! Scenes as OBJ with MTL and as PLY: what is there, what is told to be missing, what comes back.
 
-use glam::{DVec3, Vec3};
+use glam::{DAffine3, DVec3, Vec3};
 use phong_scene::{
-    Export, ExportOptions, Format, Limits, Memory, PlyEncoding, Reading, Rgb, Scene, Shape, read,
+    Caps, Cylinders, Export, ExportOptions, Format, Limits, Memory, Object, PlyEncoding, Reading,
+    Rgb, Scene, Shape, read,
 };
 
 const HEAD: &str = "version = 1\n[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\n\
@@ -206,6 +207,27 @@ fn spheres_alone_become_points_with_the_colours_of_their_materials() {
     let Shape::Points(points) = &back.objects[0].shape else { panic!("{texts:?}") };
     assert_eq!(points.spheres, [[2.0, 4.0, 6.0, 1.0], [0.0, 0.0, 0.0, 1.0]]);
     assert_eq!(points.colors, [Rgb::new(1.0, 0.0, 0.0), Rgb::grey(0.8)]);
+}
+
+#[test]
+fn cylinders_alone_become_edges_and_what_has_no_place_is_told() {
+    let ends = |y: f32| [[0.0, y, 0.0, 0.25], [1.0, y, 0.0, 0.5]];
+    let cylinders = |caps| Cylinders { segments: [ends(1.0)].into(), caps, ..Cylinders::default() };
+    let mut scene = scene("[materials.red]\ncolor = [1, 0, 0]\n");
+    for (caps, transform) in [
+        (Caps::Flat, DAffine3::from_scale(DVec3::splat(2.0))),
+        (Caps::Round, DAffine3::from_scale(DVec3::new(1.0, 2.0, 1.0))),
+    ] {
+        let name = format!("{caps:?}");
+        scene.objects.push(Object { name, transform, ..Object::from(cylinders(caps)) });
+    }
+    let (files, texts, export) = export(scene, Format::Ply, false);
+    let told = told(&export);
+    assert!(told.contains("PLY does not say that ends are not round: `Flat`"), "{told}");
+    assert!(told.contains("cylinders that are not round; 1 are left out: `Round`"), "{told}");
+    let back = read_in(&files, "b.ply").scene.expect("cylinders");
+    let Shape::Cylinders(back) = &back.objects[0].shape else { panic!("{texts:?}") };
+    assert_eq!(back.segments, [[[0.0, 2.0, 0.0, 0.5], [2.0, 2.0, 0.0, 1.0]]]);
 }
 
 #[test]

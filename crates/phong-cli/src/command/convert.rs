@@ -159,6 +159,8 @@ fn tell(paths: &[&PathBuf], account: &Account) {
         report::say(&format!("wrote {}", path.display()));
     }
     let carried = carried.iter().map(|(kind, n)| match (*kind, n) {
+        ("cylinders", 1) => "1 bundle of cylinders".to_owned(),
+        ("cylinders", n) => format!("{n} bundles of cylinders"),
         (kind, 1) => format!("1 {kind}"),
         ("box", n) => format!("{n} boxes"),
         ("torus", n) => format!("{n} tori"),

@@ -9,7 +9,7 @@ use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use super::Bounds;
-use crate::mesh::{Mesh, Points};
+use crate::mesh::{Caps, Cylinders, Mesh, Points};
 use crate::scene::{Object, Scene};
 use crate::shape::Shape;
 
@@ -43,10 +43,7 @@ impl Shape {
         along: [DVec3; N],
         groups: &[Bounds],
     ) -> Option<[f64; N]> {
-        let disc = |center: DVec3, normal: DVec3, radius: f64| {
-            let axis = normal.normalize_or_zero();
-            along.map(|n| center.dot(n) + radius * (n - axis * axis.dot(n)).length())
-        };
+        let disc = |center: DVec3, normal: DVec3, radius: f64| disc(along, center, normal, radius);
         let all = |points: &[DVec3]| {
             let reaches = points.iter().map(|p| along.map(|n| p.dot(n)));
             reaches.fold([f64::NEG_INFINITY; N], farther)
@@ -69,6 +66,7 @@ impl Shape {
             }
             Self::Mesh(ref mesh) => mesh.reach(along),
             Self::Points(ref points) => points.reach(along),
+            Self::Cylinders(ref cylinders) => cylinders.reach(along),
             Self::Instance(group) => match groups.get(group.0 as usize) {
                 Some(bounds) if !bounds.is_empty() => all(&bounds.corners()),
                 _ => return None,
@@ -100,6 +98,30 @@ impl Points {
         let reach = spheres.reduce(|| [f64::NEG_INFINITY; N], farther);
         from_fn(|i| reach[i] + self.origin.dot(along[i]))
     }
+}
+
+impl Cylinders {
+    fn reach<const N: usize>(&self, along: [DVec3; N]) -> [f64; N] {
+        let lengths = along.map(DVec3::length);
+        let reach = |ends: &[[f32; 4]; 2]| {
+            let [(a, r), (b, r_to)] =
+                ends.map(|[x, y, z, radius]| (Vec3::new(x, y, z).as_dvec3(), f64::from(radius)));
+            let end = |p: DVec3, radius: f64| match self.caps {
+                Caps::Round => from_fn(|i| p.dot(along[i]) + radius * lengths[i]),
+                Caps::Flat | Caps::Open => disc(along, p, b - a, radius),
+            };
+            farther(end(a, r), end(b, r_to))
+        };
+        let segments = self.segments.par_iter().with_min_len(1 << 12).map(reach);
+        let reach = segments.reduce(|| [f64::NEG_INFINITY; N], farther);
+        from_fn(|i| reach[i] + self.origin.dot(along[i]))
+    }
+}
+
+/// How far a disc reaches.
+fn disc<const N: usize>(along: [DVec3; N], center: DVec3, normal: DVec3, radius: f64) -> [f64; N] {
+    let axis = normal.normalize_or_zero();
+    along.map(|n| center.dot(n) + radius * (n - axis * axis.dot(n)).length())
 }
 
 fn farther<const N: usize>(a: [f64; N], b: [f64; N]) -> [f64; N] {

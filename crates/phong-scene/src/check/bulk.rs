@@ -1,4 +1,4 @@
-//! Meshes and points: lengths of arrays, indices, numbers.
+//! Meshes, points and cylinders: lengths of arrays, indices, numbers.
 
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::fault::{Faults, not_held};
 use crate::color::Rgb;
 use crate::limits::{LARGEST, Range};
-use crate::mesh::{Mesh, NO_INDEX, Points};
+use crate::mesh::{Caps, Cylinders, Mesh, NO_INDEX, Points};
 
 /// Items that one task looks through.
 const PIECE: usize = 1 << 12;
@@ -60,15 +60,35 @@ pub(super) fn points(points: &Points, faults: &mut Faults) {
     if points.spheres.is_empty() {
         faults.say("spheres", "`spheres` is empty");
     }
-    let wrong = |sphere: &[f32; 4]| {
-        wrong_numbers(sphere).or_else(|| {
-            let radius = f64::from(sphere[3]);
-            let held = Range::POSITIVE.holds(radius);
-            (!held).then(|| format!("has the radius {radius}; it must be above 0"))
-        })
-    };
-    first(&points.spheres, "spheres", wrong, faults);
+    first(&points.spheres, "spheres", wrong_ball, faults);
     colors(&points.colors, "spheres", points.spheres.len(), faults);
+}
+
+/// Judges cylinders.
+pub(super) fn cylinders(cylinders: &Cylinders, faults: &mut Faults) {
+    let Cylinders { origin, segments, colors: pairs, caps } = cylinders;
+    faults.vector("origin", *origin);
+    if segments.is_empty() {
+        faults.say("segments", "`segments` is empty");
+    }
+    let wrong = |ends: &[[f32; 4]; 2]| {
+        let empty = || {
+            let without_length = *caps != Caps::Round && Cylinders::is_empty(ends);
+            without_length.then(|| "has no length, and its ends are not round".to_owned())
+        };
+        wrong_ball(&ends[0]).or_else(|| wrong_ball(&ends[1])).or_else(empty)
+    };
+    first(segments, "segments", wrong, faults);
+    colors(pairs.as_flattened(), "ends of segments", 2 * segments.len(), faults);
+}
+
+/// What is wrong with `[x, y, z, radius]`.
+fn wrong_ball(ball: &[f32; 4]) -> Option<String> {
+    wrong_numbers(ball).or_else(|| {
+        let radius = f64::from(ball[3]);
+        let held = Range::POSITIVE.holds(radius);
+        (!held).then(|| format!("has the radius {radius}; it must be above 0"))
+    })
 }
 
 /// Says what is wrong with the first value of which something is, and how many more there are.

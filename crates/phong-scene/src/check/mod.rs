@@ -162,6 +162,7 @@ impl<'s> Judge<'s> {
                         own = mesh.face_materials.is_empty();
                     }
                     Shape::Points(points) => bulk::points(points, faults),
+                    Shape::Cylinders(cylinders) => bulk::cylinders(cylinders, faults),
                     _ => {}
                 }
                 if own && object.material.0 as usize >= materials {

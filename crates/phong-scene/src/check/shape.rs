@@ -7,7 +7,7 @@ use crate::limits::Range;
 use crate::shape::Shape;
 use crate::transform::is_regular;
 
-/// Judges a shape by itself; what meshes and points hold is judged elsewhere.
+/// Judges a shape by itself; what meshes, points and bundles of cylinders hold is judged elsewhere.
 pub(crate) fn shape(shape: &Shape, faults: &mut Faults) {
     match *shape {
         Shape::Sphere { center, radius } => {
@@ -60,7 +60,7 @@ pub(crate) fn shape(shape: &Shape, faults: &mut Faults) {
                 faults.say("tube", message).help = Some(help.to_owned());
             }
         }
-        Shape::Mesh(_) | Shape::Points(_) | Shape::Instance(_) => {}
+        Shape::Mesh(_) | Shape::Points(_) | Shape::Cylinders(_) | Shape::Instance(_) => {}
     }
 }
 

@@ -16,12 +16,26 @@ pub(crate) struct Input<'a> {
     pub(crate) limits: &'a Limits,
     /// Radius of the points for which the file gives none; `None`: the reader guesses one.
     pub(crate) radius: Option<f32>,
+    /// What of it is wanted.
+    pub(crate) wanted: Wanted,
+}
+
+/// What of a file is wanted, where it could be read in more than one way.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Wanted {
+    /// Whatever it holds.
+    #[default]
+    Anything,
+    /// Its points.
+    Points,
+    /// Its segments, as cylinders.
+    Segments,
 }
 
 impl<'a> Input<'a> {
     /// The file at a path, where nobody says how large points are.
     pub(crate) fn new(path: &'a str, source: &'a dyn Source, limits: &'a Limits) -> Self {
-        Self { path, source, limits, radius: None }
+        Self { path, source, limits, radius: None, wanted: Wanted::Anything }
     }
 }
 

@@ -269,6 +269,38 @@ pub(crate) static POINTS: Table = Table {
     ],
 };
 
+/// `[[cylinders]]`.
+pub(crate) static CYLINDERS: Table = Table {
+    name: "cylinders",
+    doc: "A cylinder along every segment of a file.",
+    select: None,
+    keys: &[
+        &[
+            Key::new(
+                "file",
+                Kind::File,
+                Default::Required,
+                "A file of segments: a PLY with an element `edge` of `vertex1` and `vertex2`.",
+            ),
+            Key::new(
+                "radius",
+                Kind::Number(Range::POSITIVE),
+                Default::Said("that of the vertices; an error where they have none"),
+                "Radius of the cylinders; the file's own per edge (`radius`, or `radius1` and \
+                 `radius2` for its ends) win.",
+            ),
+            Key::new(
+                "caps",
+                Kind::Word(&["round", "flat", "none"]),
+                Default::Word("round"),
+                "What the ends look like: half spheres, discs, or open.",
+            ),
+        ],
+        &FILE_MATERIAL,
+        &PLACED,
+    ],
+};
+
 /// `[[instance]]`.
 pub(crate) static INSTANCE: Table = Table {
     name: "instance",
@@ -292,6 +324,7 @@ pub(crate) const SHAPES: &[Key] = &[
     shapes(&TORUS),
     shapes(&MESH),
     shapes(&POINTS),
+    shapes(&CYLINDERS),
     shapes(&INSTANCE),
 ];
 

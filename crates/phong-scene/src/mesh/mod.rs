@@ -1,8 +1,9 @@
-//! Bulk geometry in flat arrays: indexed triangles, and spheres at points.
+//! Bulk geometry in flat arrays: indexed triangles, spheres at points, cylinders along segments.
 //!
 //! The arrays are [`Shared`]: a clone of a mesh refers to the same ones, and so do the trees that
 //! the renderer builds. Nothing copies them.
 
+mod cylinders;
 mod groups;
 mod part;
 mod polygon;
@@ -11,6 +12,7 @@ mod smooth;
 mod spacing;
 mod tidy;
 
+pub use cylinders::{Caps, Cylinders};
 pub(crate) use groups::FLAT;
 pub(crate) use polygon::cut_polygons;
 pub use shared::Shared;

@@ -33,6 +33,7 @@ cases! {
     an_orthographic_camera_has_a_height
     any_direction_may_be_up
     colours_are_grey_linear_hexadecimal_or_names
+    cylinders_follow_the_edges_of_a_file
     every_dialect
     every_light
     every_model
@@ -83,6 +84,7 @@ cases! {
     an_unknown_name_says_what_was_meant
     an_unknown_word_says_what_was_meant
     at_most_twenty_syntax_errors_are_told
+    cylinders_need_edges_with_a_radius_and_a_length
     every_number_out_of_range_is_told_at_its_place
     every_syntax_error_is_told_and_everything_else_too
     facets_reflect_by_one_rule

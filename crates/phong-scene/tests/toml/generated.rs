@@ -2,10 +2,10 @@
 
 use glam::{DAffine3, DMat3, DVec2, DVec3, Vec2, Vec3};
 use phong_scene::{
-    AmbientRule, Background, Camera, CameraKind, Channel, ConstantMaterial as Material, Dialect,
-    Distribution, FilterKind, Fresnel, Group, GroupId, Image, Light, LightKind, MaterialId, Mesh,
-    Model, NO_INDEX, Object, Place, Points, Rgb, Scene, Shadowing, Shape, Texture, TextureId,
-    TextureKind, TextureRef, TextureSpace, Tint, Viewer, WardForm,
+    AmbientRule, Background, Camera, CameraKind, Caps, Channel, ConstantMaterial as Material,
+    Cylinders, Dialect, Distribution, FilterKind, Fresnel, Group, GroupId, Image, Light, LightKind,
+    MaterialId, Mesh, Model, NO_INDEX, Object, Place, Points, Rgb, Scene, Shadowing, Shape,
+    Texture, TextureId, TextureKind, TextureRef, TextureSpace, Tint, Viewer, WardForm,
 };
 use proptest::prelude::*;
 
@@ -337,7 +337,7 @@ impl Make {
         let center = self.point();
         let up = DVec3::new(0.25, self.number(), 0.0);
         let (radius, capped) = (self.number(), self.flag());
-        match self.below(11) {
+        match self.below(12) {
             0 => Shape::Sphere { center, radius },
             1 => Shape::Plane { point: center, normal: up },
             2 => Shape::Triangle {
@@ -358,6 +358,7 @@ impl Make {
             7 => Shape::Torus { center, axis: up, radius, tube: 0.5 * radius },
             8 => Shape::Mesh(Box::new(self.mesh())),
             9 => Shape::Points(Box::new(self.points())),
+            10 => self.cylinders().into(),
             _ if groups > 0 => Shape::Instance(GroupId(self.below(groups) as u32)),
             _ => Shape::Sphere { center, radius: 1.0 },
         }
@@ -415,5 +416,26 @@ impl Make {
             points.colors = (0..count).map(|_| self.color()).collect();
         }
         points
+    }
+
+    fn cylinders(&mut self) -> Cylinders {
+        let count = 1 + self.below(9);
+        let caps = self.one(&[Caps::Round, Caps::Flat, Caps::Open]);
+        let mut cylinders = Cylinders { origin: self.origin(), caps, ..Cylinders::default() };
+        let one_radius = self.flag();
+        for i in 0..count {
+            let [x, y, z] = self.point().as_vec3().to_array();
+            let (radius, other) = (self.float(), self.float());
+            // Some share an end.
+            let from = [x, y, z, radius];
+            let from =
+                cylinders.segments.last().filter(|_| i % 3 == 1).map_or(from, |last| last[0]);
+            let radius_to = if one_radius { from[3] } else { other };
+            cylinders.segments.push([from, [from[0] + 1.0, from[1], from[2] - 0.5, radius_to]]);
+        }
+        if self.flag() {
+            cylinders.colors = (0..count).map(|_| [self.color(), self.color()]).collect();
+        }
+        cylinders
     }
 }

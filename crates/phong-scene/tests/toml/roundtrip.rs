@@ -55,6 +55,7 @@ fn plain(object: &mut Object) {
             std::mem::take(&mut mesh.origin)
         }
         Shape::Points(points) => std::mem::take(&mut points.origin),
+        Shape::Cylinders(cylinders) => std::mem::take(&mut cylinders.origin),
         _ => DVec3::ZERO,
     };
     object.transform.translation += object.transform.matrix3 * origin;

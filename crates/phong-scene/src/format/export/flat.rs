@@ -88,10 +88,15 @@ pub(crate) fn is_spheres(shape: &Shape) -> bool {
     matches!(shape, Shape::Sphere { .. } | Shape::Points(_))
 }
 
+pub(crate) fn is_cylinders(shape: &Shape) -> bool {
+    matches!(shape, Shape::Cylinders(_))
+}
+
 pub(crate) fn has_colors(shape: &Shape) -> bool {
     match shape {
         Shape::Mesh(mesh) => !mesh.colors.is_empty(),
         Shape::Points(points) => !points.colors.is_empty(),
+        Shape::Cylinders(cylinders) => !cylinders.colors.is_empty(),
         _ => false,
     }
 }
@@ -117,6 +122,8 @@ fn counted(kind: &str, count: usize) -> String {
     match (kind, count) {
         ("points", 1) => "1 cloud of points is".to_owned(),
         ("points", _) => format!("{count} clouds of points are"),
+        ("cylinders", 1) => "1 bundle of cylinders is".to_owned(),
+        ("cylinders", _) => format!("{count} bundles of cylinders are"),
         (kind, 1) => format!("1 {kind} is"),
         ("box", _) => format!("{count} boxes are"),
         ("torus", _) => format!("{count} tori are"),

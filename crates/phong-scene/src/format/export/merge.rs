@@ -9,7 +9,7 @@ use crate::color::Rgb;
 use crate::diagnostic::Diagnostic;
 use crate::format::origin::origin_of;
 use crate::material::Material;
-use crate::mesh::{Mesh, NO_INDEX, Points};
+use crate::mesh::{Caps, Cylinders, Mesh, NO_INDEX, Points};
 use crate::scene::{Group, Object, Scene};
 use crate::shape::Shape;
 use crate::transform::{cofactor, even_scale};
@@ -29,6 +29,7 @@ pub(crate) struct Size {
     pub(crate) triangles: u64,
     pub(crate) vertices: u64,
     pub(crate) spheres: u64,
+    pub(crate) cylinders: u64,
 }
 
 impl Size {
@@ -48,12 +49,15 @@ impl Size {
                 Shape::Mesh(mesh) => Self {
                     triangles: mesh.indices.len() as u64,
                     vertices: mesh.positions.len() as u64,
-                    spheres: 0,
+                    ..Self::default()
                 },
-                Shape::Triangle { .. } => Self { triangles: 1, vertices: 3, spheres: 0 },
+                Shape::Triangle { .. } => Self { triangles: 1, vertices: 3, ..Self::default() },
                 Shape::Sphere { .. } => Self { spheres: 1, ..Self::default() },
                 Shape::Points(points) => {
                     Self { spheres: points.spheres.len() as u64, ..Self::default() }
+                }
+                Shape::Cylinders(cylinders) => {
+                    Self { cylinders: cylinders.segments.len() as u64, ..Self::default() }
                 }
                 Shape::Instance(group) => groups.get(group.0 as usize).copied().unwrap_or_default(),
                 _ => Self::default(),
@@ -62,6 +66,7 @@ impl Size {
                 triangles: sum.triangles.saturating_add(one.triangles),
                 vertices: sum.vertices.saturating_add(one.vertices),
                 spheres: sum.spheres.saturating_add(one.spheres),
+                cylinders: sum.cylinders.saturating_add(one.cylinders),
             }
         })
     }
@@ -72,19 +77,21 @@ impl Size {
         let mesh =
             self.vertices.saturating_mul(44).saturating_add(self.triangles.saturating_mul(40));
         mesh.saturating_add(self.spheres.saturating_mul(28))
+            .saturating_add(self.cylinders.saturating_mul(56))
     }
 
     /// Refuses what memory, or the numbers of vertices, cannot hold.
     pub(crate) fn check(self, most: u64) -> Result<(), Box<Diagnostic>> {
         let bytes = self.bytes();
         let numbers = u64::from(u32::MAX) - 1;
-        if bytes <= most && self.vertices.max(self.triangles).max(self.spheres) <= numbers {
+        let Self { triangles, vertices, spheres, cylinders } = self;
+        let largest = vertices.max(triangles).max(spheres).max(cylinders.saturating_mul(2));
+        if bytes <= most && largest <= numbers {
             return Ok(());
         }
-        let Self { triangles, spheres, .. } = self;
         let message = format!(
-            "with every instance unfolded there are {triangles} triangles and {spheres} spheres, \
-             which take {bytes} bytes of memory; {most} are allowed"
+            "with every instance unfolded there are {triangles} triangles, {spheres} spheres and \
+             {cylinders} cylinders, which take {bytes} bytes of memory; {most} are allowed"
         );
         let help = "a .toml keeps instances as they are";
         Err(Box::new(Diagnostic::error(message, None).with_help(help)))
@@ -304,6 +311,46 @@ pub(crate) fn spheres(scene: &Scene, colors: bool, uneven: &mut BTreeMap<String,
             let own = scene.materials.get(object.material.0 as usize).map_or(Rgb::WHITE, own_color);
             let count = points.spheres.len() - points.colors.len().min(points.spheres.len());
             out.colors.extend(points.colors.iter().copied().chain(std::iter::repeat_n(own, count)));
+        }
+    });
+    out
+}
+
+/// The scene's cylinders as one bundle with round ends; with colours if wanted. How many are none
+/// under their placement is told by name.
+pub(crate) fn cylinders(
+    scene: &Scene,
+    colors: bool,
+    uneven: &mut BTreeMap<String, usize>,
+) -> Cylinders {
+    let mut out = Cylinders { caps: Caps::Round, ..Cylinders::default() };
+    let bounds = scene.bounds();
+    if !bounds.is_empty() {
+        out.origin = origin_of([bounds.min, bounds.max]);
+    }
+    each_placed(&scene.objects, &scene.groups, DAffine3::IDENTITY, "", &mut |object, at, name| {
+        let Shape::Cylinders(cylinders) = &object.shape else { return };
+        let Some(scale) = even_scale(at.matrix3) else {
+            *uneven.entry(name).or_default() += cylinders.segments.len();
+            return;
+        };
+        let place = at * DAffine3::from_translation(cylinders.origin);
+        let origin = out.origin;
+        let still = place == DAffine3::from_translation(origin);
+        let end = |[x, y, z, radius]: [f32; 4]| {
+            if still {
+                return [x, y, z, radius];
+            }
+            let p = place.transform_point3(DVec3::new(x.into(), y.into(), z.into())) - origin;
+            let [x, y, z] = p.as_vec3().to_array();
+            [x, y, z, (f64::from(radius) * scale) as f32]
+        };
+        out.segments.extend(cylinders.segments.iter().map(|ends| ends.map(end)));
+        if colors {
+            let own = scene.materials.get(object.material.0 as usize).map_or(Rgb::WHITE, own_color);
+            let count = cylinders.segments.len().saturating_sub(cylinders.colors.len());
+            let rest = std::iter::repeat_n([own; 2], count);
+            out.colors.extend(cylinders.colors.iter().copied().chain(rest));
         }
     });
     out

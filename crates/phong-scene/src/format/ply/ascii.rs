@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::body::{Body, Contents, FaceList, ORIGIN_SAMPLES, face_list};
+use super::body::{Body, Contents, FaceList, ORIGIN_SAMPLES};
+use super::edges::EdgePlan;
 use super::header::Element;
 use super::names::{Row, WIDTH};
 use super::vertices::{Plan, tell};
@@ -34,6 +35,7 @@ struct Layout<'a> {
     elements: Vec<(u64, &'a Element, Option<FaceList>)>,
     /// For every property of a vertex its place in a [`Row`].
     places: Vec<Option<usize>>,
+    edges: Option<&'a EdgePlan>,
 }
 
 impl Body<'_> {
@@ -43,7 +45,7 @@ impl Body<'_> {
         let mut first = 0;
         let mut elements = Vec::new();
         for element in &header.elements {
-            elements.push((first, element, face_list(element)));
+            elements.push((first, element, self.face_list(element)));
             // What has no properties has no lines.
             first += if element.properties.is_empty() { 0 } else { element.count };
         }
@@ -52,12 +54,13 @@ impl Body<'_> {
         let lines = Lines { blob: self.blob, start, line: header.line, joined: false, rows: true };
         self.plan.origin = origin_of(self.sample(&elements)?);
 
-        let plan = self.plan.clone();
+        let (plan, edges) = (self.plan.clone(), self.edges.clone());
         let vertex = header.elements.iter().find(|e| e.name == "vertex");
         let place = |property| plan.columns.iter().position(|c| *c == Some(property));
         let places = (0..vertex.map_or(0, |e| e.properties.len())).map(place).collect();
         let (file, vertex_count) = (self.file, self.vertex_count);
-        let layout = Layout { file, plan: &plan, vertex_count, elements, places };
+        let edges = edges.as_ref();
+        let layout = Layout { file, plan: &plan, vertex_count, elements, places, edges };
         let mut rows = 0;
         lines.each(
             |piece| layout.parse(piece),
@@ -66,6 +69,7 @@ impl Body<'_> {
                 self.findings.append(block.findings);
                 contents.vertices.append(block.contents.vertices);
                 contents.faces.append(block.contents.faces);
+                contents.edges.append(block.contents.edges);
                 let faces = &contents.faces;
                 self.has_room(faces.indices.len() as u64, faces.bytes())
             },
@@ -133,6 +137,8 @@ impl Layout<'_> {
                 let number = row - first;
                 if element.name == "vertex" {
                     self.vertex(&mut cursor, element, number, &mut block);
+                } else if let Some(plan) = self.edges.filter(|_| element.name == "edge") {
+                    self.edge(&mut cursor, element, plan, number, &mut block);
                 } else if let Some(list) = list {
                     self.face(&mut cursor, element, *list, number, &mut block, &mut scratch);
                 } else {
@@ -200,6 +206,42 @@ impl Layout<'_> {
             tell(&mut block.findings, Severity::Warning, span, "vertex", number, &fault);
         }
         block.contents.vertices.push(self.plan, &row);
+    }
+
+    fn edge(
+        &self,
+        cursor: &mut Cursor<'_>,
+        element: &Element,
+        plan: &EdgePlan,
+        number: u64,
+        block: &mut Block,
+    ) {
+        let start = cursor.clone();
+        let mut row: Row = [0.0; WIDTH];
+        for (i, property) in element.properties.iter().enumerate() {
+            let read = if property.list.is_some() {
+                skip_list(cursor)
+            } else if plan.columns.contains(&Some(i)) {
+                // One radius may be that of both ends.
+                double(cursor).map(|value| {
+                    let places = row.iter_mut().zip(&plan.columns);
+                    places.filter(|(_, c)| **c == Some(i)).for_each(|(place, _)| *place = value);
+                })
+            } else {
+                skip(cursor)
+            };
+            if read.is_none() {
+                let (span, fault) = self.blame(cursor, i, element);
+                tell(&mut block.findings, Severity::Error, || span, "edge", number, &fault);
+                cursor.finish_line();
+                return;
+            }
+        }
+        if let Err(fault) = block.contents.edges.add(plan, &row) {
+            let span = || start.here(self.file);
+            let severity = self.plan.damage();
+            tell(&mut block.findings, severity, span, "edge", number, &fault);
+        }
     }
 
     fn face(

@@ -9,7 +9,7 @@ use std::ops::Range;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::body::{Body, Contents, FaceList, ORIGIN_SAMPLES, face_list};
+use super::body::{Body, Contents, FaceList, ORIGIN_SAMPLES};
 use super::faces::{Faces, Kind, out_of_range};
 use super::header::{Element, Encoding, Type};
 use super::names::{Row, WIDTH};
@@ -28,8 +28,12 @@ impl Body<'_> {
         let mut offset = self.header.body;
         let header = self.header;
         for element in &header.elements {
-            let list = face_list(element);
+            let list = self.face_list(element);
+            let edges = self.edges.clone().filter(|_| element.name == "edge");
             let walked = match element.stride() {
+                _ if let Some(plan) = edges => {
+                    self.walk_edges(&plan, element, offset, &mut contents.edges)?
+                }
                 Some(stride) => {
                     let size = element.count.saturating_mul(stride as u64);
                     let there = self.blob.len().saturating_sub(offset);
@@ -463,7 +467,7 @@ fn load(bytes: &[u8], kind: Type, big: bool) -> f64 {
 }
 
 /// Walks over rows of varying length.
-struct Walk<'a> {
+pub(super) struct Walk<'a> {
     blob: &'a dyn Blob,
     big: bool,
     buffer: Vec<u8>,
@@ -474,18 +478,18 @@ struct Walk<'a> {
 }
 
 impl<'a> Walk<'a> {
-    fn new(body: &Body<'a>, offset: u64) -> Self {
+    pub(super) fn new(body: &Body<'a>, offset: u64) -> Self {
         let big = body.header.encoding == Encoding::Big;
         Self { blob: body.blob, big, buffer: vec![0; BLOCK], at: 0, filled: 0, start: offset }
     }
 
-    fn offset(&self) -> u64 {
+    pub(super) fn offset(&self) -> u64 {
         self.start + self.at as u64
     }
 
     /// The next number; `None` at the end of the file.
     #[inline]
-    fn number(&mut self, kind: Type) -> io::Result<Option<f64>> {
+    pub(super) fn number(&mut self, kind: Type) -> io::Result<Option<f64>> {
         let size = kind.size();
         if self.at + size > self.filled && !self.fill(size)? {
             return Ok(None);
@@ -527,7 +531,7 @@ impl<'a> Walk<'a> {
     }
 
     /// Skips a list; whether it is there as a whole.
-    fn skip_list(&mut self, count: Type, kind: Type) -> io::Result<bool> {
+    pub(super) fn skip_list(&mut self, count: Type, kind: Type) -> io::Result<bool> {
         let Some(count) = self.number(count)? else { return Ok(false) };
         let size = count.max(0.0) as u64 * kind.size() as u64;
         if size <= (self.filled - self.at) as u64 {

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::edges::{EdgePlan, Edges};
 use super::faces::{Faces, Kind};
 use super::header::{Element, Header};
 use super::vertices::{Plan, Vertices};
@@ -20,6 +21,8 @@ pub(super) struct Body<'a> {
     pub(super) header: &'a Header,
     pub(super) limits: &'a Limits,
     pub(super) plan: Plan,
+    /// How edges are read; `None`: they are not.
+    pub(super) edges: Option<EdgePlan>,
     pub(super) vertex_count: u64,
     pub(super) findings: Findings,
 }
@@ -29,6 +32,7 @@ pub(super) struct Body<'a> {
 pub(super) struct Contents {
     pub(super) vertices: Vertices,
     pub(super) faces: Faces,
+    pub(super) edges: Edges,
 }
 
 /// The property that lists a face's vertices.
@@ -48,7 +52,7 @@ pub(super) fn face_kind(element: &Element) -> Option<Kind> {
 }
 
 /// The list that makes an element's rows faces; `None` if it holds none.
-pub(super) fn face_list(element: &Element) -> Option<FaceList> {
+fn face_list(element: &Element) -> Option<FaceList> {
     let kind = face_kind(element)?;
     let named =
         |name: &str| element.properties.iter().position(|p| p.name == name && p.list.is_some());
@@ -79,10 +83,23 @@ impl Body<'_> {
         false
     }
 
+    /// The list that makes an element's rows faces; `None` if it holds none, or none are wanted.
+    pub(super) fn face_list(&self, element: &Element) -> Option<FaceList> {
+        if self.edges.is_some() { None } else { face_list(element) }
+    }
+
     /// Says what of faces cannot be read, and what is left out.
     pub(super) fn check_faces(&mut self) {
         let header = self.header;
         for element in header.elements.iter().filter(|e| face_kind(e).is_some() && e.count > 0) {
+            if self.edges.is_some() {
+                self.findings.warning(
+                    "faces beside edges",
+                    || element.span.clone(),
+                    || "faces are not drawn where the edges are".to_owned(),
+                );
+                continue;
+            }
             match face_list(element) {
                 None => {
                     let name = &element.name;

@@ -1,19 +1,23 @@
-//! A scene as a PLY file: triangles or else spheres, without materials, lights, camera and shapes.
+//! A scene as a PLY file: triangles, else spheres, else cylinders, without materials, lights, camera and shapes.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::diagnostic::Diagnostic;
 use crate::format::export::flat::{
-    each_object, has_colors, is_spheres, is_triangles, leave_out, listed, nothing, say_unfolded,
-    split_scene, warning,
+    each_object, has_colors, is_cylinders, is_spheres, is_triangles, leave_out, listed, nothing,
+    say_unfolded, split_scene, warning,
 };
-use crate::format::export::merge::{Size, merge, spheres};
+use crate::format::export::merge::{Size, cylinders, merge, spheres};
 use crate::format::export::{Account, File, Writing};
 use crate::material::Material;
+use crate::mesh::Caps;
 use crate::scene::{Object, Scene};
 use crate::shape::Shape;
 
-/// The scene as a PLY file: its triangles, or, if there are none, its spheres.
+/// What makes a scene one that PLY can hold.
+const HOLDS: &str = "PLY holds triangles, spheres or cylinders";
+
+/// The scene as a PLY file: its triangles, or, if there are none, its spheres, or else its cylinders.
 pub(crate) fn write_ply(
     scene: Scene,
     options: &Writing,
@@ -23,12 +27,20 @@ pub(crate) fn write_ply(
     let size = Size::of(&scene);
     size.check(options.max_bytes)?;
     let solid = size.triangles > 0;
-    let holds = |shape: &Shape| if solid { is_triangles(shape) } else { is_spheres(shape) };
-    leave_out(&scene, options, "triangles or else spheres", holds, account);
-    if !solid && size.spheres == 0 {
-        return Err(nothing("PLY holds triangles or spheres"));
+    let round = size.spheres > 0;
+    let holds = match (solid, round) {
+        (true, _) => is_triangles,
+        (_, true) => is_spheres,
+        _ => is_cylinders,
+    };
+    leave_out(&scene, options, "triangles, else spheres, else cylinders", holds, account);
+    if !solid && !round && size.cylinders == 0 {
+        return Err(nothing(HOLDS));
     }
     say_unfolded(&scene, account);
+    if !solid && !round {
+        say_ends(&scene, account);
+    }
     let own_color = |m: &u32| {
         let automatic = options.bare && *m == 0;
         !automatic && scene.materials.get(*m as usize).is_some_and(|m| !is_default(m))
@@ -51,22 +63,50 @@ pub(crate) fn write_ply(
         account.carry("triangle", merged.mesh.indices.len());
         let mesh = merged.mesh;
         File::new(name, move |to| mesh.write_ply(encoding, to))
+    } else if !round {
+        let mut uneven = BTreeMap::new();
+        let cylinders = cylinders(&scene, colors, &mut uneven);
+        say_uneven(&uneven, "cylinders that are not round", account);
+        if cylinders.segments.is_empty() {
+            return Err(nothing(HOLDS));
+        }
+        account.carry("cylinder", cylinders.segments.len());
+        File::new(name, move |to| cylinders.write_ply(encoding, to))
     } else {
         let mut uneven = BTreeMap::new();
         let points = spheres(&scene, colors, &mut uneven);
-        if !uneven.is_empty() {
-            let count: usize = uneven.values().sum();
-            let names = listed(uneven.keys().map(String::as_str), uneven.len());
-            let message = format!("PLY holds no ellipsoids; {count} are left out: {names}");
-            account.drop(Diagnostic::warning(message, None));
-        }
+        say_uneven(&uneven, "ellipsoids", account);
         if points.spheres.is_empty() {
-            return Err(nothing("PLY holds triangles or spheres"));
+            return Err(nothing(HOLDS));
         }
         account.carry("sphere", points.spheres.len());
         File::new(name, move |to| points.write_ply(encoding, to))
     };
     Ok(vec![file])
+}
+
+/// Says whose ends PLY has no word for.
+fn say_ends(scene: &Scene, account: &mut Account) {
+    let flat = |object: &&Object| match &object.shape {
+        Shape::Cylinders(cylinders) => cylinders.caps != Caps::Round,
+        _ => false,
+    };
+    let objects: Vec<_> = each_object(scene).filter(flat).collect();
+    if let [first, ..] = objects[..] {
+        let names = listed(objects.iter().map(|o| o.name.as_str()), objects.len());
+        let message = format!("PLY does not say that ends are not round: {names}");
+        account.drop(warning(message, &first.place));
+    }
+}
+
+/// Says what its placement made other things of than PLY can hold.
+fn say_uneven(uneven: &BTreeMap<String, usize>, what: &str, account: &mut Account) {
+    if !uneven.is_empty() {
+        let count: usize = uneven.values().sum();
+        let names = listed(uneven.keys().map(String::as_str), uneven.len());
+        let message = format!("PLY holds no {what}; {count} are left out: {names}");
+        account.drop(Diagnostic::warning(message, None));
+    }
 }
 
 /// The materials of an object.

@@ -1,4 +1,4 @@
-//! PLY, the Stanford polygon format: meshes and clouds of points.
+//! PLY, the Stanford polygon format: meshes, clouds of points, and edges as cylinders.
 //!
 //! Read are ASCII and binary bodies of either byte order, properties of any type in any order, and
 //! elements in any order; what is not named here is skipped.
@@ -12,6 +12,9 @@
 //! | `radius` | the radius of a point's sphere |
 //! | `face` `vertex_indices` (or `vertex_index`) | polygons; concave ones are cut by clipping ears |
 //! | `tristrips` `vertex_indices` | strips of triangles, ended by −1 |
+//! | `edge` `vertex1 vertex2` | cylinders, where they are asked for or have a radius and there are no faces |
+//! | `radius`, or `radius1 radius2` | the radii of an edge's cylinder |
+//! | `red green blue` of an edge | its colour; without, each half has that of its vertex |
 //!
 //! A file without faces is a cloud of points, each drawn as a sphere: of its own `radius`, else of
 //! the radius that the scene gives, else of half the median distance between a point and its
@@ -29,6 +32,8 @@
 mod ascii;
 mod binary;
 mod body;
+mod cylinders;
+mod edges;
 pub(crate) mod export;
 mod faces;
 mod header;
@@ -44,11 +49,12 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use self::body::{Body, Contents, face_kind};
+use self::edges::{EdgePlan, have_radius};
 use self::faces::Faces;
 use self::header::{Encoding, Header};
 use self::names::RADIUS;
 use self::vertices::{Plan, Vertices};
-use super::input::Input;
+use super::input::{Input, Wanted};
 use super::text::{Findings, whole};
 use crate::diagnostic::Diagnostic;
 use crate::fragment::{Fragment, flat};
@@ -76,13 +82,13 @@ pub(crate) fn read(input: &Input<'_>, out: &mut Vec<Diagnostic>) -> Option<Fragm
     }
 }
 
-/// The mesh or the points of the file.
+/// The mesh, the points or the cylinders of the file.
 fn shape_of(
     file: &Arc<str>,
     input: &Input<'_>,
     findings: &mut Findings,
 ) -> io::Result<Option<Shape>> {
-    let Input { source, limits, .. } = *input;
+    let Input { source, limits, radius, wanted, .. } = *input;
     let blob = source.open(file)?;
     let blob = blob.as_ref();
     let Some(header) = Header::read(blob, file, findings)? else { return Ok(None) };
@@ -94,18 +100,54 @@ fn shape_of(
         );
         return Ok(None);
     };
-    let spheres = !header.elements.iter().any(|e| face_kind(e).is_some() && e.count > 0);
-    let Some(plan) = Plan::new(vertex, spheres, input, findings) else { return Ok(None) };
+    let faces = header.elements.iter().any(|e| face_kind(e).is_some() && e.count > 0);
+    let edges = header.elements.iter().find(|e| e.name == "edge" && e.count > 0);
+    let edges = match wanted {
+        Wanted::Segments if edges.is_none() => {
+            findings.error(
+                "files without edges",
+                || whole(file),
+                || "there is nothing to draw: the file has no element `edge`".to_owned(),
+            );
+            return Ok(None);
+        }
+        Wanted::Segments => edges,
+        Wanted::Points => None,
+        // Edges may also be there for wires: a radius says that they are more.
+        Wanted::Anything => edges.filter(|edge| !faces && have_radius(edge)),
+    };
+    let spheres = edges.is_some() || !faces;
+    let Some(mut plan) = Plan::new(vertex, spheres, input, findings) else { return Ok(None) };
     let vertex_count = vertex.count;
+    let edges = match edges {
+        Some(edge) => {
+            let Some(edges) = EdgePlan::new(edge, vertex_count, radius, findings) else {
+                return Ok(None);
+            };
+            if !edges.uses_vertex_radii() {
+                plan.columns[RADIUS] = None;
+            }
+            Some(edges)
+        }
+        None => None,
+    };
     let findings_so_far = std::mem::take(findings);
-    let mut body =
-        Body { blob, file, header: &header, limits, plan, vertex_count, findings: findings_so_far };
+    let mut body = Body {
+        blob,
+        file,
+        header: &header,
+        limits,
+        plan,
+        edges,
+        vertex_count,
+        findings: findings_so_far,
+    };
     body.check_faces();
     if !limits.lenient {
         body.check_counts();
     }
     let mut contents = Contents::default();
-    if !body.findings.any_error() && body.has_room(0, 0) {
+    if !body.findings.any_error() && body.has_room_for_edges() {
         match header.encoding {
             Encoding::Ascii => body.read_ascii(&mut contents)?,
             Encoding::Little | Encoding::Big => body.read_binary(&mut contents)?,
@@ -137,11 +179,14 @@ impl Body<'_> {
     }
 
     fn finish(&mut self, contents: Contents) -> Option<Shape> {
-        let Contents { vertices, faces } = contents;
+        let Contents { vertices, faces, edges } = contents;
         if self.plan.transparent.load(Ordering::Relaxed) {
             self.warn("alphas", || {
                 "vertices are less than opaque (`alpha`), which is not drawn".to_owned()
             });
+        }
+        if let Some(plan) = self.edges.clone() {
+            return self.cylinders(&plan, vertices, &edges).map(Shape::from);
         }
         if self.plan.spheres {
             return self.finish_points(vertices);

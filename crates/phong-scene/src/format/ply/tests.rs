@@ -7,7 +7,7 @@ use super::*;
 use crate::color::Rgb;
 use crate::format::export::PlyEncoding;
 use crate::limits::Limits;
-use crate::mesh::{Mesh, Points};
+use crate::mesh::{Cylinders, Mesh, Points};
 use crate::source::Memory;
 
 fn model(bytes: &[u8], limits: &Limits, radius: Option<f32>) -> (Option<Shape>, String) {
@@ -282,5 +282,22 @@ fn what_is_written_reads_back_to_the_bit() {
         cloud.write_ply(encoding, &mut file).unwrap();
         let read = points(&file, None);
         assert_eq!((read.spheres, read.colors), (cloud.spheres, cloud.colors));
+        for radius_to in [0.5, 0.25] {
+            let bonds = Cylinders {
+                segments: [
+                    [[0.1, 0.0, 0.0, 0.5], [1.0, 0.0, 0.0, radius_to]],
+                    [[1.0, 0.0, 0.0, 0.125], [0.1, 0.0, 0.0, 0.125]],
+                ]
+                .into(),
+                colors: [[Rgb::BLACK, Rgb::WHITE], [Rgb::WHITE, Rgb::grey(0.1)]].into(),
+                ..Cylinders::default()
+            };
+            let mut file = Vec::new();
+            bonds.write_ply(encoding, &mut file).unwrap();
+            let Some(Shape::Cylinders(read)) = model(&file, &Limits::default(), None).0 else {
+                panic!("no cylinders")
+            };
+            assert_eq!((read.segments, read.colors), (bonds.segments, bonds.colors));
+        }
     }
 }

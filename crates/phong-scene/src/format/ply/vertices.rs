@@ -38,11 +38,40 @@ pub(super) struct Plan {
 
 /// How a stored colour becomes linear.
 #[derive(Clone, Debug)]
-enum Transfer {
+pub(super) enum Transfer {
     /// It is.
     Linear,
     /// sRGB, this many steps: one linear value each.
     Srgb(Box<[f32]>),
+}
+
+impl Transfer {
+    /// Of colours that are stored in numbers of these kinds; `None`: there are none.
+    pub(super) fn of(kinds: [Option<Type>; 3]) -> Self {
+        if kinds[0].is_none() || kinds.iter().all(|k| k.is_some_and(Type::is_float)) {
+            return Self::Linear;
+        }
+        let steps = if kinds.contains(&Some(Type::U16)) { 65536 } else { 256 };
+        let decode = |i| srgb_decode(f64::from(i) / f64::from(steps - 1)) as f32;
+        Self::Srgb((0..steps).map(decode).collect())
+    }
+
+    /// The linear colour that three numbers stand for; `None`: they are no colour.
+    pub(super) fn linear(&self, stored: &[f64]) -> Option<Rgb> {
+        let channel = |i: usize| match self {
+            Self::Linear => Some(stored[i] as f32).filter(|c| c.is_finite() && *c >= 0.0),
+            Self::Srgb(table) => table_entry(table, stored[i]),
+        };
+        Some(Rgb::from([channel(0)?, channel(1)?, channel(2)?]))
+    }
+
+    /// What its numbers must be, as the end of "is not …".
+    pub(super) fn words(&self) -> String {
+        match self {
+            Self::Linear => "of finite numbers from 0 on".to_owned(),
+            Self::Srgb(table) => format!("of whole numbers from 0 to {}", table.len() - 1),
+        }
+    }
 }
 
 impl Plan {
@@ -92,18 +121,7 @@ impl Plan {
             }
         }
         let kinds = [0, 1, 2].map(|i| columns[COLOR + i].map(|p| element.properties[p].kind));
-        let color = match kinds {
-            [Some(kind), ..] if kinds.iter().all(|k| k.is_some_and(Type::is_float)) => {
-                debug_assert!(kind.is_float());
-                Transfer::Linear
-            }
-            [Some(_), ..] => {
-                let steps = if kinds.contains(&Some(Type::U16)) { 65536 } else { 256 };
-                let decode = |i| srgb_decode(f64::from(i) / f64::from(steps - 1)) as f32;
-                Transfer::Srgb((0..steps).map(decode).collect())
-            }
-            _ => Transfer::Linear,
-        };
+        let color = Transfer::of(kinds);
         let radius = input.radius.unwrap_or(0.0);
         let opaque = match columns[ALPHA].map(|p| element.properties[p].kind) {
             Some(kind) if kind.is_float() => 1.0,
@@ -284,6 +302,12 @@ impl Vertices {
         }
     }
 
+    /// All spheres, which may have no place or no radius, and their colours.
+    pub(super) fn into_ends(mut self) -> (Vec<[f32; 4]>, Vec<Rgb>) {
+        mend_colors(&mut self.colors);
+        (self.spheres, self.colors)
+    }
+
     /// The spheres, without those that have no place or no radius.
     pub(super) fn into_points(mut self, plan: &Plan) -> Points {
         mend_colors(&mut self.colors);
@@ -415,10 +439,12 @@ pub(super) fn tell(
     let plural = match (element, severity) {
         ("vertex", Severity::Warning) => "vertices of which something is left out",
         ("vertex", Severity::Error) => "vertices that cannot be read",
+        ("edge", Severity::Warning) => "edges that are left out",
+        ("edge", Severity::Error) => "edges that cannot be drawn",
         (_, Severity::Warning) => "faces that are left out",
         (_, Severity::Error) => "faces that cannot be drawn",
     };
-    let left_out = element == "face" && severity == Severity::Warning;
+    let left_out = element != "vertex" && severity == Severity::Warning;
     let end = if left_out { "; it is left out" } else { "" };
     let message = || format!("{element} {number} (counted from 0): {message}{end}");
     findings.add(severity, plural, || Diagnostic {

@@ -1,4 +1,4 @@
-//! Meshes and points as PLY.
+//! Meshes, points and cylinders as PLY.
 
 use std::collections::HashMap;
 use std::io::{self, Write};
@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use crate::color::{Rgb, srgb_encode};
 use crate::format::export::PlyEncoding;
-use crate::mesh::{Mesh, NO_INDEX, Points};
+use crate::mesh::{Cylinders, Mesh, NO_INDEX, Points};
 
 impl Mesh {
     /// Writes the mesh as PLY: positions (as doubles if it has an origin), normals, texture
@@ -109,6 +109,54 @@ impl Points {
             out.position(Vec3::new(x, y, z), self.origin);
             out.floats(&[radius]);
             out.color(self.colors.get(i));
+            out.end_row()?;
+        }
+        out.finish()
+    }
+}
+
+impl Cylinders {
+    /// Writes the cylinders as PLY: ends as vertices (as doubles if they have an origin) with colours (as
+    /// sRGB bytes if all are such, else as linear floats), and edges with their radii. What the ends look like is not written: PLY has
+    /// no word for it.
+    ///
+    /// # Errors
+    /// Whatever `to` says.
+    pub fn write_ply(&self, encoding: PlyEncoding, to: &mut dyn Write) -> io::Result<()> {
+        // An end for each place and colour, in the order of first use.
+        let mut numbers = HashMap::new();
+        let mut ends = Vec::new();
+        let mut number = |i: usize, end: usize| {
+            let [x, y, z, _] = self.segments[i][end];
+            let color = self.colors.get(i).map(|colors| colors[end]);
+            let bits = |color: Rgb| color.to_array().map(f32::to_bits);
+            let key = ([x, y, z].map(f32::to_bits), color.map(bits));
+            *numbers.entry(key).or_insert_with(|| {
+                ends.push((Vec3::new(x, y, z), color));
+                ends.len() as u32 - 1
+            })
+        };
+        let count = self.segments.len();
+        let edges: Vec<[u32; 2]> = (0..count).map(|i| [number(i, 0), number(i, 1)]).collect();
+        let one = self.segments.iter().all(|[from, to]| from[3] == to[3]);
+        let radii: &[&str] = if one { &["radius"] } else { &["radius1", "radius2"] };
+        let mut text = header(encoding, ends.len(), self.origin);
+        let bytes = color_properties(self.colors.as_flattened(), &mut text);
+        text.extend(["element edge ", &count.to_string(), "\n"]);
+        text += "property uint vertex1\nproperty uint vertex2\n";
+        text.extend(radii.iter().map(|name| property(name)));
+        let mut out = Out { encoding, bytes, row: Vec::new(), to };
+        out.to.write_all((text + "end_header\n").as_bytes())?;
+        for (place, color) in &ends {
+            out.position(*place, self.origin);
+            out.color(color.as_ref());
+            out.end_row()?;
+        }
+        for ([from, to], edge) in self.segments.iter().zip(edges) {
+            for index in edge {
+                out.number(&index.to_le_bytes(), index);
+            }
+            out.floats(&[from[3], to[3]][..radii.len()]);
             out.end_row()?;
         }
         out.finish()

@@ -5,9 +5,9 @@ use super::path::{join, normal};
 use super::reader::Reader;
 use super::table::Values;
 use super::text::{self, Text};
-use crate::format::input::{Input, Named, ReadModel};
+use crate::format::input::{Input, Named, ReadModel, Wanted};
 use crate::fragment::Fragment;
-use crate::mesh::{Mesh, Points, Shared};
+use crate::mesh::{Caps, Mesh, Points, Shared};
 use crate::scene::Object;
 use crate::shape::{GroupId, Shape};
 use crate::source::trouble;
@@ -63,7 +63,10 @@ impl Reader<'_> {
 
     /// `[[include]]` of a model: all of it, at this place.
     fn include_model(&mut self, v: &Values, path: &str) {
-        let Some((file, mut fragment, number)) = self.fragment(v, path, None) else { return };
+        let Some((file, mut fragment, number)) = self.fragment(v, path, Wanted::Anything, None)
+        else {
+            return;
+        };
         if fragment.camera.is_some() {
             let message = format!("the camera of {} is not used", wording::path(&file));
             self.notes.warning(v.spot_of("file"), message);
@@ -90,7 +93,7 @@ impl Reader<'_> {
 
     /// `[[mesh]]`: the triangles of its file.
     pub(super) fn mesh(&mut self, v: &Values, path: &str) -> Vec<Part> {
-        let Some((file, fragment, number)) = self.fragment(v, path, None) else {
+        let Some((file, fragment, number)) = self.fragment(v, path, Wanted::Anything, None) else {
             return Vec::new();
         };
         let mut read = std::mem::take(&mut self.read);
@@ -121,7 +124,7 @@ impl Reader<'_> {
     /// `[[points]]`: the points of its file; of a mesh, its vertices.
     pub(super) fn points(&mut self, v: &Values, path: &str) -> Vec<Part> {
         let radius = v.number("radius").map(|radius| radius as f32);
-        let Some((file, fragment, number)) = self.fragment(v, path, radius) else {
+        let Some((file, fragment, number)) = self.fragment(v, path, Wanted::Points, radius) else {
             return Vec::new();
         };
         let mut without_radius = false;
@@ -137,6 +140,47 @@ impl Reader<'_> {
             let message = format!("{} gives its points no radius", wording::path(&file));
             let help = "write `radius = ..`, the radius of the spheres";
             self.notes.error(v.spot, message).help = Some(help.to_owned());
+        }
+        parts
+    }
+
+    /// `[[cylinders]]`: the segments of its file.
+    pub(super) fn cylinders(&mut self, v: &Values, path: &str) -> Vec<Part> {
+        let radius = v.number("radius").map(|radius| radius as f32);
+        let caps = v.word("caps").and_then(Caps::from_word).unwrap_or_default();
+        let Some((file, fragment, number)) = self.fragment(v, path, Wanted::Segments, radius)
+        else {
+            return Vec::new();
+        };
+        let (mut others, mut empty) = (false, 0);
+        let parts = self.parts(fragment, number, v, |shape| match shape {
+            Shape::Cylinders(mut cylinders) => {
+                cylinders.caps = caps;
+                empty += cylinders.drop_empty();
+                (!cylinders.segments.is_empty()).then_some(Shape::Cylinders(cylinders))
+            }
+            Shape::Instance(_) => Some(shape),
+            _ => {
+                others = true;
+                None
+            }
+        });
+        let file = wording::path(&file);
+        if others {
+            let help = "a PLY file has them in an element `edge` of `vertex1` and `vertex2`";
+            let message = format!("{file} holds no edges");
+            self.notes.error(v.spot_of("file"), message).help = Some(help.to_owned());
+        }
+        if empty > 0 {
+            let message = format!(
+                "edges without length in {file}: {empty}; they are left out, since their ends \
+                 are not round"
+            );
+            self.notes.warning(v.spot_of("file"), message);
+            if parts.is_empty() {
+                let message = format!("there is nothing to draw: no edge of {file} is left");
+                self.notes.error(v.spot_of("file"), message);
+            }
         }
         parts
     }
@@ -193,13 +237,14 @@ impl Reader<'_> {
         &mut self,
         v: &Values,
         path: &str,
+        wanted: Wanted,
         radius: Option<f32>,
     ) -> Option<(String, Fragment, usize)> {
         let name = v.text("file")?;
         let spot = v.spot_of("file");
         let file = join(path, &name);
         let message = match (self.models.find)(&file) {
-            Named::Model(read) => return self.read_fragment(v, file, read, radius),
+            Named::Model(read) => return self.read_fragment(v, file, read, wanted, radius),
             Named::Scene => "a scene cannot be drawn as a model".to_owned(),
             Named::NotYet(format) => format!("{format} files are not read yet"),
             Named::Unknown => {
@@ -216,11 +261,12 @@ impl Reader<'_> {
         v: &Values,
         file: String,
         read: ReadModel,
+        wanted: Wanted,
         radius: Option<f32>,
     ) -> Option<(String, Fragment, usize)> {
-        let mut fragment = match self.read.find(&normal(&file), radius) {
+        let mut fragment = match self.read.find(&normal(&file), wanted, radius) {
             Some(fragment) => fragment,
-            None => self.read_file(v, &file, read, radius)?,
+            None => self.read_file(v, &file, read, wanted, radius)?,
         };
         let own = if v.has("material") { Vec::new() } else { fragment.materials.split_off(1) };
         self.fragments.push(own);
@@ -232,6 +278,7 @@ impl Reader<'_> {
         v: &Values,
         file: &str,
         read: ReadModel,
+        wanted: Wanted,
         radius: Option<f32>,
     ) -> Option<Fragment> {
         let spot = v.spot_of("file");
@@ -240,7 +287,7 @@ impl Reader<'_> {
             self.notes.error(spot, message);
             return None;
         }
-        let input = Input { radius, ..Input::new(file, self.source, self.limits) };
+        let input = Input { wanted, radius, ..Input::new(file, self.source, self.limits) };
         let mut said = Vec::new();
         let fragment = read(&input, &mut said);
         for diagnostic in said {
@@ -253,7 +300,7 @@ impl Reader<'_> {
             self.notes.say(spot, diagnostic);
         }
         let fragment = fragment?;
-        self.read.keep(normal(file), radius, &fragment);
+        self.read.keep(normal(file), wanted, radius, &fragment);
         Some(fragment)
     }
 }

@@ -297,6 +297,7 @@ impl<'a> Reader<'a> {
         let parts: Vec<Part> = match table.name {
             "mesh" => self.mesh(&v, path),
             "points" => self.points(&v, path),
+            "cylinders" => self.cylinders(&v, path),
             "instance" => {
                 let group = v.text("group").into_iter();
                 group.map(|name| DraftShape::Instance(name, v.spot_of("group")).into()).collect()

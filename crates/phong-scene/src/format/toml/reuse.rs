@@ -2,27 +2,34 @@
 
 use std::collections::BTreeMap;
 
+use crate::format::input::Wanted;
 use crate::fragment::Fragment;
 use crate::mesh::{Mesh, Shared};
 
 /// What was read of model files, and what was made of it.
 #[derive(Debug, Default)]
 pub(super) struct Models {
-    /// By lexically normal path, and the bits of the radius of points that bring none.
-    fragments: BTreeMap<(String, Option<u32>), Fragment>,
+    /// By lexically normal path, what was wanted, and the bits of the radius of what brings none.
+    fragments: BTreeMap<(String, Wanted, Option<u32>), Fragment>,
     /// Meshes that were made smooth, with their normals.
     smooth: Vec<(Mesh, u64)>,
 }
 
 impl Models {
     /// What the file at `path` holds, if it was read before.
-    pub(super) fn find(&self, path: &str, radius: Option<f32>) -> Option<Fragment> {
-        self.fragments.get(&(path.to_owned(), radius.map(f32::to_bits))).cloned()
+    pub(super) fn find(&self, path: &str, wanted: Wanted, radius: Option<f32>) -> Option<Fragment> {
+        self.fragments.get(&(path.to_owned(), wanted, radius.map(f32::to_bits))).cloned()
     }
 
     /// Remembers what was read.
-    pub(super) fn keep(&mut self, path: String, radius: Option<f32>, fragment: &Fragment) {
-        self.fragments.insert((path, radius.map(f32::to_bits)), fragment.clone());
+    pub(super) fn keep(
+        &mut self,
+        path: String,
+        wanted: Wanted,
+        radius: Option<f32>,
+        fragment: &Fragment,
+    ) {
+        self.fragments.insert((path, wanted, radius.map(f32::to_bits)), fragment.clone());
     }
 
     /// Gives a mesh normals in place of its own, as [`Mesh::smooth`] does; once for each mesh.

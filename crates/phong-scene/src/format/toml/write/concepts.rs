@@ -279,7 +279,7 @@ fn model(material: &Material, textures: &[String], key: &str) -> Option<Value> {
     })
 }
 
-/// The shape's own keys; those of meshes, points and instances name files and groups.
+/// The shape's own keys; those of meshes, points, cylinders and instances name files and groups.
 pub(super) fn shape(shape: &Shape, key: &str) -> Option<Value> {
     use Shape::{Box, Cone, Cylinder, Disc, Plane, Sphere, Torus, Triangle};
     Some(match (key, shape) {
@@ -307,6 +307,7 @@ pub(super) fn shape(shape: &Shape, key: &str) -> Option<Value> {
         ("capped", Cylinder { capped, .. } | Cone { capped, .. }) => Value::Flag(*capped),
         ("axis", Torus { axis, .. }) => Value::Vector(*axis),
         ("tube", Torus { tube, .. }) => Value::Number(*tube),
+        ("caps", Shape::Cylinders(cylinders)) => Value::Word(cylinders.caps.word()),
         ("smooth", Shape::Mesh(mesh)) if mesh.normals.is_empty() => Value::Flag(false),
         _ => return None,
     })

@@ -19,7 +19,7 @@ use crate::format::export::{Account, File, PlyEncoding, Writing, free_name, spli
 use crate::keys::{self, Kind, Table};
 use crate::limits::LARGEST;
 use crate::material::{Material, MaterialId};
-use crate::mesh::Mesh;
+use crate::mesh::{Cylinders, Mesh};
 use crate::scene::{Object, Scene};
 use crate::shape::Shape;
 use crate::texture::Texture;
@@ -251,6 +251,7 @@ fn is_seen(object: &Object, account: &mut Account) -> bool {
     let empty = match &object.shape {
         Shape::Mesh(mesh) => mesh.indices.is_empty(),
         Shape::Points(points) => points.spheres.is_empty(),
+        Shape::Cylinders(cylinders) => cylinders.segments.is_empty(),
         _ => false,
     };
     if empty {
@@ -278,6 +279,13 @@ fn sidecar(object: &mut Object, name: &str, ply: PlyEncoding) -> Option<File> {
             let mut points = std::mem::take(&mut **points);
             let origin = std::mem::take(&mut points.origin);
             (File::new(name, move |to| points.write_ply(ply, to)), origin)
+        }
+        Shape::Cylinders(cylinders) => {
+            // The text still says what the ends look like.
+            let rest = Cylinders { caps: cylinders.caps, ..Cylinders::default() };
+            let mut cylinders = std::mem::replace(&mut **cylinders, rest);
+            let origin = std::mem::take(&mut cylinders.origin);
+            (File::new(name, move |to| cylinders.write_ply(ply, to)), origin)
         }
         _ => return None,
     };

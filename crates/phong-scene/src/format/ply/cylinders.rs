@@ -1,0 +1,140 @@
+//! From edges to cylinders.
+
+use std::io;
+
+use super::binary::Walk;
+use super::body::Body;
+use super::edges::{EdgePlan, Edges};
+use super::header::Element;
+use super::names::RADIUS;
+use super::vertices::{Vertices, tell};
+use crate::color::Rgb;
+use crate::format::text::Findings;
+use crate::mesh::Cylinders;
+
+/// An end that is not there.
+const NOWHERE: [f32; 4] = [f32::NAN; 4];
+
+/// Bytes that an edge takes while it is read and as a cylinder.
+const BYTES: u64 = 28 + 56;
+
+impl Body<'_> {
+    /// Whether so many edges are within the limits; an error if not.
+    pub(super) fn has_room_for_edges(&mut self) -> bool {
+        let header = self.header;
+        let edges = header.elements.iter().find(|e| e.name == "edge" && self.edges.is_some());
+        let count = edges.map_or(0, |element| element.count);
+        let most = self.limits.vertices;
+        if count > most {
+            let span = self.whole();
+            self.findings.error(
+                "limits exceeded",
+                || span,
+                || format!("the model has {count} edges, more than the {most} allowed"),
+            );
+            return false;
+        }
+        self.has_room(0, count.saturating_mul(BYTES))
+    }
+
+    /// Reads edges; where they end, or `None` after an error.
+    pub(super) fn walk_edges(
+        &mut self,
+        plan: &EdgePlan,
+        element: &Element,
+        offset: u64,
+        edges: &mut Edges,
+    ) -> io::Result<Option<u64>> {
+        let mut walk = Walk::new(self, offset);
+        let mut findings = Findings::default();
+        let mut values = Vec::with_capacity(element.properties.len());
+        for number in 0..element.count {
+            values.clear();
+            for property in &element.properties {
+                let value = match property.list {
+                    None => walk.number(property.kind)?,
+                    Some(count) => walk.skip_list(count, property.kind)?.then_some(0.0),
+                };
+                let Some(value) = value else {
+                    self.tell_truncated(element, number);
+                    return Ok(None);
+                };
+                values.push(value);
+            }
+            let row = plan.columns.map(|column| column.map_or(0.0, |c| values[c]));
+            if let Err(fault) = edges.add(plan, &row) {
+                let severity = self.plan.damage();
+                tell(&mut findings, severity, || self.whole(), "edge", number, &fault);
+            }
+        }
+        self.findings.append(findings);
+        Ok(Some(walk.offset()))
+    }
+
+    /// The cylinders along the edges.
+    pub(super) fn cylinders(
+        &mut self,
+        plan: &EdgePlan,
+        vertices: Vertices,
+        edges: &Edges,
+    ) -> Option<Cylinders> {
+        if plan.uses_vertex_radii() && self.plan.columns[RADIUS].is_none() {
+            let header = self.header;
+            let edge = header.elements.iter().find(|element| element.name == "edge");
+            let span = edge.map_or_else(|| self.whole(), |element| element.span.clone());
+            self.findings.error(
+                "edges without a radius",
+                || span,
+                || {
+                    "the edges have no radius: neither they nor their vertices have a property \
+                 `radius`; write `radius = ..`, that of the cylinders"
+                        .to_owned()
+                },
+            );
+            return None;
+        }
+        let (spheres, colors) = vertices.into_ends();
+        let (mut segments, mut pairs) = (Vec::with_capacity(edges.ends.len()), Vec::new());
+        let mut gone = 0_u64;
+        for (i, ends) in edges.ends.iter().enumerate() {
+            // A vertex without a place was left out, and one may be missing from a file cut short.
+            let mut segment = ends.map(|end| spheres.get(end as usize).copied().unwrap_or(NOWHERE));
+            if let Some(&[radius, radius_to]) = edges.radii.get(i) {
+                (segment[0][3], segment[1][3]) = (radius, radius_to);
+            } else if let Some(radius) = plan.radius {
+                (segment[0][3], segment[1][3]) = (radius, radius);
+            }
+            let sound = |end: &[f32; 4]| end.iter().all(|v| v.is_finite()) && end[3] > 0.0;
+            if !segment.iter().all(sound) {
+                gone += 1;
+                continue;
+            }
+            segments.push(segment);
+            if let Some(&color) = edges.colors.get(i) {
+                pairs.push([color; 2]);
+            } else if !colors.is_empty() {
+                pairs.push(ends.map(|end| colors.get(end as usize).copied().unwrap_or(Rgb::BLACK)));
+            }
+        }
+        if gone > 0 {
+            self.warn("edges without their vertices", || {
+                format!("edges of which a vertex is left out: {gone}; they are left out")
+            });
+        }
+        if segments.is_empty() {
+            let span = self.whole();
+            self.findings.error(
+                "empty models",
+                || span,
+                || "there is nothing to draw: no edge is left".to_owned(),
+            );
+            return None;
+        }
+        Some(Cylinders {
+            origin: self.plan.origin,
+            segments: segments.into(),
+            colors: pairs.into(),
+            ..Cylinders::default()
+        })
+    }
+}

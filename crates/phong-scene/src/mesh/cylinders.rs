@@ -1,0 +1,103 @@
+//! Cylinders and capsules in bulk.
+
+use glam::{DVec3, Vec3};
+
+use super::Shared;
+use crate::color::Rgb;
+
+/// A cylinder along every segment. Radii > 0, every number finite; unless the ends are round, no
+/// segment is without length.
+#[derive(Clone, Debug, Default)]
+pub struct Cylinders {
+    /// Added, in f64, to every end.
+    pub origin: DVec3,
+    /// The two ends of each, `[x, y, z, radius]`, on the axis and relative to `origin`.
+    pub segments: Shared<[[f32; 4]; 2]>,
+    /// Two linear colours a segment, which replace the material's: of the half at the first end and
+    /// of the half at the second; empty: none.
+    pub colors: Shared<[Rgb; 2]>,
+    /// What the ends look like.
+    pub caps: Caps,
+}
+
+/// What the ends of cylinders look like.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Caps {
+    /// Round: the surface is that of a sphere which goes from end to end, while its radius changes
+    /// evenly. Between equal radii, a capsule.
+    #[default]
+    Round,
+    /// Discs close the ends.
+    Flat,
+    /// The ends are open: tubes.
+    Open,
+}
+
+impl Caps {
+    /// Each with its word in the scene text.
+    pub(crate) const WORDS: [(&str, Self); 3] =
+        [("round", Self::Round), ("flat", Self::Flat), ("none", Self::Open)];
+
+    /// Its word in the scene text.
+    pub(crate) fn word(self) -> &'static str {
+        Self::WORDS.iter().find(|(_, caps)| *caps == self).map_or("round", |(word, _)| word)
+    }
+
+    /// What a word of the scene text means.
+    pub(crate) fn from_word(word: &str) -> Option<Self> {
+        Self::WORDS.iter().find(|(known, _)| *known == word).map(|(_, caps)| *caps)
+    }
+}
+
+impl Cylinders {
+    /// Bytes that the arrays take in memory.
+    pub fn bytes(&self) -> u64 {
+        (32 * self.segments.len() + 24 * self.colors.len()) as u64
+    }
+
+    /// Whether both ends of a segment are at one place.
+    pub(crate) fn is_empty([[ax, ay, az, _], [bx, by, bz, _]]: &[[f32; 4]; 2]) -> bool {
+        (Vec3::new(*bx, *by, *bz) - Vec3::new(*ax, *ay, *az)).as_dvec3().try_normalize().is_none()
+    }
+
+    /// Takes the segments without length away, unless the ends are round; how many there were.
+    pub(crate) fn drop_empty(&mut self) -> u64 {
+        let before = self.segments.len();
+        if self.caps != Caps::Round && self.segments.iter().any(Self::is_empty) {
+            let mut keep = self.segments.iter().map(|segment| !Self::is_empty(segment));
+            self.colors.retain(|_| keep.next().unwrap_or(true));
+            self.segments.retain(|segment| !Self::is_empty(segment));
+        }
+        (before - self.segments.len()) as u64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_round_cylinders_may_be_without_length() {
+        let segment = |x: f32| [[0.0, 0.0, 0.0, 1.0], [x, 0.0, 0.0, 1.0]];
+        let mut cylinders = Cylinders {
+            segments: [segment(0.0), segment(1.0)].into(),
+            colors: [[Rgb::BLACK; 2], [Rgb::WHITE; 2]].into(),
+            ..Cylinders::default()
+        };
+        assert_eq!((cylinders.drop_empty(), cylinders.bytes()), (0, 112));
+        cylinders.caps = Caps::Flat;
+        assert_eq!(cylinders.drop_empty(), 1);
+        assert_eq!(
+            (cylinders.segments, cylinders.colors),
+            ([segment(1.0)].into(), [[Rgb::WHITE; 2]].into())
+        );
+    }
+
+    #[test]
+    fn every_word_for_ends_is_read_back() {
+        for (word, caps) in Caps::WORDS {
+            assert_eq!((caps.word(), Caps::from_word(word)), (word, Some(caps)));
+        }
+        assert_eq!(Caps::from_word("square"), None);
+    }
+}
