@@ -14,6 +14,8 @@ pub(crate) struct Batch {
     pub(super) mesh: Option<Box<MeshAttributes>>,
     /// A colour a sphere; empty: the material's.
     pub(super) colors: Shared<Rgb>,
+    /// Two colours a cylinder, of the half at either end; empty: the material's.
+    pub(super) end_colors: Shared<[Rgb; 2]>,
     /// What turns normals of the mesh into those of the world, up to their length; `None`: they are
     /// the same.
     pub(super) normals_to_world: Option<Box<Mat3>>,
@@ -55,6 +57,7 @@ impl Batch {
             materials: MaterialNumbers::One(material),
             mesh: None,
             colors: Shared::default(),
+            end_colors: Shared::default(),
             normals_to_world: None,
             rotations: Vec::new(),
         }
@@ -110,7 +113,8 @@ impl Batch {
     #[inline]
     pub(crate) fn is_plain(&self) -> bool {
         let bare = |mesh: &MeshAttributes| mesh.normals.is_empty() && mesh.colors.is_empty();
-        self.colors.is_empty() && self.mesh.as_ref().is_none_or(|mesh| bare(mesh))
+        let colors = self.colors.is_empty() && self.end_colors.is_empty();
+        colors && self.mesh.as_ref().is_none_or(|mesh| bare(mesh))
     }
 
     /// The interpolated shading normal; `None` where the mesh has none.
@@ -135,6 +139,9 @@ impl Batch {
         if let (Some(mesh), Some(corners)) = (&self.mesh, corners) {
             let [a, b, c] = at_corners(&mesh.colors, &[], local, corners)?;
             return Some((1.0 - hit.u - hit.v) * a + hit.u * b + hit.v * c);
+        }
+        if let Some(ends) = self.end_colors.get(local as usize) {
+            return Some(ends[usize::from(hit.u > 0.5)]);
         }
         self.colors.get(local as usize).copied()
     }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec2, DVec3, Mat3};
 use phong_bvh::{BuildError, BuildOptions, Part, Plane, Primitives, Sphere};
-use phong_scene::{Bounds, Mesh, Points, Shape, cofactor, even_scale};
+use phong_scene::{Bounds, Cylinders, Mesh, Points, Shape, cofactor, even_scale};
 
 use super::ObjectRecord;
 use super::batch::{Batch, MaterialNumbers, MeshAttributes, Objects};
@@ -41,7 +41,7 @@ pub(super) fn center(placed: &[Placed<'_>]) -> DVec3 {
 
 /// Whether an object has a tree of its own, which its instances share.
 fn has_tree(shape: &Shape) -> bool {
-    matches!(shape, Shape::Mesh(_) | Shape::Points(_))
+    matches!(shape, Shape::Mesh(_) | Shape::Points(_) | Shape::Cylinders(_))
 }
 
 /// Makes parts of all objects. What is written one by one goes into the world moved by `−center`;
@@ -77,6 +77,12 @@ pub(super) fn build(
                 let Points { origin, spheres, colors, .. } = &**points;
                 let batch = Batch { colors: colors.clone(), ..batch };
                 (Arrays::Spheres(spheres.clone()), *origin, batch)
+            }
+            Shape::Cylinders(cylinders) => {
+                let batch = Batch::new(Objects::One(number), material);
+                let Cylinders { origin, segments, colors, caps } = &**cylinders;
+                let batch = Batch { end_colors: colors.clone(), ..batch };
+                (Arrays::Cylinders(segments.clone(), *caps), *origin, batch)
             }
             shape => {
                 out.single(shape, to_center * to_world, number, material);

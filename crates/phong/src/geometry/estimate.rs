@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::mem::size_of;
 
 use glam::{DAffine3, Vec2};
-use phong_bvh::Sphere;
+use phong_bvh::{Cylinder, Sphere};
 use phong_scene::{Object, Rgb, Scene, Shape, Shared};
 
 use super::ObjectRecord;
@@ -14,6 +14,8 @@ use super::batch::Batch;
 const TRIANGLE: usize = 160;
 /// The same of a sphere, or of another primitive.
 const SPHERE: usize = 120;
+/// The same of a cylinder of a bundle.
+const CYLINDER: usize = 150;
 /// A placed tree: its two transforms, its box, and its share of the tree over all.
 const INSTANCE: usize = 4 * size_of::<DAffine3>() + SPHERE;
 
@@ -44,6 +46,10 @@ fn bytes(object: &Object, seen: &mut BTreeSet<usize>) -> usize {
         Shape::Points(points) => {
             array(&points.spheres, size_of::<Sphere>() + SPHERE, seen)
                 + array(&points.colors, 0, seen)
+        }
+        Shape::Cylinders(cylinders) => {
+            array(&cylinders.segments, size_of::<Cylinder>() + CYLINDER, seen)
+                + array(&cylinders.colors, 0, seen)
         }
         _ => 0,
     }

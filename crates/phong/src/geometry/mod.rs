@@ -129,6 +129,7 @@ fn soonest(scene: &Scene, rays: u64) -> BuildOptions {
     let primitives = |object: &phong_scene::Object| match &object.shape {
         Shape::Mesh(mesh) => mesh.indices.len() as u64,
         Shape::Points(points) => points.spheres.len() as u64,
+        Shape::Cylinders(cylinders) => cylinders.segments.len() as u64,
         _ => 1,
     };
     let in_groups = scene.groups.iter().flat_map(|group| &group.objects);

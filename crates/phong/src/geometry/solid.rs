@@ -34,6 +34,7 @@ pub(super) fn canonical(shape: &Shape, to_world: DAffine3) -> Option<Solid> {
         | Shape::Triangle { .. }
         | Shape::Mesh(_)
         | Shape::Points(_)
+        | Shape::Cylinders(_)
         | Shape::Instance(_) => return None,
     };
     Some(Solid { shape, to_world: to_world * own })

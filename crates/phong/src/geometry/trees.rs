@@ -1,14 +1,14 @@
-//! The trees of meshes and clouds, each built once for all objects that share its arrays.
+//! The trees of meshes, clouds and bundles of cylinders, each built once for all objects that share its arrays.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::Vec3;
-use phong_bvh::{BuildError, BuildOptions, Primitives, Sphere, Tree};
-use phong_scene::Shared;
+use phong_bvh::{BuildError, BuildOptions, Cylinder, Primitives, Sphere, Tree};
+use phong_scene::{Caps, Shared};
 use rayon::prelude::*;
 
-/// Trees by the addresses of the arrays that they are built of.
+/// Trees by the addresses of the arrays that they are built of, or one address and what ends look like.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Trees(BTreeMap<[usize; 2], Entry>);
 
@@ -27,6 +27,8 @@ pub(super) enum Arrays {
     Triangles(Shared<Vec3>, Shared<[u32; 3]>),
     /// Centre and radius of each.
     Spheres(Shared<[f32; 4]>),
+    /// The two ends of each, and what they look like.
+    Cylinders(Shared<[[f32; 4]; 2]>, Caps),
 }
 
 impl Arrays {
@@ -36,6 +38,8 @@ impl Arrays {
                 [Shared::address(positions), Shared::address(indices)]
             }
             Self::Spheres(spheres) => [Shared::address(spheres), 0],
+            // Below any address.
+            Self::Cylinders(segments, caps) => [Shared::address(segments), *caps as usize],
         }
     }
 
@@ -50,6 +54,22 @@ impl Arrays {
                 let spheres: Vec<_> =
                     spheres.par_iter().with_min_len(1 << 12).map(sphere).collect();
                 Primitives::spheres(spheres)
+            }
+            Self::Cylinders(segments, caps) => {
+                let cylinder = |&[from, to]: &[[f32; 4]; 2]| Cylinder {
+                    from: Vec3::new(from[0], from[1], from[2]),
+                    radius: from[3],
+                    to: Vec3::new(to[0], to[1], to[2]),
+                    radius_to: to[3],
+                };
+                let caps = match caps {
+                    Caps::Round => phong_bvh::Caps::Round,
+                    Caps::Flat => phong_bvh::Caps::Flat,
+                    Caps::Open => phong_bvh::Caps::Open,
+                };
+                let cylinders: Vec<_> =
+                    segments.par_iter().with_min_len(1 << 12).map(cylinder).collect();
+                Primitives::cylinders(cylinders, caps)
             }
         }
     }

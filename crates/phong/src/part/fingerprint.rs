@@ -4,7 +4,7 @@ use std::fmt::{self, Write as _};
 
 use crc32fast::Hasher;
 use glam::{Vec2, Vec3};
-use phong_scene::{Group, Material, Mesh, Object, Place, Points, Scene, Shape, Texture};
+use phong_scene::{Cylinders, Group, Material, Mesh, Object, Place, Points, Scene, Shape, Texture};
 
 /// A checksum of everything in a scene but its picture settings and the places it was written at:
 /// the same scene has the same one on every machine, whatever its files are called.
@@ -55,6 +55,7 @@ impl Sum {
             match shape {
                 Shape::Mesh(mesh) => self.mesh(mesh),
                 Shape::Points(points) => self.points(points),
+                Shape::Cylinders(cylinders) => self.cylinders(cylinders),
                 small => self.debug(small),
             }
         }
@@ -88,6 +89,13 @@ impl Sum {
         self.debug(origin);
         self.words(spheres.iter().flatten().map(|v| v.to_bits()));
         self.words(colors.iter().flat_map(|c| c.to_array()).map(f32::to_bits));
+    }
+
+    fn cylinders(&mut self, cylinders: &Cylinders) {
+        let Cylinders { origin, segments, colors, caps } = cylinders;
+        self.debug(&(origin, caps));
+        self.words(segments.iter().flatten().flatten().map(|v| v.to_bits()));
+        self.words(colors.iter().flatten().flat_map(|c| c.to_array()).map(f32::to_bits));
     }
 
     /// Bulk numbers, then how many there were, so that neighbouring arrays cannot trade places.
