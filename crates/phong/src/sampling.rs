@@ -118,7 +118,7 @@ impl Samplers8 {
         Sampler { key: self.key[lane], index: self.index[lane], centred: self.centred }
     }
 
-    /// [`Sampler::at`] of each.
+    /// Other samples of the same pixels: those of number `index`.
     #[inline]
     #[must_use]
     pub(crate) fn at(&self, index: u32) -> Self {
