@@ -7,7 +7,7 @@ use crate::limits::Range;
 use crate::scene::Image;
 use crate::wording::list;
 
-/// What may stand as a key's value. No number is ever NaN, infinite or beyond [`LARGEST`].
+/// What may stand as a key's value. No number is ever NaN, infinite or beyond `LARGEST`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Kind {
     /// `true` or `false`.
