@@ -116,16 +116,16 @@ fn least(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
         let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
         if f(a) < f(b) { high = b } else { low = a }
     }
-    (low + high) / 2.0
+    low.midpoint(high)
 }
 
 /// Where a function that is negative at `inside` and positive at `outside` is zero.
 fn root(mut inside: f64, mut outside: f64, f: impl Fn(f64) -> f64) -> f64 {
     for _ in 0..120 {
-        let middle = (inside + outside) / 2.0;
+        let middle = inside.midpoint(outside);
         if f(middle) < 0.0 { inside = middle } else { outside = middle }
     }
-    (inside + outside) / 2.0
+    inside.midpoint(outside)
 }
 
 /// How far a point is outside of a closed cylinder; negative: within.
@@ -140,7 +140,7 @@ fn outside(p: DVec3, cylinder: &Cylinder, caps: Caps) -> f64 {
     let (axis, length) = (to - from).normalize_and_length();
     let z = (p - from).dot(axis);
     let side = (p - from - z * axis).length() - (r + z / length * (r_to - r));
-    let lean = ((r_to - r) / length).hypot(1.0);
+    let lean = libm::hypot((r_to - r) / length, 1.0);
     (side / lean).max(-z).max(z - length)
 }
 

@@ -219,7 +219,7 @@ fn intersect8_at<S: Simd>(simd: S, ray: &Closest8<S>, block: &[Row; BLOCK]) -> M
     if !(first | !may).all_true() {
         let (met, leave, behind) = crossing(c + reach, 1.0);
         let second = !first & met & leave.simd_gt(ray.t_min) & leave.simd_lt(ray.t_max);
-        hit = hit | second;
+        hit |= second;
         t = first.select(enter, leave);
         let first = first.to_bitmask() as u32;
         second_half = second_half & first | behind.to_bitmask() as u32 & !first;

@@ -287,7 +287,7 @@ impl Reader<'_> {
             self.notes.error(spot, message);
             return None;
         }
-        let input = Input { wanted, radius, ..Input::new(file, self.source, self.limits) };
+        let input = Input { radius, wanted, ..Input::new(file, self.source, self.limits) };
         let mut said = Vec::new();
         let fragment = read(&input, &mut said);
         for diagnostic in said {
