@@ -1,4 +1,4 @@
-//! What is given as a cylinder and is no [capsule](super::capsule): with two radii, with flat ends,
+//! What is given as a cylinder and is no `capsule`: with two radii, with flat ends,
 //! or open. Solved in f64, one at a time.
 //!
 //! With the segment from z = 0 to z = 1 of a frame of its own, x and y not scaled, a flat or open one is the
