@@ -265,7 +265,7 @@ mod tests {
     #[test]
     fn a_thin_stick_far_away_is_met_at_its_near_side() {
         let stick = capsule([100.0, -1.0, -1.0], [100.0, 1.0, 1.0], 0.01);
-        let across = Vec3::new(0.0, 1.0, -1.0).normalize() * 0.009;
+        let across = Vec3::new(0.0, 1.0, -1.0).normalize_or(Vec3::Y) * 0.009;
         let t = meet(across.to_array(), [1.0, 0.0, 0.0], &stick).expect("a hit");
         assert!((t - (100.0 - (0.01f32 * 0.01 - 0.009 * 0.009).sqrt())).abs() < 2e-5, "{t}");
         assert_eq!(meet((across * 1.13).to_array(), [1.0, 0.0, 0.0], &stick), None);
