@@ -208,7 +208,9 @@ fn one_point_that_is_no_number_among_many_is_left_out_and_counted() {
     assert_eq!(mesh.indices, [[0, 2, 3]]);
     let obj = "v 0 0 0\nv nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 3 4\nf 1 2 3\n";
     let reading = text("a.obj", obj);
-    assert!(told(&reading).contains("NaN or infinite: 1; they are left out, and the 1 faces"));
+    let said = told(&reading);
+    assert!(said.contains("a.obj:2:3: warning: `nan` is no number: the position is"), "{said}");
+    assert!(said.contains("faces that use the 1 positions that are no numbers: 1"), "{said}");
     assert_eq!(self::mesh(reading).indices.len(), 1);
 }
 

@@ -192,10 +192,10 @@ impl Assembly {
             let [faces, triangles] =
                 collapse_faces(&mut mesh.indices, &mut self.polygons, is_unplaced);
             let count = unplaced.iter().filter(|unplaced| **unplaced).count();
-            findings.warning("positions that are no numbers", at_file, || {
+            findings.warning("faces without their positions", at_file, || {
                 format!(
-                    "positions that are NaN or infinite: {count}; they are left out, and the \
-                     {faces} faces that use them"
+                    "faces that use the {count} positions that are no numbers: {faces}; they are \
+                     left out"
                 )
             });
             gone += triangles;

@@ -156,7 +156,7 @@ impl Block {
         for (axis, value) in position.iter_mut().enumerate() {
             *value = match cursor.float(context.origin[axis]) {
                 Some(number) => number,
-                None if cursor.take_no_number() => f32::NAN,
+                None if self.no_number(cursor, context, "position") => f32::NAN,
                 None => {
                     self.bad_number(cursor, context, axis, "a position", 3);
                     break;
@@ -181,7 +181,7 @@ impl Block {
                 Some(value) if cursor.ends_word(cursor.at()) && (value as f32).is_finite() => value,
                 _ => {
                     *cursor = start;
-                    if !cursor.take_no_number() {
+                    if !self.no_number(cursor, context, "colour") {
                         self.bad_number(cursor, context, count, "what follows a position", 0);
                         break;
                     }
@@ -218,7 +218,7 @@ impl Block {
             match cursor.float(0.0) {
                 Some(number) => *value = number,
                 None if i >= least && !cursor.more() => break,
-                None if cursor.take_no_number() => *value = f32::NAN,
+                None if self.no_number(cursor, context, what) => *value = f32::NAN,
                 None => {
                     self.bad_number(cursor, context, i, what, least);
                     break;
@@ -226,6 +226,22 @@ impl Block {
             }
         }
         numbers
+    }
+
+    /// Takes a word that says NaN or infinity, of which its `kind` does without; whether it does.
+    #[cold]
+    fn no_number(&mut self, cursor: &mut Cursor<'_>, context: &Context, kind: &str) -> bool {
+        let here = cursor.clone();
+        if !cursor.take_no_number() {
+            return false;
+        }
+        let kind = kind.trim_start_matches("a ");
+        self.findings.warning(
+            "numbers that are NaN or infinite",
+            || here.here(&context.file),
+            || format!("`{}` is no number: the {kind} is left out", here.quote()),
+        );
+        true
     }
 
     /// Says why there is no number; the rest of the line goes unread.
