@@ -155,6 +155,7 @@ impl Frame {
 
     /// Eight rays where the axes are the world's, none of them moved along; those that [`Frame::rays`]
     /// would not move either, a bit each.
+    #[expect(clippy::needless_range_loop, reason = "an axis of four things at a time")]
     #[inline(always)]
     pub(crate) fn shift<S: Simd>(&self, simd: S, rays: &Rays8, to: &mut local::Rays8) -> u32 {
         let Rays8 { origin, dir, t_min, t_max, there } = rays;

@@ -1,5 +1,7 @@
 //! What can hardly be meant although every part of the scene is valid: all of it warnings.
 
+use std::collections::BTreeSet;
+
 use glam::DVec3;
 
 use super::at;
@@ -8,7 +10,7 @@ use crate::camera::CameraKind;
 use crate::diagnostic::{Diagnostic, Label};
 use crate::light::{Light, LightKind};
 use crate::material::Material;
-use crate::scene::{Object, Scene};
+use crate::scene::{GroupId, Object, Scene};
 use crate::shape::Shape;
 use crate::wording::list;
 
@@ -42,9 +44,9 @@ fn unseen(scene: &Scene, bounds: &[Bounds], say: &mut dyn FnMut(Diagnostic)) {
         let corners = bounds.corners().map(|corner| corner - scene.camera.eye);
         edges.iter().any(|edge| corners.iter().all(|corner| corner.dot(*edge) > 0.0))
     };
-    let has_end = |bounds: &&Bounds| !bounds.is_empty();
+    let is_unseen = |bounds: &Bounds| !bounds.is_empty() && outside(bounds);
     let unseen: Vec<&Object> = (scene.objects.iter().zip(bounds))
-        .filter(|(_, bounds)| has_end(bounds) && outside(bounds))
+        .filter(|(_, bounds)| is_unseen(bounds))
         .map(|(object, _)| object)
         .collect();
     let [first, ..] = unseen[..] else { return };
@@ -59,6 +61,19 @@ fn unseen(scene: &Scene, bounds: &[Bounds], say: &mut dyn FnMut(Diagnostic)) {
     if scene.materials.iter().any(mirrors) {
         return;
     }
+    // Of many copies some may well lie outside, as trees of a forest do.
+    let group_of = |object: &Object| match object.shape {
+        Shape::Instance(group) => Some(group),
+        _ => None,
+    };
+    let groups_seen: BTreeSet<GroupId> = (scene.objects.iter().zip(bounds))
+        .filter(|(_, bounds)| !is_unseen(bounds))
+        .filter_map(|(object, _)| group_of(object))
+        .collect();
+    let unseen: Vec<&Object> = (unseen.into_iter())
+        .filter(|object| group_of(object).is_none_or(|group| !groups_seen.contains(&group)))
+        .collect();
+    let [first, ..] = unseen[..] else { return };
     let names = list(unseen.iter().take(MOST_NAMED).map(|object| object.name.as_str()), ",");
     let more = unseen.len().saturating_sub(MOST_NAMED);
     let more = if more > 0 { format!(" and {more} more") } else { String::new() };
