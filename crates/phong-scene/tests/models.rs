@@ -115,7 +115,8 @@ fn tell_scene(text: &mut Vec<String>, scene: &Scene) {
             Shape::Cylinders(cylinders) => {
                 text.push(format!("  origin {}, {:?}", cylinders.origin, cylinders.caps));
                 for (i, ends) in cylinders.segments.iter().take(8).enumerate() {
-                    let colors = cylinders.colors.get(i).map(|ends| ends.map(|c| c.to_array()));
+                    let colors =
+                        cylinders.colors.get(i).map(|ends| ends.map(phong_scene::Rgb::to_array));
                     let colors = colors.map_or(String::new(), |colors| format!(" {colors:?}"));
                     text.push(format!("  {ends:?}{colors}"));
                 }

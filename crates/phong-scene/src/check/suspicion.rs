@@ -10,8 +10,8 @@ use crate::camera::CameraKind;
 use crate::diagnostic::{Diagnostic, Label};
 use crate::light::{Light, LightKind};
 use crate::material::Material;
-use crate::scene::{GroupId, Object, Scene};
-use crate::shape::Shape;
+use crate::scene::{Object, Scene};
+use crate::shape::{GroupId, Shape};
 use crate::wording::list;
 
 /// Most pairs of a light and an object that are looked at: a check must not outlast the render.
