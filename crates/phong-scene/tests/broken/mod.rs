@@ -11,7 +11,7 @@ use proptest::prelude::*;
 /// Numbers of which some are no numbers, or too large.
 fn number() -> impl Strategy<Value = f64> {
     prop_oneof![
-        200 => -10.0..10.0,
+        600 => -10.0..10.0,
         1 => prop::sample::select(vec![
             0.0, -0.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e18, -1e300, 1e-300, f64::MAX,
         ]),
@@ -20,11 +20,11 @@ fn number() -> impl Strategy<Value = f64> {
 
 /// Lengths and weights, of which most are above 0.
 fn length() -> impl Strategy<Value = f64> {
-    prop_oneof![30 => 0.1..4.0, 1 => number()]
+    prop_oneof![150 => 0.1..4.0, 1 => number()]
 }
 
 fn single() -> impl Strategy<Value = f32> {
-    prop_oneof![30 => 0.0..1.0_f32, 1 => number().prop_map(|n| n as f32)]
+    prop_oneof![300 => 0.0..1.0_f32, 1 => number().prop_map(|n| n as f32)]
 }
 
 fn vector() -> impl Strategy<Value = DVec3> {
@@ -36,7 +36,7 @@ fn color() -> impl Strategy<Value = Rgb> {
 }
 
 fn index() -> impl Strategy<Value = u32> {
-    prop_oneof![60 => 0..3_u32, 1 => Just(NO_INDEX), 1 => any::<u32>()]
+    prop_oneof![60 => 0..2_u32, 1 => Just(NO_INDEX), 1 => any::<u32>()]
 }
 
 fn list<S: Strategy>(of: S) -> impl Strategy<Value = Vec<S::Value>>
@@ -44,6 +44,24 @@ where
     S::Value: Clone,
 {
     prop::collection::vec(of, 0..5)
+}
+
+/// A mesh of which all arrays fit, or any at all.
+fn mesh_or_so() -> impl Strategy<Value = Mesh> {
+    let corner = prop::array::uniform3(0.0..1.0_f32).prop_map(Vec3::from);
+    let sound = (prop::collection::vec(corner, 4), any::<[bool; 3]>()).prop_map(
+        |(positions, [normals, colors, materials])| {
+            let mesh = Mesh {
+                indices: [[0, 1, 2], [3, 2, 1]].into(),
+                normals: if normals { vec![Vec3::X; 4] } else { Vec::new() }.into(),
+                colors: if colors { vec![Rgb::WHITE; 4] } else { Vec::new() }.into(),
+                face_materials: if materials { vec![0, 1] } else { Vec::new() }.into(),
+                ..Mesh::default()
+            };
+            Mesh { positions: positions.into(), ..mesh }
+        },
+    );
+    prop_oneof![6 => sound, 1 => mesh()]
 }
 
 pub(crate) fn mesh() -> impl Strategy<Value = Mesh> {
@@ -60,7 +78,6 @@ pub(crate) fn mesh() -> impl Strategy<Value = Mesh> {
     )
         .prop_map(|((origin, positions, indices, normals, normal_indices), rest)| {
             let (uvs, uv_indices, colors, face_materials) = rest;
-            // Most arrays fit: cut to the lengths that others have.
             Mesh {
                 origin,
                 positions: positions.into(),
@@ -77,7 +94,12 @@ pub(crate) fn mesh() -> impl Strategy<Value = Mesh> {
 
 fn shape() -> impl Strategy<Value = Shape> {
     let points = (vector(), list(prop::array::uniform4(single())), list(color())).prop_map(
-        |(origin, spheres, colors)| {
+        |(origin, mut spheres, mut colors)| {
+            // Colours that do not fit are rarer than those that do, and so are empty clouds.
+            if colors.len() != 4 {
+                spheres.push([0.0, 0.0, 0.0, 0.5]);
+                colors.clear();
+            }
             let (spheres, colors) = (spheres.into(), colors.into());
             Points { origin, spheres, colors, guessed: None }.into()
         },
@@ -91,12 +113,13 @@ fn shape() -> impl Strategy<Value = Shape> {
             normals: None,
             uv: None
         }),
-        (vector(), vector(), number()).prop_map(|(center, normal, radius)| Shape::Disc {
+        (vector(), vector(), length()).prop_map(|(center, normal, radius)| Shape::Disc {
             center,
             normal,
             radius
         }),
-        (vector(), vector()).prop_map(|(min, max)| Shape::Box { min, max }),
+        (vector(), prop::array::uniform3(length()))
+            .prop_map(|(min, size)| Shape::Box { min, max: min + DVec3::from(size) }),
         (vector(), vector(), length(), capped())
             .prop_map(|(from, to, radius, capped)| Shape::Cylinder { from, to, radius, capped }),
         (vector(), vector(), length(), length(), capped()).prop_map(
@@ -108,9 +131,10 @@ fn shape() -> impl Strategy<Value = Shape> {
                 capped
             }
         ),
-        (vector(), vector(), length(), length())
-            .prop_map(|(center, axis, radius, tube)| Shape::Torus { center, axis, radius, tube }),
-        mesh().prop_map(Shape::from),
+        (vector(), vector(), length(), length()).prop_map(|(center, axis, radius, tube)| {
+            Shape::Torus { center, axis, radius: tube + radius, tube }
+        }),
+        mesh_or_so().prop_map(Shape::from),
         points,
         index().prop_map(|group| Shape::Instance(GroupId(group))),
     ]
@@ -141,7 +165,9 @@ prop_compose! {
         let kind = match kind {
             0 => LightKind::Point { position, attenuation, radius },
             1 => LightKind::Distant { direction: target, angle: cone },
-            _ => LightKind::Spot { position, target, cone, edge, attenuation, radius },
+            _ => {
+                LightKind::Spot { position, target, cone, edge: cone + edge, attenuation, radius }
+            }
         };
         Light { color, kind, ..Light::default() }
     }
@@ -174,11 +200,11 @@ prop_compose! {
 
 prop_compose! {
     fn texture()(
-        a in color(), b in color(), scale in single(), axis in vector(), length in length(), kind in 0..3,
+        a in color(), b in color(), scale in single(), axis in vector(), length in length(), kind in 0..40,
     ) -> Texture {
         let kind = match kind {
-            0 => TextureKind::Checker { colors: [a, b], scale: scale.into() },
-            1 => TextureKind::Gradient { axis, from: 0.0, to: length, stops: vec![(0.0, a), (scale, b)] },
+            0..20 => TextureKind::Checker { colors: [a, b], scale: scale.into() },
+            20..39 => TextureKind::Gradient { axis, from: 0.0, to: length, stops: vec![(0.0, a), (scale, b)] },
             _ => TextureKind::Gradient { axis, from: 1.0, to: length, stops: Vec::new() },
         };
         Texture { kind, ..Texture::default() }
@@ -186,9 +212,9 @@ prop_compose! {
 }
 
 prop_compose! {
-    /// Most have a texture for their colour or their highlight, not all of which there are.
+    /// Some have a texture for their colour or their highlight, not all of which there are.
     fn any_material()(
-        constant in material(), texture in 0..4_u32, what in 0..4, scale in single(),
+        constant in material(), texture in index(), what in 0..8, scale in single(),
     ) -> Material {
         let mut material = Material::from(constant);
         let by = TextureRef { scale, ..TextureRef::new(TextureId(texture)) };
@@ -204,12 +230,13 @@ prop_compose! {
 
 prop_compose! {
     pub(crate) fn any_scene()(
-        size in prop::array::uniform2(prop_oneof![9 => 1..9_u32, 1 => Just(0)]), samples in prop_oneof![9 => 1..3_u32, 1 => Just(0)],
+        size in prop::array::uniform2(prop_oneof![80 => 1..9_u32, 1 => Just(0)]),
+        samples in prop_oneof![80 => 1..3_u32, 1 => Just(0)],
         depth in 0..9_u32,
         camera in (vector(), vector(), vector(), length(), length()),
         ambient in color(), top in color(), lights in list(light()),
         materials in prop::collection::vec(any_material(), 2..5),
-        textures in prop::collection::vec(texture(), 0..4),
+        textures in prop::collection::vec(texture(), 2..4),
         objects in objects(), groups in prop::collection::vec(objects(), 0..4),
     ) -> Scene {
         let (eye, look_at, up, fov, aperture) = camera;
