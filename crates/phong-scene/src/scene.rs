@@ -53,6 +53,7 @@
 //! | `torus` | a list of tables | none | A ring with a round section. |
 //! | `mesh` | a list of tables | none | The triangles of a file. |
 //! | `points` | a list of tables | none | A sphere at every point of a file. |
+//! | `cylinders` | a list of tables | none | A cylinder along every segment of a file. |
 //! | `instance` | a list of tables | none | A group, placed. |
 //! | `include` | a list of tables | none | Other files, at this place. |
 //!
