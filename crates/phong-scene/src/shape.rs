@@ -159,7 +159,7 @@
 //! |---|---|---|---|
 //! | `file` | the path of a file, in quotes | required | A file of segments: a PLY with an element `edge` of `vertex1` and `vertex2`. |
 //! | `radius` | a number above 0 | that of the vertices; an error where they have none | Radius of the cylinders; the file's own per edge (`radius`, or `radius1` and `radius2` for its ends) win. |
-//! | `caps` | "round", "flat" or "none" | "round" | What the ends look like: half spheres, discs, or open. |
+//! | `caps` | `round`, `flat` or `none` | `"round"` | What the ends look like: half spheres, discs, or open. |
 //! | `material` | the name of a material, in quotes | the file's own, else the default material | The name of its material; replaces the file's own. |
 //!
 //! Colours of the edges replace the material's. Without, colours of the vertices do: each half of a cylinder is of the
