@@ -6,7 +6,7 @@
 //!
 //! ```
 //! use phong_lab::figures::Finish;
-//! let figure = phong::figures::find("shininess").unwrap().draw(Finish::Draft);
+//! let figure = phong_lab::figures::find("shininess").unwrap().draw(Finish::Draft);
 //! assert!(figure.svg().starts_with("<svg"));
 //! let half_width = figure.number("half width, i = 2").unwrap();
 //! assert!((half_width - 45.0).abs() < 1e-3);

@@ -11,7 +11,7 @@
 //! let fit = fit(Lobe::new(Model::Phong, 32.0)?, Model::BlinnPhong)?;
 //! assert!((fit.to.number - 129.3).abs() < 0.1); // about four times
 //! assert!(fit.residual.in_plane < 0.01 && fit.residual.across > 0.3);
-//! # Ok::<(), phong::fit::FitError>(())
+//! # Ok::<(), phong_lab::fit::FitError>(())
 //! ```
 
 mod formula;
