@@ -27,7 +27,7 @@ impl Lab {
     /// The colour of linear values, clamped to [0, 1] as a display does.
     ///
     /// ```
-    /// let white = phong::compare::Lab::of_linear([1.0; 3]);
+    /// let white = phong_lab::compare::Lab::of_linear([1.0; 3]);
     /// assert!((white.l - 100.0).abs() < 1e-9 && white.a.abs() < 1e-9);
     /// ```
     pub fn of_linear(rgb: [f64; 3]) -> Self {
