@@ -1,6 +1,8 @@
 //! The hierarchy finds what brute force finds, bit for bit: every level, every preset, every thread
 //! count, and whatever the input.
 
+mod random;
+
 use glam::{DAffine3, DVec3, Vec3};
 use phong_bvh::{
     BuildOptions, Canonical, Caps, Cylinder, Hit, Hits8, Level, Plane, Preset, Primitives, Ray,
@@ -8,18 +10,9 @@ use phong_bvh::{
 };
 use proptest::prelude::*;
 
-/// A stream of numbers from a seed.
-struct Numbers(u64);
+use random::Random;
 
-impl Numbers {
-    fn bits(&mut self) -> u64 {
-        // SplitMix64.
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let x = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        x ^ (x >> 31)
-    }
-
+impl Random {
     fn below(&mut self, n: usize) -> usize {
         (self.bits() % n as u64) as usize
     }
@@ -39,12 +32,12 @@ impl Numbers {
 
     /// A factor, from tiny to huge.
     fn scale(&mut self) -> f32 {
-        [1e-6, 1e-3, 0.1, 1.0, 1.0, 30.0, 1e4, 1e9][self.below(8)]
+        self.of(&[1e-6, 1e-3, 0.1, 1.0, 1.0, 30.0, 1e4, 1e9])
     }
 }
 
 /// A cylinder: often with one radius, along an axis, without length, or long and thin.
-fn cylinder(numbers: &mut Numbers, scale: f32, from: Vec3) -> Cylinder {
+fn cylinder(numbers: &mut Random, scale: f32, from: Vec3) -> Cylinder {
     let away = match numbers.below(4) {
         0 => Vec3::new(0.0, numbers.signed(), 0.0),
         1 => [Vec3::ZERO, Vec3::X, Vec3::NEG_Z][numbers.below(3)],
@@ -57,7 +50,7 @@ fn cylinder(numbers: &mut Numbers, scale: f32, from: Vec3) -> Cylinder {
 }
 
 /// Some triangles, spheres, cylinders, planes and solids: many coincide, are flat, thin, huge or tiny.
-fn geometry(numbers: &mut Numbers, most: usize) -> Vec<Primitives> {
+fn geometry(numbers: &mut Random, most: usize) -> Vec<Primitives> {
     let mut all = Vec::new();
     for _ in 0..numbers.below(4) {
         let (scale, at) = (numbers.scale(), numbers.point());
@@ -117,7 +110,7 @@ fn geometry(numbers: &mut Numbers, most: usize) -> Vec<Primitives> {
 }
 
 /// A ray towards a corner, a middle or nothing in particular; often along an axis or within a plane.
-fn ray(numbers: &mut Numbers, geometry: &[Primitives]) -> Ray {
+fn ray(numbers: &mut Random, geometry: &[Primitives]) -> Ray {
     let target = match geometry.get(numbers.below(geometry.len() + 1)) {
         Some(Primitives::Triangles { positions, indices }) if !indices.is_empty() => {
             let [a, b, c] = indices[numbers.below(indices.len())].map(|i| positions[i as usize]);
@@ -204,7 +197,7 @@ proptest! {
 
     #[test]
     fn a_handful_of_spheres_loses_no_ray_that_grazes_them(seed: u64) {
-        let mut numbers = Numbers(seed);
+        let mut numbers = Random(seed);
         let scale = numbers.scale();
         let spheres: Vec<Sphere> = (0..=numbers.below(8))
             .map(|_| Sphere {
@@ -228,7 +221,7 @@ proptest! {
 
     #[test]
     fn the_hierarchy_finds_what_brute_force_finds(seed: u64) {
-        let mut numbers = Numbers(seed);
+        let mut numbers = Random(seed);
         let geometry = geometry(&mut numbers, 120);
         let rays: Vec<Ray> = (0..70).map(|_| ray(&mut numbers, &geometry)).collect();
         agrees_with_brute_force(&geometry, &rays);
@@ -236,7 +229,7 @@ proptest! {
 
     #[test]
     fn cylinders_alone_are_found_as_brute_force_finds_them(seed: u64) {
-        let mut numbers = Numbers(seed);
+        let mut numbers = Random(seed);
         let (scale, size) = (numbers.scale(), numbers.scale().min(1.0));
         let caps = [Caps::Round, Caps::Round, Caps::Flat, Caps::Open][numbers.below(4)];
         let cylinders = (0..=numbers.below(200)).map(|_| {
@@ -261,7 +254,7 @@ proptest! {
 
     #[test]
     fn a_coherent_bundle_finds_what_brute_force_finds(seed: u64) {
-        let mut numbers = Numbers(seed);
+        let mut numbers = Random(seed);
         let geometry = geometry(&mut numbers, 400);
         let (first, spread) = (ray(&mut numbers, &geometry), numbers.scale().min(0.3));
         let same_origin = numbers.below(2) == 0;
@@ -276,7 +269,7 @@ proptest! {
 
     #[test]
     fn rays_that_meet_at_a_light_find_what_brute_force_finds(seed: u64) {
-        let mut numbers = Numbers(seed);
+        let mut numbers = Random(seed);
         let geometry = geometry(&mut numbers, 400);
         let (first, spread) = (ray(&mut numbers, &geometry), numbers.scale().min(0.05));
         let length = [0.5, 3.0, 200.0][numbers.below(3)];
@@ -341,8 +334,8 @@ fn a_thousand_sizes_from_tiny_to_huge_make_no_tree_too_deep() {
 
 #[test]
 fn a_tree_does_not_depend_on_the_number_of_threads() {
-    let mut numbers = Numbers(7);
-    let center = |numbers: &mut Numbers| 100.0 * numbers.point();
+    let mut numbers = Random(7);
+    let center = |numbers: &mut Random| 100.0 * numbers.point();
     let spheres: Vec<Sphere> =
         (0..60_000).map(|_| Sphere { center: center(&mut numbers), radius: 0.5 }).collect();
     let rays: Vec<Ray> = (0..300)

@@ -1,5 +1,7 @@
 //! Instances: the same bits on every road through a world, and the places and normals that f64 says.
 
+mod random;
+
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DQuat, DVec3, Vec3};
@@ -9,21 +11,9 @@ use phong_bvh::{
 };
 use proptest::prelude::*;
 
-/// A stream of numbers from a seed: Steele, Lea and Flood's `SplitMix64`.
-struct Numbers(u64);
+use random::Random;
 
-impl Numbers {
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn of<T: Copy>(&mut self, choices: &[T]) -> T {
-        choices[(self.bits() % choices.len() as u64) as usize]
-    }
-
+impl Random {
     /// In [−1, 1); now and then on a coarse lattice, so that things coincide and align.
     fn signed(&mut self) -> f64 {
         if self.bits().is_multiple_of(4) {
@@ -178,7 +168,7 @@ proptest! {
 
     #[test]
     fn a_world_of_instances_has_the_bits_of_brute_force(seed: u64) {
-        let mut numbers = Numbers(seed);
+        let mut numbers = Random(seed);
         let most = numbers.of(&[4, 8, 30]);
         let parts = numbers.parts(most, BuildOptions::default());
         let rays = numbers.rays(&parts);
@@ -194,7 +184,7 @@ proptest! {
 
     #[test]
     fn few_instances_and_a_tree_over_many_have_the_same_bits(seed: u64) {
-        let mut numbers = Numbers(seed);
+        let mut numbers = Random(seed);
         let mut parts = numbers.parts(5, BuildOptions::default());
         let rays = numbers.rays(&parts);
         let few = world(&parts, BuildOptions::default());
@@ -209,7 +199,7 @@ proptest! {
 
     #[test]
     fn a_triangle_of_an_instance_is_where_f64_says(seed: u64) {
-        let mut numbers = Numbers(seed);
+        let mut numbers = Random(seed);
         let corners = [0; 3].map(|_| numbers.point().as_vec3());
         let mesh = Primitives::triangles(corners.to_vec(), vec![[0, 1, 2]]);
         let tree = Arc::new(Tree::build(mesh, BuildOptions::default()).expect("one triangle"));
@@ -259,7 +249,7 @@ proptest! {
 
     #[test]
     fn a_ray_that_leaves_an_instance_does_not_meet_it_where_it_left(seed: u64) {
-        let mut numbers = Numbers(seed);
+        let mut numbers = Random(seed);
         let sphere = numbers.bits().is_multiple_of(2);
         let object = if sphere {
             let center = numbers.point().as_vec3();
@@ -312,7 +302,7 @@ fn of_two_instances_at_one_place_the_lower_part_is_hit() {
 
 #[test]
 fn an_instance_that_is_not_moved_has_the_bits_of_the_primitives_themselves() {
-    let mut numbers = Numbers(3);
+    let mut numbers = Random(3);
     for _ in 0..200 {
         let object = numbers.object();
         let own = World::of(vec![object.clone()], BuildOptions::default()).unwrap();
@@ -333,7 +323,7 @@ fn an_instance_that_is_not_moved_has_the_bits_of_the_primitives_themselves() {
 
 #[test]
 fn a_small_thing_seen_from_ten_million_away_is_where_it_is() {
-    let mut numbers = Numbers(5);
+    let mut numbers = Random(5);
     let sphere = Sphere { center: Vec3::new(0.25, 0.5, -0.125), radius: 0.5 };
     let (center, radius) = (sphere.center.as_dvec3(), 0.5);
     let tree = Tree::build(Primitives::spheres(vec![sphere]), BuildOptions::default()).unwrap();
@@ -383,7 +373,7 @@ fn a_small_thing_seen_from_ten_million_away_is_where_it_is() {
 
 #[test]
 fn an_object_written_far_from_its_own_origin_is_met_where_it_stands() {
-    let mut numbers = Numbers(9);
+    let mut numbers = Random(9);
     let far = Vec3::new(524_288.0, -262_144.0, 1024.0);
     let corner = |_| (16.0 * numbers.point()).round().as_vec3() / 16.0;
     let corners: Vec<Vec3> = (0..300).map(corner).collect();

@@ -15,26 +15,16 @@
 //!
 //! Every other answer is held to these bounds, and enough cases must lie outside of the doubt.
 
+mod random;
+
 use glam::{DVec3, Vec3};
 use phong_bvh::{BuildOptions, Caps, Cylinder, Hit, Primitives, Ray, Sphere, World};
 
+use random::Random;
+
 const U: f64 = 1.0 / 16_777_216.0;
 
-/// Random numbers: Steele, Lea and Flood's `SplitMix64`.
-struct Random(u64);
-
 impl Random {
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn of<T: Copy>(&mut self, choices: &[T]) -> T {
-        choices[(self.bits() % choices.len() as u64) as usize]
-    }
-
     /// In [−1, 1).
     fn signed(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0

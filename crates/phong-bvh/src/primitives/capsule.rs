@@ -116,7 +116,7 @@ pub(crate) fn lane(cylinder: &Cylinder, caps: Caps) -> [f32; BLOCK - 1] {
 }
 
 /// Which lanes of a block a ray meets.
-pub(crate) struct Met {
+pub(crate) struct CapsuleHits {
     /// Capsules that are hit, a bit each.
     pub(crate) hit: u32,
     /// Those of them that are hit in the half of the second end.
@@ -127,7 +127,7 @@ pub(crate) struct Met {
     pub(crate) t: [f32; 8],
 }
 
-impl Met {
+impl CapsuleHits {
     /// Where the capsule of a lane is hit, which it is.
     #[inline(always)]
     pub(crate) fn at(&self, lane: usize) -> At {
@@ -136,7 +136,7 @@ impl Met {
 }
 
 /// A ray against the eight cylinders of a block: a function of its own for each level.
-pub(crate) fn intersect8<S: Simd>(simd: S, ray: &Closest8<S>, block: &[Row; BLOCK]) -> Met {
+pub(crate) fn intersect8<S: Simd>(simd: S, ray: &Closest8<S>, block: &[Row; BLOCK]) -> CapsuleHits {
     simd.vectorize(
         #[inline(always)]
         || intersect8_at(simd, ray, block),
@@ -144,7 +144,7 @@ pub(crate) fn intersect8<S: Simd>(simd: S, ray: &Closest8<S>, block: &[Row; BLOC
 }
 
 #[inline(always)]
-fn intersect8_at<S: Simd>(simd: S, ray: &Closest8<S>, block: &[Row; BLOCK]) -> Met {
+fn intersect8_at<S: Simd>(simd: S, ray: &Closest8<S>, block: &[Row; BLOCK]) -> CapsuleHits {
     let load = |row: usize| f32x8::load_array_ref(simd, &block[row].0);
     let zero = f32x8::splat(simd, 0.0);
     let one = f32x8::splat(simd, 1.0);
@@ -188,7 +188,7 @@ fn intersect8_at<S: Simd>(simd: S, ray: &Closest8<S>, block: &[Row; BLOCK]) -> M
     }
     let may = capsule & inside.simd_ge(zero);
     if !may.any_true() {
-        return Met { hit: 0, second_half: 0, open, t: [0.0; 8] };
+        return CapsuleHits { hit: 0, second_half: 0, open, t: [0.0; 8] };
     }
     let reach = (inside.max(zero) * per_ee).sqrt();
     let crossing = |t: f32x8<S>, side: f32| -> (mask32x8<S>, f32x8<S>, mask32x8<S>) {
@@ -224,7 +224,7 @@ fn intersect8_at<S: Simd>(simd: S, ray: &Closest8<S>, block: &[Row; BLOCK]) -> M
         let first = first.to_bitmask() as u32;
         second_half = second_half & first | behind.to_bitmask() as u32 & !first;
     }
-    Met { hit: hit.to_bitmask() as u32, second_half, open, t: t.to_array() }
+    CapsuleHits { hit: hit.to_bitmask() as u32, second_half, open, t: t.to_array() }
 }
 
 #[cfg(test)]

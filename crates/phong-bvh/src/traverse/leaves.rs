@@ -11,7 +11,7 @@ use crate::{
     local::Ray,
     node8::{Kind, Ref, Row, rows},
     primitives::{
-        capsule::{self, At, Met},
+        capsule::{self, At, CapsuleHits},
         sphere::{self, Closest, Closest8},
         tapered::Tapered,
         triangle::{self, Shear, Shear8},
@@ -197,7 +197,7 @@ impl<S: Simd> Leaves<S> for Cylinders<S> {
     #[inline(never)]
     fn any(&self, simd: S, world: &World<'_>, ray: &Ray, leaf: Ref) -> bool {
         let block: &[Row; capsule::BLOCK] = rows(world.rows, leaf.row());
-        let Met { hit, open, .. } = capsule::intersect8(simd, &self.closest8, block);
+        let CapsuleHits { hit, open, .. } = capsule::intersect8(simd, &self.closest8, block);
         let mut any = hit != 0;
         if !any && open != 0 {
             tapered(block, open, ray, &mut |_, _| any = true);

@@ -202,18 +202,11 @@ impl Body<'_> {
     ) -> io::Result<Option<u64>> {
         let mut walk = Walk::new(self, offset);
         let mut findings = Findings::default();
+        let mut values = Vec::with_capacity(element.properties.len());
         for number in 0..element.count {
-            let mut values = Vec::with_capacity(element.properties.len());
-            for property in &element.properties {
-                let value = match property.list {
-                    None => walk.number(property.kind)?,
-                    Some(count) => walk.skip_list(count, property.kind)?.then_some(0.0),
-                };
-                let Some(value) = value else {
-                    self.tell_truncated(element, number);
-                    return Ok(None);
-                };
-                values.push(value);
+            if !walk.row(element, &mut values)? {
+                self.tell_truncated(element, number);
+                return Ok(None);
             }
             let row = self.plan.columns.map(|column| column.map_or(0.0, |c| values[c]));
             vertices.push(&self.plan, &row);
@@ -489,7 +482,7 @@ impl<'a> Walk<'a> {
 
     /// The next number; `None` at the end of the file.
     #[inline]
-    pub(super) fn number(&mut self, kind: Type) -> io::Result<Option<f64>> {
+    fn number(&mut self, kind: Type) -> io::Result<Option<f64>> {
         let size = kind.size();
         if self.at + size > self.filled && !self.fill(size)? {
             return Ok(None);
@@ -497,6 +490,20 @@ impl<'a> Walk<'a> {
         let value = load(&self.buffer[self.at..self.at + size], kind, self.big);
         self.at += size;
         Ok(Some(value))
+    }
+
+    /// The numbers of one row, 0 for a list; whether it is there as a whole.
+    pub(super) fn row(&mut self, element: &Element, values: &mut Vec<f64>) -> io::Result<bool> {
+        values.clear();
+        for property in &element.properties {
+            let value = match property.list {
+                None => self.number(property.kind)?,
+                Some(count) => self.skip_list(count, property.kind)?.then_some(0.0),
+            };
+            let Some(value) = value else { return Ok(false) };
+            values.push(value);
+        }
+        Ok(true)
     }
 
     /// Reads on; whether there are `size` more bytes.
@@ -531,7 +538,7 @@ impl<'a> Walk<'a> {
     }
 
     /// Skips a list; whether it is there as a whole.
-    pub(super) fn skip_list(&mut self, count: Type, kind: Type) -> io::Result<bool> {
+    fn skip_list(&mut self, count: Type, kind: Type) -> io::Result<bool> {
         let Some(count) = self.number(count)? else { return Ok(false) };
         let size = count.max(0.0) as u64 * kind.size() as u64;
         if size <= (self.filled - self.at) as u64 {

@@ -49,17 +49,9 @@ impl Body<'_> {
         let mut findings = Findings::default();
         let mut values = Vec::with_capacity(element.properties.len());
         for number in 0..element.count {
-            values.clear();
-            for property in &element.properties {
-                let value = match property.list {
-                    None => walk.number(property.kind)?,
-                    Some(count) => walk.skip_list(count, property.kind)?.then_some(0.0),
-                };
-                let Some(value) = value else {
-                    self.tell_truncated(element, number);
-                    return Ok(None);
-                };
-                values.push(value);
+            if !walk.row(element, &mut values)? {
+                self.tell_truncated(element, number);
+                return Ok(None);
             }
             let row = plan.columns.map(|column| column.map_or(0.0, |c| values[c]));
             if let Err(fault) = edges.add(plan, &row) {
