@@ -20,7 +20,8 @@ pub struct SurfaceInteraction {
     pub p_error: Vec3,
     /// Geometric normal as the surface has it: outwards, whichever side the ray comes from.
     pub ng: Dir3,
-    /// Shading normal, on the side the ray comes from: N.
+    /// Shading normal, on the side of the geometric normal that the ray comes from: N. At a silhouette
+    /// N·E may be below 0.
     pub n: Dir3,
     /// To the eye: against the ray. E.
     pub e: Dir3,

@@ -117,11 +117,13 @@ impl Batch {
         colors && self.mesh.as_ref().is_none_or(|mesh| bare(mesh))
     }
 
-    /// The interpolated shading normal; `None` where the mesh has none.
+    /// The interpolated shading normal; `None` where the mesh has none. Normals of any length count as
+    /// unit ones: those that are so, to rounding, are taken as they are.
     #[inline]
     pub(crate) fn normal(&self, local: u32, corners: [u32; 3], hit: &Hit) -> Option<Dir3> {
         let mesh = self.mesh.as_ref()?;
         let [a, b, c] = at_corners(&mesh.normals, &mesh.normal_indices, local, corners)?;
+        let [a, b, c] = [unit(a), unit(b), unit(c)];
         let n = (1.0 - hit.u - hit.v) * a + hit.u * b + hit.v * c;
         Dir3::new(self.normals_to_world.as_ref().map_or(n, |matrix| **matrix * n))
     }
@@ -145,6 +147,12 @@ impl Batch {
         }
         self.colors.get(local as usize).copied()
     }
+}
+
+/// The unit vector along `n`, which stays as it is where it is one to 5e-6; 0 where it has no direction.
+#[inline]
+fn unit(n: Vec3) -> Vec3 {
+    if (n.dot(n) - 1.0).abs() < 1e-5 { n } else { Dir3::new(n).map_or(Vec3::ZERO, Dir3::to_vec) }
 }
 
 /// The values at a triangle's corners; `None` where there are none.

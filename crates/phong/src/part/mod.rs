@@ -27,7 +27,7 @@ const MAGIC: &str = "phong part 3\n";
 
 /// The version of the arithmetic. It is raised by every change that moves a bit of any picture, so
 /// that no picture is put together from two of them.
-pub const ARITHMETIC: u32 = 1;
+pub const ARITHMETIC: u32 = 2;
 
 /// What stands for a tile's number after the last one.
 const END: u64 = u64::MAX;

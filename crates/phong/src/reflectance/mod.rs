@@ -33,6 +33,10 @@ use crate::terms::Terms;
 /// Cosines up to this are 0 but for rounding; what is divided by them would be noise, or ∞.
 const HORIZON: f32 = 1e-9;
 
+/// The least cosine between normal and eye that is divided by: an eye below the horizon of a shading normal,
+/// as at the silhouette of a smooth mesh, counts as this far above it.
+const GRAZING: f32 = 1e-4;
+
 /// Roughnesses below this count as this: a narrower lobe is a mirror, which f32 cannot hold and
 /// which no light but the mirror ray would ever meet.
 pub const NARROWEST: f32 = 1e-4;
@@ -91,7 +95,8 @@ impl Reflectance {
 
     /// What one light adds to the diffuse and the specular term; the other terms are 0.
     ///
-    /// `n` is the shading normal, on the side of `e`, the direction to the eye; `tangent` gives
+    /// `n` is the shading normal and `e` the direction to the eye, which at a silhouette may lie below the
+    /// horizon of `n`: models that divide by N·E take max(N·E, 1e-4). `tangent` gives
     /// brushed models their grain, need not be perpendicular to `n`, and is ignored by the rest.
     /// Included: cosine, weights, colours. Not included: visibility, and ambient light.
     ///

@@ -6,7 +6,7 @@ use std::f32::consts::FRAC_1_PI;
 
 use phong_scene::Rgb;
 
-use super::{HORIZON, Incident};
+use super::{GRAZING, HORIZON, Incident};
 use crate::math::{Dir3, acos};
 use crate::terms::Terms;
 
@@ -61,10 +61,11 @@ impl OrenNayar {
         Terms { diffuse: self.k_d * n.cos(l) * shape * c_d, ..Terms::default() }
     }
 
-    /// The BRDF without its ρ, as published; 0 where L or E is not above the horizon.
+    /// The BRDF without its ρ, as published; 0 where L is not above the horizon. N·E counts as 1e-4 at
+    /// least.
     pub fn shape(&self, n: Dir3, l: Dir3, e: Dir3) -> RoughDiffuse {
-        let (n_dot_l, n_dot_e) = (n.dot(l), n.dot(e));
-        if n_dot_l <= HORIZON || n_dot_e <= HORIZON {
+        let (n_dot_l, n_dot_e) = (n.dot(l), n.dot(e).max(GRAZING));
+        if n_dot_l <= HORIZON {
             return RoughDiffuse::default();
         }
         let s2 = self.sigma * self.sigma;

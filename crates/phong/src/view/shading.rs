@@ -10,7 +10,7 @@ use crate::math::lanes::{Lanes3, dot, load3, select3, set, splat3, store3};
 
 /// What shading needs of a surface besides its geometry.
 pub(super) struct Shading {
-    /// Shading normal, on the side of the eye.
+    /// Shading normal, on the side of the geometric normal that faces the eye.
     pub(super) n: Dir3,
     /// Number of the material.
     pub(super) material: u32,
@@ -22,7 +22,7 @@ pub(super) struct Shading {
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
 pub(crate) struct Shading8 {
-    /// Shading normals, on the side of the eye.
+    /// Shading normals, on the side of the geometric normals that faces the eye.
     pub(crate) n: Lanes3,
     /// The diffuse colours.
     pub(crate) color: Lanes3,
@@ -39,7 +39,7 @@ impl View {
     /// eye.
     pub(super) fn shading(&self, hit: &Hit, ng: Dir3, e: Dir3) -> Shading {
         let (material, color, n) = self.attributes(hit);
-        Shading { n: n.unwrap_or(ng).facing(e), material, color }
+        Shading { n: n.unwrap_or(ng).facing(ng.facing(e)), material, color }
     }
 
     /// The material at a hit, and the colour and the shading normal where the geometry brings them.
@@ -99,8 +99,12 @@ impl View {
                 }
             }
         }
+        // Turned to the side of the geometric normal that faces the eye, never by N·E: at a silhouette
+        // the shading normal may well look away from the eye.
+        let back = dot(ng, e).simd_lt(zero);
+        let front = select3(back, [-ng[0], -ng[1], -ng[2]], ng);
         let up = load3(simd, n);
-        let away = dot(up, e).simd_lt(zero);
+        let away = dot(up, front).simd_lt(zero);
         *n = store3(select3(away, [-up[0], -up[1], -up[2]], up));
     }
 }

@@ -11,7 +11,7 @@ pub use distribution::{Distribution, Lean};
 pub use shadowing::visible;
 
 use super::fresnel::mirrored;
-use super::{HORIZON, Incident};
+use super::{GRAZING, HORIZON, Incident};
 use crate::math::Dir3;
 use crate::terms::Terms;
 
@@ -49,13 +49,14 @@ impl Microfacet {
         }
     }
 
-    /// `f = D G F / (4 (N·L)(N·E))`, per steradian, without weights and cosine; black where L or E
-    /// is not above the horizon.
+    /// `f = D G F / (4 (N·L)(N·E))`, per steradian, without weights and cosine; black where L is not
+    /// above the horizon. N·E counts as 1e-4 at least.
     pub fn brdf(&self, n: Dir3, l: Dir3, e: Dir3) -> Rgb {
         let [lean_l, lean_e] = [l, e].map(|v| Lean::of(n, v));
-        if lean_l.cos <= HORIZON || lean_e.cos <= HORIZON {
+        if lean_l.cos <= HORIZON {
             return Rgb::BLACK;
         }
+        let lean_e = Lean { cos: lean_e.cos.max(GRAZING), ..lean_e };
         let Some(h) = l.halfway(e) else { return Rgb::BLACK };
         let (lean_h, e_dot_h) = (Lean::of(n, h), e.cos(h));
         let d = self.distribution.density(lean_h);
@@ -106,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn an_eye_below_the_horizon_sees_nothing() {
+    fn an_eye_below_the_horizon_sees_what_a_grazing_one_sees_and_a_light_there_gives_nothing() {
         let model = Microfacet {
             k_d: 0.0,
             k_s: 1.0,
@@ -114,7 +115,9 @@ mod tests {
             shadowing: Shadowing::VCavity,
             fresnel: Fresnel::None,
         };
-        assert_eq!(model.brdf(Dir3::Z, Dir3::Z, dir(1.0, 0.0, -0.1)), Rgb::BLACK);
+        let below = model.brdf(Dir3::Z, Dir3::Z, dir(1.0, 0.0, -0.1));
+        let grazing = model.brdf(Dir3::Z, Dir3::Z, dir(1.0, 0.0, 1e-4));
+        assert!(below.r > 0.0 && below.r < grazing.r && grazing.r < 1.0, "{below:?} {grazing:?}");
         assert_eq!(model.brdf(Dir3::Z, dir(1.0, 0.0, -0.1), Dir3::Z), Rgb::BLACK);
     }
 }
