@@ -67,6 +67,7 @@
 //! | `filter` | `box`, `tent`, `gaussian` or `mitchell` | `"box"` | How samples are weighted into a pixel. |
 //! | `seed` | a whole number, 0 or above | `0` | Seed of the sampling pattern. |
 //! | `depth` | a whole number from 0 to 100 | `8` | Mirror and glass bounces; beyond it a ray brings black. |
+//! | `terminator` | `true` or `false` | `true` | Whether shadow rays from meshes with smooth normals start above the face, so that faces do not show where light ends. |
 //!
 //! `background = { .. }`:
 //!
@@ -185,6 +186,9 @@ pub struct Image {
     pub seed: u64,
     /// Mirror and glass bounces; beyond it a ray brings black. Default 8.
     pub depth: u32,
+    /// Whether shadow rays from meshes with smooth normals start above the face, so that faces do not
+    /// show where light ends. Default true.
+    pub terminator: bool,
 }
 
 impl Image {
@@ -205,6 +209,7 @@ impl Default for Image {
             filter: FilterKind::Box,
             seed: 0,
             depth: 8,
+            terminator: true,
         }
     }
 }

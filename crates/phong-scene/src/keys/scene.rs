@@ -113,6 +113,13 @@ pub(crate) static IMAGE: Table = Table {
             Default::Integer(8),
             "Mirror and glass bounces; beyond it a ray brings black.",
         ),
+        Key::new(
+            "terminator",
+            Kind::Flag,
+            Default::Flag(true),
+            "Whether shadow rays from meshes with smooth normals start above the face, so that \
+             faces do not show where light ends.",
+        ),
     ]],
 };
 

@@ -109,6 +109,7 @@ impl Make {
             filter: self.one(&[Box, Tent, Gaussian, Mitchell]),
             seed: self.one(&[0, 1, u64::MAX]),
             depth: self.one(&[8, 0, 100]),
+            terminator: self.one(&[true, false]),
         }
     }
 

@@ -288,6 +288,7 @@ impl<'a> Road<'a> {
             background: options.background(),
             depth: options.depth(),
             shadows: options.shadows(),
+            terminator: options.terminator(),
             stop: None,
         };
         Ok(Self { integrator, options, filter: Filter::new(options.filter()), pixel })

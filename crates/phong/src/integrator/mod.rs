@@ -40,6 +40,8 @@ pub(crate) struct Integrator<'a> {
     pub(crate) depth: u32,
     /// Whether things stand in the way of lights at all.
     pub(crate) shadows: bool,
+    /// Whether shadow rays from meshes with smooth normals start above the face.
+    pub(crate) terminator: bool,
     /// Once true, whatever is under way ends soon, and what it brought is unspecified. `None`:
     /// nothing stops it.
     pub(crate) stop: Option<&'a AtomicBool>,

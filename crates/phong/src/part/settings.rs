@@ -36,6 +36,7 @@ impl Settings {
             ("seed", options.seed().to_string()),
             ("depth", options.depth().to_string()),
             ("shadows", options.shadows().to_string()),
+            ("terminator", options.terminator().to_string()),
             ("filter", format!("{:?}", options.filter())),
             ("background", format!("{:?}", options.background())),
         ];

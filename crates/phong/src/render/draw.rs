@@ -198,8 +198,14 @@ mod tests {
                 let scene = Scene { image, camera, lights, ..Scene::default() };
                 let options = RenderOptions::of(&scene.image).expect("as by default but for a few");
                 let view = View::of(&scene).expect("a scene of nothing but a light");
-                let integrator =
-                    Integrator { scene: &view, background, depth: 0, shadows: true, stop: None };
+                let integrator = Integrator {
+                    scene: &view,
+                    background,
+                    depth: 0,
+                    shadows: true,
+                    terminator: true,
+                    stop: None,
+                };
                 let filter = Filter::new(filter);
                 let pixels =
                     [Pixels8::new([0, 3], 8, &options), Pixels8::new([16, 4], 5, &options)];

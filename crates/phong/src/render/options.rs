@@ -29,6 +29,7 @@ pub struct RenderOptions {
     seed: u64,
     depth: u32,
     shadows: bool,
+    terminator: bool,
     filter: FilterKind,
     background: Background,
     tile: u32,
@@ -96,7 +97,7 @@ impl RenderOptions {
     /// As of [`new`](Self::new), [`with_samples`](Self::with_samples) and
     /// [`with_depth`](Self::with_depth): never for an image that the scene's check has passed.
     pub fn of(image: &Image) -> Result<Self, OptionsError> {
-        let Image { size, samples, background, filter, seed, depth } = *image;
+        let Image { size, samples, background, filter, seed, depth, terminator } = *image;
         let valid = Self {
             size: [1, 1],
             window: Window::full([1, 1]),
@@ -105,6 +106,7 @@ impl RenderOptions {
             seed,
             depth: 0,
             shadows: true,
+            terminator,
             filter,
             background,
             tile: Self::TILE,
@@ -189,10 +191,18 @@ impl RenderOptions {
         Self { seed, ..self }
     }
 
-    /// Whether things stand in the way of lights at all; they do by default.
+    /// Whether things stand in the way of lights at all; they do by default. If not, a light above the
+    /// horizon of N is seen, whatever the geometry: the picture is the equation and nothing else.
     #[must_use]
     pub fn with_shadows(self, shadows: bool) -> Self {
         Self { shadows, ..self }
+    }
+
+    /// Whether shadow rays from meshes with smooth normals start above the face, so that faces do not
+    /// show where light ends; else they start on the face, and light below its plane is not seen.
+    #[must_use]
+    pub fn with_terminator(self, terminator: bool) -> Self {
+        Self { terminator, ..self }
     }
 
     /// Weights samples into a pixel by this filter.
@@ -264,6 +274,11 @@ impl RenderOptions {
     /// Whether things stand in the way of lights at all.
     pub fn shadows(&self) -> bool {
         self.shadows
+    }
+
+    /// Whether shadow rays from meshes with smooth normals start above the face.
+    pub fn terminator(&self) -> bool {
+        self.terminator
     }
 
     /// How samples are weighted into a pixel.

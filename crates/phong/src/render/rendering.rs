@@ -115,6 +115,7 @@ impl<'a> Rendering<'a> {
             background: self.options.background(),
             depth: self.options.depth(),
             shadows: self.options.shadows(),
+            terminator: self.options.terminator(),
             stop: Some(cancel.flag()),
         };
         let renderer = TileRenderer::new(integrator, self.options, cancel);
