@@ -67,6 +67,7 @@
 //! | `filter` | `box`, `tent`, `gaussian` or `mitchell` | `"box"` | How samples are weighted into a pixel. |
 //! | `seed` | a whole number, 0 or above | `0` | Seed of the sampling pattern. |
 //! | `depth` | a whole number from 0 to 100 | `8` | Mirror and glass bounces; beyond it a ray brings black. |
+//! | `min_weight` | a number from 0 to 1 | `0.0001` | Mirror and glass rays whose light would count less than this in every channel are not followed; 0: all are. |
 //! | `terminator` | `true` or `false` | `true` | Whether shadow rays from meshes with smooth normals start above the face, so that faces do not show where light ends. |
 //!
 //! `background = { .. }`:
@@ -94,6 +95,7 @@ use crate::camera::Camera;
 use crate::color::Rgb;
 use crate::diagnostic::{Diagnostic, Place, SceneError};
 use crate::light::Light;
+use crate::limits::Range;
 use crate::material::{Material, MaterialId};
 use crate::shape::Shape;
 use crate::texture::Texture;
@@ -186,6 +188,10 @@ pub struct Image {
     pub seed: u64,
     /// Mirror and glass bounces; beyond it a ray brings black. Default 8.
     pub depth: u32,
+    /// A mirror or glass ray is not followed where the product of all weights on its way from the
+    /// camera is below this in every channel: it brings black. From 0, which follows all, to 1.
+    /// Default 0.0001.
+    pub min_weight: f32,
     /// Whether shadow rays from meshes with smooth normals start above the face, so that faces do not
     /// show where light ends. Default true.
     pub terminator: bool,
@@ -198,6 +204,8 @@ impl Image {
     pub const MOST_SAMPLES: u32 = 1_000_000;
     /// The most bounces.
     pub const DEEPEST: u32 = 100;
+    /// The least and the largest `min_weight`.
+    pub(crate) const MIN_WEIGHT: Range = Range::closed(0.0, 1.0);
 }
 
 impl Default for Image {
@@ -209,6 +217,7 @@ impl Default for Image {
             filter: FilterKind::Box,
             seed: 0,
             depth: 8,
+            min_weight: 1e-4,
             terminator: true,
         }
     }

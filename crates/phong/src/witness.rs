@@ -27,6 +27,29 @@ impl Branch {
     }
 }
 
+/// A ray that is not sent on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cut {
+    /// The weight it would have had at its surface.
+    pub weight: Rgb,
+    /// The reflectance F where it was asked for.
+    pub fresnel: Option<f32>,
+    /// The product of all weights from the camera on, this one included: what light of 1 there
+    /// would have added to the sample.
+    pub path_weight: Rgb,
+    /// Why it is not sent.
+    pub reason: CutReason,
+}
+
+/// Why a ray is not sent on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CutReason {
+    /// The depth is used up.
+    Depth,
+    /// The product of all weights from the camera on is below this, in every channel.
+    Weight(f32),
+}
+
 /// What happened with one light at one hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightContribution {
@@ -64,8 +87,8 @@ pub trait Witness {
     fn entered(&mut self, branch: Branch, weight: Rgb, fresnel: Option<f32>, ray: &Ray);
     /// It came back with this light, not yet weighted.
     fn left(&mut self, branch: Branch, light: Rgb);
-    /// A ray was not sent on since the depth is used up: it brings black.
-    fn cut(&mut self, branch: Branch, weight: Rgb, fresnel: Option<f32>);
+    /// A ray was not sent on: it brings black.
+    fn cut(&mut self, branch: Branch, cut: &Cut);
 }
 
 impl Witness for () {
@@ -76,5 +99,5 @@ impl Witness for () {
     fn lit(&mut self, _: &LightContribution) {}
     fn entered(&mut self, _: Branch, _: Rgb, _: Option<f32>, _: &Ray) {}
     fn left(&mut self, _: Branch, _: Rgb) {}
-    fn cut(&mut self, _: Branch, _: Rgb, _: Option<f32>) {}
+    fn cut(&mut self, _: Branch, _: &Cut) {}
 }

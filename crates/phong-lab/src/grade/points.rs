@@ -10,7 +10,7 @@ use phong::render::RenderOptions;
 use phong::terms::Terms;
 use phong::texture::TexturePoint;
 use phong::view::View;
-use phong::witness::{Branch, LightContribution, Witness};
+use phong::witness::{Branch, Cut, LightContribution, Witness};
 use phong_bvh::Ray;
 use phong_scene::{ConstantMaterial, FilterKind, LightKind, Rgb};
 use rayon::prelude::*;
@@ -167,5 +167,5 @@ impl Witness for Listener<'_> {
         }
     }
 
-    fn cut(&mut self, _: Branch, _: Rgb, _: Option<f32>) {}
+    fn cut(&mut self, _: Branch, _: &Cut) {}
 }

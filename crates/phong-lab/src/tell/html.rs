@@ -18,7 +18,7 @@ use serde_json::{Map, Value, json};
 
 use super::json::{dir, list, number, rgb};
 use super::product::{self, Number, Product};
-use super::text::{NOTICED, described, hidden, named};
+use super::text::{NOTICED, cut, described, hidden, named};
 use crate::markup::{base64, data_url, escaped};
 
 const PAGE: &str = include_str!("page.html");
@@ -165,7 +165,7 @@ impl Shared<'_> {
         match &onward.ray {
             Some(_) if weight * onward.light.max_channel() < NOTICED => out["small"] = json!(true),
             Some(ray) => out["ray"] = self.ray(ray, weight),
-            None => {}
+            None => out["cut"] = json!(format!("{}: black", cut(onward.cut))),
         }
         out
     }

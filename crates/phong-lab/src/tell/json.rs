@@ -5,6 +5,7 @@ use phong::explain::{
 };
 use phong::math::Dir3;
 use phong::terms::Terms;
+use phong::witness::CutReason;
 use phong_scene::{ConstantMaterial, Place, Rgb, TextureSpace};
 use serde_json::{Map, Value, json};
 
@@ -151,6 +152,11 @@ fn onward(onward: &Onward) -> Value {
         "weight": rgb(onward.weight),
         "fresnel": onward.fresnel.map(number),
         "ray": onward.ray.as_ref().map(ray),
+        "cut": onward.cut.map(|reason| match reason {
+            CutReason::Depth => "depth",
+            CutReason::Weight(_) => "weight",
+        }),
+        "path_weight": rgb(onward.path_weight),
         "light": rgb(onward.light),
     })
 }

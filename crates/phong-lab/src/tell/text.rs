@@ -6,6 +6,7 @@ use phong::explain::{
     Encoded, End, Explanation, Lit, Onward, RayTold, Sample, Surface, TextureTold,
 };
 use phong::terms::Terms;
+use phong::witness::CutReason;
 use phong_scene::{AmbientRule, ConstantMaterial, Model, TextureSpace, Viewer};
 
 use super::numbers::{Color, Digits, Direction, Position, columns};
@@ -13,6 +14,14 @@ use super::product::{self, Factor, Number, Power, Product};
 
 /// Half a level of 255, where the curve is steepest.
 pub(super) const NOTICED: f32 = 0.5 / 255.0 / 12.92;
+
+/// Why a ray was not sent.
+pub(super) fn cut(reason: Option<CutReason>) -> String {
+    match reason {
+        Some(CutReason::Weight(least)) => format!("not followed, for it counts less than {least}"),
+        Some(CutReason::Depth) | None => "the depth is used up".to_owned(),
+    }
+}
 
 /// The explanation in lines of text. Of several samples all are listed and `sample` (from 0)
 /// is told in full; `None`: each is. Mirror and glass rays that bring the sample less than
@@ -206,7 +215,10 @@ impl Page {
                 self.line(format_args!("it brings less than half a level: not told (--full does)"));
             }
             Some(ray) => self.ray(ray),
-            None => self.line(format_args!("the depth is used up: black")),
+            None => {
+                let (why, most) = (cut(onward.cut), Color(onward.path_weight));
+                self.line(format_args!("{why}: black; light of 1 there would have added {most}"));
+            }
         }
         self.weight = outer;
         self.indent -= 2;

@@ -28,6 +28,7 @@ pub(super) fn image(image: &Image, faults: &mut Faults) {
         let message = format!("`depth` is from 0 to {}; this is {}", Image::DEEPEST, image.depth);
         faults.say("depth", message);
     }
+    faults.number("min_weight", image.min_weight.into(), &Image::MIN_WEIGHT);
     match image.background {
         Background::Color(color) => {
             faults.color("background", color, LARGEST);

@@ -114,6 +114,13 @@ pub(crate) static IMAGE: Table = Table {
             "Mirror and glass bounces; beyond it a ray brings black.",
         ),
         Key::new(
+            "min_weight",
+            Kind::Number(Image::MIN_WEIGHT),
+            Default::Number(1e-4),
+            "Mirror and glass rays whose light would count less than this in every channel are \
+             not followed; 0: all are.",
+        ),
+        Key::new(
             "terminator",
             Kind::Flag,
             Default::Flag(true),

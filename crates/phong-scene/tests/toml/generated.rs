@@ -108,6 +108,7 @@ impl Make {
             },
             filter: self.one(&[Box, Tent, Gaussian, Mitchell]),
             seed: self.one(&[0, 1, u64::MAX]),
+            min_weight: self.one(&[1e-4, 0.0, 0.25, 1.0]),
             depth: self.one(&[8, 0, 100]),
             terminator: self.one(&[true, false]),
         }

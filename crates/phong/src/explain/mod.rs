@@ -18,7 +18,7 @@ use crate::render::{Drawn, RenderOptions, camera_ray};
 use crate::sampling::Sampler;
 use crate::terms::Terms;
 use crate::view::View;
-use crate::witness::Witness;
+use crate::witness::{CutReason, Witness};
 use record::Recorder;
 
 /// A pixel, explained.
@@ -201,8 +201,13 @@ pub struct Onward {
     pub weight: Rgb,
     /// The reflectance F, where the material asks for it.
     pub fresnel: Option<f32>,
-    /// The ray; `None` if the depth is used up and it brings black.
+    /// The ray; `None` if it was not sent, and brings black.
     pub ray: Option<RayTold>,
+    /// Why it was not sent; `None` if it was.
+    pub cut: Option<CutReason>,
+    /// The product of all weights from the camera on, this one included: what light of 1 adds to the
+    /// sample.
+    pub path_weight: Rgb,
     /// The light it brought, not yet weighted.
     pub light: Rgb,
 }
@@ -287,6 +292,7 @@ impl<'a> Road<'a> {
             scene,
             background: options.background(),
             depth: options.depth(),
+            min_weight: options.min_weight(),
             shadows: options.shadows(),
             terminator: options.terminator(),
             stop: None,

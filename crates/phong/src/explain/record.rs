@@ -11,7 +11,7 @@ use crate::reflectance::Incident;
 use crate::terms::Terms;
 use crate::texture::{Texture, TexturePoint};
 use crate::view::View;
-use crate::witness::{Branch, LightContribution, Witness};
+use crate::witness::{Branch, Cut, LightContribution, Witness};
 
 /// Listens to one ray and all that follow from it.
 pub(super) struct Recorder<'a> {
@@ -25,11 +25,16 @@ struct Open {
     /// The surface that was met, and its material there.
     at: Option<(SurfaceInteraction, Material)>,
     sent: Option<(Rgb, Option<f32>)>,
+    /// The product of all weights from the camera on.
+    path_weight: Rgb,
 }
 
 impl<'a> Recorder<'a> {
     pub(super) fn new(scene: &'a View) -> Self {
-        Self { scene, open: vec![Open { told: None, at: None, sent: None }] }
+        Self {
+            scene,
+            open: vec![Open { told: None, at: None, sent: None, path_weight: Rgb::WHITE }],
+        }
     }
 
     /// The camera's ray; `None` if none was traced.
@@ -171,18 +176,23 @@ impl Witness for Recorder<'_> {
     }
 
     fn entered(&mut self, _: Branch, weight: Rgb, fresnel: Option<f32>, _: &Ray) {
-        self.open.push(Open { told: None, at: None, sent: Some((weight, fresnel)) });
+        let so_far = self.open.last().map_or(Rgb::WHITE, |open| open.path_weight);
+        let (sent, path_weight) = (Some((weight, fresnel)), so_far * weight);
+        self.open.push(Open { told: None, at: None, sent, path_weight });
     }
 
     fn left(&mut self, branch: Branch, light: Rgb) {
-        let Some(Open { told, sent: Some((weight, fresnel)), .. }) = self.open.pop() else {
+        let Some(Open { told: ray, sent: Some((weight, fresnel)), path_weight, .. }) =
+            self.open.pop()
+        else {
             return;
         };
-        self.goes_on(branch, Onward { weight, fresnel, ray: told, light });
+        self.goes_on(branch, Onward { weight, fresnel, ray, cut: None, path_weight, light });
     }
 
-    fn cut(&mut self, branch: Branch, weight: Rgb, fresnel: Option<f32>) {
-        self.goes_on(branch, Onward { weight, fresnel, ray: None, light: Rgb::BLACK });
+    fn cut(&mut self, branch: Branch, &Cut { weight, fresnel, path_weight, reason }: &Cut) {
+        let (ray, cut, light) = (None, Some(reason), Rgb::BLACK);
+        self.goes_on(branch, Onward { weight, fresnel, ray, cut, path_weight, light });
     }
 }
 

@@ -119,7 +119,12 @@ impl Kernel for Add<'_> {
             let sums = &mut sums[i % len];
             let covered = mask32x8::from_bitmask(simd, sample.met.into());
             let weight = f32x8::load_array_ref(simd, weight);
-            let covers = covered.select(weight, f32x8::splat(simd, 0.0));
+            let mut covers = covered.select(weight, f32x8::splat(simd, 0.0));
+            if sample.clear != 0 {
+                let clear = mask32x8::from_bitmask(simd, sample.clear.into());
+                let seen = f32x8::load_array_ref(simd, &sample.seen_through);
+                covers = clear.select(weight * (1.0 - seen), covers);
+            }
             plus(simd, &mut sums.alpha, covers.widen());
             let weight = weight.widen();
             plus(simd, &mut sums.weight, weight);

@@ -1,6 +1,7 @@
 //! Rays that are traced together, and the radiance they return.
 
 use phong_bvh::{Ray, Rays8};
+use phong_scene::Rgb;
 
 use crate::sampling::{Sampler, Samplers8};
 use crate::terms::{Term, TermSet, Terms8};
@@ -55,11 +56,48 @@ pub(crate) struct Radiance8 {
     pub(crate) brought: TermSet,
     /// The rays that met a surface, a bit each, the lowest for the first.
     pub(crate) met: u32,
+    /// The rays of those that see a transparent background through glass, a bit each.
+    pub(crate) clear: u32,
+    /// How much of it each of these sees: the sum over its refracted paths of the product of their
+    /// weights, each the mean of its channels. Unspecified for the others.
+    pub(crate) seen_through: [f32; 8],
 }
 
 impl Radiance8 {
     /// Nothing.
-    pub(crate) const NONE: Self = Self { terms: Terms8::NONE, brought: TermSet::NONE, met: 0 };
+    pub(crate) const NONE: Self = Self {
+        terms: Terms8::NONE,
+        brought: TermSet::NONE,
+        met: 0,
+        clear: 0,
+        seen_through: [0.0; 8],
+    };
+
+    /// How much of a transparent background a ray sees.
+    fn sees_through(&self, lane: usize) -> f32 {
+        let has = |mask: u32| mask >> lane & 1 != 0;
+        match (has(self.met), has(self.clear)) {
+            (false, _) => 1.0,
+            (true, false) => 0.0,
+            (true, true) => self.seen_through[lane],
+        }
+    }
+
+    /// What a refracted ray adds to how much of a transparent background `lane` sees: that ray is
+    /// `from` of another eight, and counts `weight`.
+    pub(super) fn see_through(&mut self, lane: usize, weight: Rgb, (from, of): (&Self, usize)) {
+        let share = from.sees_through(of) * (weight.r + weight.g + weight.b) / 3.0;
+        if share > 0.0 {
+            self.clear |= 1 << lane;
+            self.seen_through[lane] = share.min(1.0);
+        }
+    }
+
+    /// How much of a pixel each ray covers.
+    #[inline]
+    pub(crate) fn covers(&self, lane: usize) -> f32 {
+        if self.met >> lane & 1 == 0 { 0.0 } else { 1.0 - self.sees_through(lane) }
+    }
 
     /// Nothing again, from rays of which these met a surface.
     #[inline(always)]
@@ -69,7 +107,7 @@ impl Radiance8 {
                 self.terms[term] = [[0.0; 8]; 3];
             }
         }
-        (self.brought, self.met) = (TermSet::NONE, met);
+        (self.brought, self.met, self.clear) = (TermSet::NONE, met, 0);
     }
 }
 

@@ -23,7 +23,7 @@ use phong_scene::{Background, Rgb};
 use crate::math::lanes::set;
 use crate::sampling::{Sampler, Samplers8};
 use crate::view::View;
-use crate::witness::{Branch, Witness};
+use crate::witness::{Branch, Cut, CutReason, Witness};
 use bundle::count;
 use interactions::Interactions;
 use lights::LightSamples;
@@ -38,6 +38,8 @@ pub(crate) struct Integrator<'a> {
     pub(crate) background: Background,
     /// Mirror and glass bounces; beyond it a ray brings black.
     pub(crate) depth: u32,
+    /// The least product of weights, in the largest channel, for which a ray is followed.
+    pub(crate) min_weight: f32,
     /// Whether things stand in the way of lights at all.
     pub(crate) shadows: bool,
     /// Whether shadow rays from meshes with smooth normals start above the face.
@@ -64,6 +66,8 @@ struct SecondaryRays {
     samplers: Vec<Samplers8>,
     /// Where each ray came from, in the same order.
     from: Vec<Parent>,
+    /// The product of all weights from the camera to each, in the same order.
+    path_weights: Vec<Rgb>,
     /// The rays of each surface, in its lane, before they are packed.
     scattered: Vec<Scattered8>,
 }
@@ -82,9 +86,10 @@ impl SecondaryRays {
         self.rays.clear();
         self.samplers.clear();
         self.from.clear();
+        self.path_weights.clear();
     }
 
-    fn push(&mut self, parent: Parent, ray: &Ray, sampler: Option<Sampler>) {
+    fn push(&mut self, parent: Parent, path_weight: Rgb, ray: &Ray, sampler: Option<Sampler>) {
         let lane = self.from.len() % 8;
         if lane == 0 {
             self.rays.push(Rays8::NONE);
@@ -97,6 +102,7 @@ impl SecondaryRays {
             samplers.set(lane, sampler);
         }
         self.from.push(parent);
+        self.path_weights.push(path_weight);
     }
 }
 
@@ -125,6 +131,7 @@ impl Integrator<'_> {
             &bundle.rays,
             &bundle.samplers,
             &height,
+            &[],
             self.depth,
             scratch,
             counts,
@@ -134,13 +141,15 @@ impl Integrator<'_> {
     }
 
     /// Traces a bundle. `height` gives the place in a gradient background, 0 to 1, of a ray that hits
-    /// nothing; `bounces` is how many more are allowed. The results are in `scratch.out`.
+    /// nothing. `path_weights` are the products of all weights on the way to the rays, in their order;
+    /// empty: they come from the camera. `bounces` is how many more are allowed. The results are in `scratch.out`.
     #[expect(clippy::too_many_arguments, reason = "the state of the recursion")]
     fn trace_bundle<W: Witness>(
         &self,
         rays: &[Rays8],
         samplers: &[Samplers8],
         height: &dyn Fn(usize, usize) -> f32,
+        path_weights: &[Rgb],
         bounces: u32,
         scratch: &mut ScratchBuffer,
         counts: &mut RayCounts,
@@ -184,9 +193,19 @@ impl Integrator<'_> {
         if !self.scene.has_bounces() {
             return;
         }
+        let is_transparent = self.background == Background::Transparent;
         for branch in [Branch::Reflection, Branch::Transmission] {
             let (secondary, scratch) = &mut **deeper.get_or_insert_default();
-            self.scatter(branch, rays, interactions, samplers, bounces, secondary, witness);
+            self.scatter(
+                branch,
+                rays,
+                interactions,
+                samplers,
+                path_weights,
+                bounces,
+                secondary,
+                witness,
+            );
             if secondary.from.is_empty() {
                 continue;
             }
@@ -197,14 +216,26 @@ impl Integrator<'_> {
             let up = self.scene.camera().up();
             let height =
                 |i: usize, lane: usize| 0.5 - 0.5 * secondary.rays[i].get(lane).dir.dot(up);
-            let SecondaryRays { rays, samplers, from, .. } = &*secondary;
-            self.trace_bundle(rays, samplers, &height, bounces - 1, scratch, counts, witness);
+            let SecondaryRays { rays, samplers, from, path_weights, .. } = &*secondary;
+            self.trace_bundle(
+                rays,
+                samplers,
+                &height,
+                path_weights,
+                bounces - 1,
+                scratch,
+                counts,
+                witness,
+            );
             for (k, &Parent { ray: (i, lane), weight, .. }) in from.iter().enumerate() {
                 let light = scratch.out[k / 8].terms.get(k % 8).total();
                 witness.left(branch, light);
                 let term = branch.term();
                 set(&mut out[i].terms[term], lane, (weight * light).to_array());
                 out[i].brought = out[i].brought.with(term);
+                if branch == Branch::Transmission && is_transparent {
+                    out[i].see_through(lane, weight, (&scratch.out[k / 8], k % 8));
+                }
             }
         }
     }
@@ -221,6 +252,7 @@ impl Integrator<'_> {
         rays: &[Rays8],
         interactions: &Interactions,
         samplers: &[Samplers8],
+        path_weights: &[Rgb],
         bounces: u32,
         secondary: &mut SecondaryRays,
         witness: &mut W,
@@ -233,13 +265,22 @@ impl Integrator<'_> {
         for (i, scattered) in scattered.iter().enumerate() {
             for lane in lanes(scattered.there) {
                 let (weight, fresnel) = scattered.weight(lane);
-                if bounces == 0 {
-                    witness.cut(branch, weight, fresnel);
+                let so_far = path_weights.get(8 * i + lane).copied().unwrap_or(Rgb::WHITE);
+                let path_weight = so_far * weight;
+                let reason = if bounces == 0 {
+                    Some(CutReason::Depth)
+                } else if path_weight.max_channel() < self.min_weight {
+                    Some(CutReason::Weight(self.min_weight))
+                } else {
+                    None
+                };
+                if let Some(reason) = reason {
+                    witness.cut(branch, &Cut { weight, fresnel, path_weight, reason });
                     continue;
                 }
                 let sampler = samplers.get(i).map(|s| s.get(lane).branch(branch as u32));
                 let parent = Parent { ray: (i, lane), weight, fresnel };
-                secondary.push(parent, &scattered.ray(lane), sampler);
+                secondary.push(parent, path_weight, &scattered.ray(lane), sampler);
             }
         }
         secondary.scattered = scattered;

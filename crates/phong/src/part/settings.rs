@@ -35,6 +35,7 @@ impl Settings {
             ("samples", options.samples().to_string()),
             ("seed", options.seed().to_string()),
             ("depth", options.depth().to_string()),
+            ("min_weight", options.min_weight().to_string()),
             ("shadows", options.shadows().to_string()),
             ("terminator", options.terminator().to_string()),
             ("filter", format!("{:?}", options.filter())),

@@ -202,6 +202,7 @@ mod tests {
                     scene: &view,
                     background,
                     depth: 0,
+                    min_weight: 0.0,
                     shadows: true,
                     terminator: true,
                     stop: None,

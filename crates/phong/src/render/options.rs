@@ -28,6 +28,7 @@ pub struct RenderOptions {
     samples: u32,
     seed: u64,
     depth: u32,
+    min_weight: f32,
     shadows: bool,
     terminator: bool,
     filter: FilterKind,
@@ -39,7 +40,7 @@ pub struct RenderOptions {
 }
 
 /// Why there are no such options: in every case the caller's fault.
-#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum OptionsError {
     /// A picture's side has no pixel, or too many.
     #[error("a picture of {} × {} pixels: a side has 1 to {most}", .0[0], .0[1], most = Image::LARGEST)]
@@ -71,6 +72,9 @@ pub enum OptionsError {
     /// Rays would bounce too often.
     #[error("{0} bounces: there are at most {most}", most = RenderOptions::MOST_DEPTH)]
     Depth(u32),
+    /// The least weight of a ray is no share.
+    #[error("a least weight of {0}: it is from 0 to 1")]
+    MinWeight(f32),
     /// A tile would hold no pixel.
     #[error("a tile of 0 pixels")]
     Tile,
@@ -94,10 +98,12 @@ impl RenderOptions {
     /// All of a picture as its scene has it.
     ///
     /// # Errors
-    /// As of [`new`](Self::new), [`with_samples`](Self::with_samples) and
-    /// [`with_depth`](Self::with_depth): never for an image that the scene's check has passed.
+    /// As of [`new`](Self::new), [`with_samples`](Self::with_samples),
+    /// [`with_depth`](Self::with_depth) and [`with_min_weight`](Self::with_min_weight): never for an
+    /// image that the scene's check has passed.
     pub fn of(image: &Image) -> Result<Self, OptionsError> {
-        let Image { size, samples, background, filter, seed, depth, terminator } = *image;
+        let Image { size, samples, background, filter, seed, depth, min_weight, terminator } =
+            *image;
         let valid = Self {
             size: [1, 1],
             window: Window::full([1, 1]),
@@ -105,6 +111,7 @@ impl RenderOptions {
             samples: 1,
             seed,
             depth: 0,
+            min_weight: 0.0,
             shadows: true,
             terminator,
             filter,
@@ -114,7 +121,7 @@ impl RenderOptions {
             aovs: Vec::new(),
             passes: Passes::default(),
         };
-        valid.with_size(size)?.with_samples(samples)?.with_depth(depth)
+        valid.with_size(size)?.with_samples(samples)?.with_depth(depth)?.with_min_weight(min_weight)
     }
 
     /// Renders all of a picture of another size (width, height).
@@ -174,6 +181,19 @@ impl RenderOptions {
             Ok(Self { depth, ..self })
         } else {
             Err(OptionsError::Depth(depth))
+        }
+    }
+
+    /// Does not follow mirror and glass rays where the product of all weights on the way from the
+    /// camera is below this in every channel; they bring black. 0 follows all.
+    ///
+    /// # Errors
+    /// [`OptionsError::MinWeight`] unless from 0 to 1.
+    pub fn with_min_weight(self, min_weight: f32) -> Result<Self, OptionsError> {
+        if (0.0..=1.0).contains(&min_weight) {
+            Ok(Self { min_weight, ..self })
+        } else {
+            Err(OptionsError::MinWeight(min_weight))
         }
     }
 
@@ -269,6 +289,11 @@ impl RenderOptions {
     /// Mirror and glass bounces.
     pub fn depth(&self) -> u32 {
         self.depth
+    }
+
+    /// The least product of weights for which a mirror or glass ray is followed; 0: all are.
+    pub fn min_weight(&self) -> f32 {
+        self.min_weight
     }
 
     /// Whether things stand in the way of lights at all.
@@ -390,6 +415,8 @@ mod tests {
         assert!(options().with_samples(Image::MOST_SAMPLES).is_ok());
         assert_eq!(options().with_depth(1025), Err(OptionsError::Depth(1025)));
         assert_eq!(options().with_tile(0), Err(OptionsError::Tile));
+        assert_eq!(options().with_min_weight(1.5), Err(OptionsError::MinWeight(1.5)));
+        assert!(options().with_min_weight(f32::NAN).is_err());
     }
 
     #[test]

@@ -114,6 +114,7 @@ impl<'a> Rendering<'a> {
             scene: self.scene,
             background: self.options.background(),
             depth: self.options.depth(),
+            min_weight: self.options.min_weight(),
             shadows: self.options.shadows(),
             terminator: self.options.terminator(),
             stop: Some(cancel.flag()),

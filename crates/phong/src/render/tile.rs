@@ -14,7 +14,7 @@ use crate::integrator::{CameraRay, Integrator, RayCounts, ScratchBuffer};
 use crate::math::lanes::{Lanes3, store3};
 use crate::sampling::Sampler;
 use crate::terms::{Terms, Terms8};
-use crate::witness::{Branch, LightContribution, Witness};
+use crate::witness::{Branch, Cut, LightContribution, Witness};
 
 /// Pixels are visited in squares of this edge within a tile: rays near one another in a bundle
 /// are near one another in space.
@@ -132,7 +132,7 @@ impl<'a> TileRenderer<'a> {
             self.check_cancelled()?;
             // One sample, which weighs 1, is its pixel: nothing to sum.
             let one = brought.iter().map(|sample| {
-                let covered = |lane| coverage((sample.met >> lane & 1) as f32, background);
+                let covered = |lane| coverage(sample.covers(lane), background);
                 (&sample.terms, std::array::from_fn(covered))
             });
             let (resolved, layers) = (pixels.iter().zip(one), &self.layers);
@@ -201,7 +201,7 @@ impl<'a> TileRenderer<'a> {
             self.check_cancelled()?;
             for (square, sample) in squares.iter().zip(brought) {
                 let terms = sample.terms.get(0);
-                let alpha = coverage((sample.met & 1) as f32, self.options.background());
+                let alpha = coverage(sample.covers(0), self.options.background());
                 // First the square's first pixel in this tile, then all the others.
                 let part = square.intersection(&window);
                 let place = of_window(window, [part.x0, part.y0]);
@@ -300,7 +300,7 @@ impl Witness for LightsSeen {
     }
     fn entered(&mut self, _: Branch, _: Rgb, _: Option<f32>, _: &phong_bvh::Ray) {}
     fn left(&mut self, _: Branch, _: Rgb) {}
-    fn cut(&mut self, _: Branch, _: Rgb, _: Option<f32>) {}
+    fn cut(&mut self, _: Branch, _: &Cut) {}
 }
 
 /// The coarse squares that have a pixel in the window, whole.

@@ -20,6 +20,7 @@ pub(super) fn image(v: &Values) -> Option<Image> {
         },
         seed: v.integer("seed")?,
         depth: v.integer("depth")? as u32,
+        min_weight: v.number("min_weight")? as f32,
         terminator: v.flag("terminator")?,
     })
 }

@@ -32,6 +32,7 @@ pub(super) fn image(image: &Image, key: &str) -> Option<Value> {
         }),
         "seed" => Value::Integer(image.seed),
         "depth" => Value::Integer(image.depth.into()),
+        "min_weight" => Value::Number(short(image.min_weight)),
         "terminator" => Value::Flag(image.terminator),
         _ => return None,
     })
