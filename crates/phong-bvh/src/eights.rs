@@ -120,8 +120,9 @@ impl Hits8 {
         }
     }
 
+    /// Puts a hit, or none, into one lane, below 8.
     #[inline]
-    pub(crate) fn set(&mut self, lane: usize, hit: Hit) {
+    pub fn set(&mut self, lane: usize, hit: Hit) {
         (self.t[lane], self.part[lane], self.prim[lane]) = (hit.t, hit.part, hit.prim);
         (self.u[lane], self.v[lane]) = (hit.u, hit.v);
         self.met = self.met & !(1 << lane) | u32::from(hit.is_some()) << lane;

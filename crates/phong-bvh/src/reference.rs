@@ -12,47 +12,56 @@ use crate::{
 
 /// The closest hit over all primitives of a tree, by trying each; planes, which are in no tree, excepted.
 pub(crate) fn intersect(tree: &Tree, ray: &Ray) -> Hit {
-    let shear = triangle::Shear::new(ray);
-    let closest = sphere::Closest::new(ray);
+    let prepared = Prepared::new(ray);
     let mut best = Best::new(ray.t_max);
     for (batch, &first) in tree.batches().iter().zip(tree.first()) {
-        match batch {
-            Primitives::Triangles { positions, indices } => {
-                for (prim, corners) in (first..).zip(&**indices) {
-                    let corners = corners.map(|i| positions[i as usize]);
-                    if !triangle::is_degenerate(corners)
-                        && let Some([t, u, v]) = shear.intersect(corners)
-                    {
-                        best.offer(t, prim, u, v);
-                    }
-                }
-            }
-            Primitives::Spheres(spheres) => {
-                for (prim, sphere) in (first..).zip(&**spheres) {
-                    if let Some(t) = closest.intersect(sphere) {
-                        best.offer(t, prim, 0.0, 0.0);
-                    }
-                }
-            }
-            Primitives::Cylinders { cylinders, caps } => {
-                for (prim, cylinder) in (first..).zip(cylinders.iter()) {
-                    let at = if capsule::is_capsule(cylinder, *caps) {
-                        capsule::intersect(&closest, cylinder)
-                    } else {
-                        Tapered::new(cylinder, *caps).intersect(ray)
-                    };
-                    if let Some(at) = at {
-                        best.offer_cylinder(at, prim);
-                    }
-                }
-            }
-            Primitives::Plane(_) => {}
-            Primitives::Solid(solid) => {
-                if let Some(t) = solid.intersect(ray) {
-                    best.offer(t, first, 0.0, 0.0);
-                }
+        for local in 0..batch.len() as u32 {
+            if let Some(Hit { t, u, v, .. }) = prepared.intersect(batch, local) {
+                best.offer(t, first + local, u, v);
             }
         }
     }
     best.hit()
+}
+
+/// A ray prepared for the scalar test of every kind of primitive.
+pub(crate) struct Prepared<'a> {
+    ray: &'a Ray,
+    shear: triangle::Shear,
+    closest: sphere::Closest,
+}
+
+impl<'a> Prepared<'a> {
+    pub(crate) fn new(ray: &'a Ray) -> Self {
+        Self { ray, shear: triangle::Shear::new(ray), closest: sphere::Closest::new(ray) }
+    }
+
+    /// Where the ray meets one primitive of a batch, with the number that it has there. Planes, which
+    /// are in no tree, are not met.
+    pub(crate) fn intersect(&self, batch: &Primitives, local: u32) -> Option<Hit> {
+        let at = |t: f32| Hit { t, prim: local, u: 0.0, v: 0.0 };
+        match batch {
+            Primitives::Triangles { positions, indices } => {
+                let corners = indices[local as usize].map(|i| positions[i as usize]);
+                if triangle::is_degenerate(corners) {
+                    return None;
+                }
+                self.shear.intersect(corners).map(|[t, u, v]| Hit { u, v, ..at(t) })
+            }
+            Primitives::Spheres(spheres) => {
+                self.closest.intersect(&spheres[local as usize]).map(at)
+            }
+            Primitives::Cylinders { cylinders, caps } => {
+                let cylinder = &cylinders[local as usize];
+                let met = if capsule::is_capsule(cylinder, *caps) {
+                    capsule::intersect(&self.closest, cylinder)
+                } else {
+                    Tapered::new(cylinder, *caps).intersect(self.ray)
+                };
+                met.map(|met| Hit { u: f32::from(u8::from(met.second_half)), ..at(met.t) })
+            }
+            Primitives::Plane(_) => None,
+            Primitives::Solid(solid) => solid.intersect(self.ray).map(at),
+        }
+    }
 }

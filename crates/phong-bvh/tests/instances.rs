@@ -146,8 +146,15 @@ fn agrees(world: &World, rays: &[Ray], expected: &[Hit]) {
     world.intersect_eights(&eights, &mut hits);
     world.occluded_eights(&eights, &mut blocked);
     world.surface_eights(&eights, &hits, &mut surfaces);
+    let mut every = Vec::new();
     for (i, (ray, want)) in rays.iter().zip(expected).enumerate() {
         assert_eq!(bits(world.intersect(ray)), bits(*want), "{ray:?}");
+        world.every(ray, &mut every);
+        // Within a part distances are compared before they are rounded in the world.
+        let nearest = every.iter().map(|hit| hit.t).fold(f32::INFINITY, f32::min);
+        assert_eq!(nearest.to_bits(), want.t.to_bits(), "every: {ray:?}");
+        let is_among = every.iter().any(|hit| bits(*hit) == bits(*want));
+        assert_eq!(is_among, want.is_some(), "every: {ray:?}");
         assert_eq!(bits(hits[i / 8].get(i % 8)), bits(*want), "of eight: {ray:?}");
         assert_eq!(world.occluded(ray), want.is_some(), "occluded: {ray:?}");
         let blocked = blocked[i / 8] >> (i % 8) & 1 != 0;

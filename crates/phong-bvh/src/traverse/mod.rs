@@ -4,6 +4,7 @@ mod boxes;
 mod coherent;
 mod columns;
 mod eights;
+mod every;
 mod frustum;
 mod interleaved;
 mod leaves;
@@ -22,6 +23,7 @@ use std::{cell::RefCell, marker::PhantomData};
 use self::{
     coherent::{Group, Groups},
     eights::{AnyOfFew, ClosestOfFew},
+    every::Every,
     interleaved::{Interleaved, RAYS, Stacks},
     leaves::{Anything, Content, OnlyCylinders, OnlySpheres, OnlyTriangles},
     query::{AnyHit, ClosestHit, Query},
@@ -121,6 +123,14 @@ impl<'a> World<'a> {
         }
     }
 
+    /// Gives `visit` the number of every primitive whose box a ray may enter before its end, in no order.
+    pub(crate) fn every(&self, ray: &Ray, visit: impl FnMut(u32)) {
+        let (world, Some(root)) = (self, self.root) else { return };
+        BOXES.with_borrow_mut(|stack| {
+            self.token.run(Every { world, root, ray, stack, visit });
+        });
+    }
+
     /// The only leaf of a tree that is a single leaf of spheres.
     fn single_leaf(&self) -> Option<&'a [Row; sphere::BLOCK]> {
         let leaf = self.root.filter(|root| root.kind() == Some(Kind::Spheres))?;
@@ -186,6 +196,7 @@ pub(crate) const NO_BOXES: BoxStack = [0; STACK];
 
 thread_local! {
     /// A thread's stacks: to clear one for each ray would cost a tenth of its time.
+    static BOXES: RefCell<BoxStack> = const { RefCell::new(NO_BOXES) };
     static LONE: RefCell<single::Stack> = const { RefCell::new([0; STACK]) };
     static STACKS: RefCell<Stacks> = const { RefCell::new([walk::Stack::EMPTY; RAYS]) };
     /// The rays of a bundle that have to be traced, a bit each.

@@ -3,6 +3,7 @@
 mod bundle;
 mod loose;
 mod upper;
+mod within;
 
 use std::sync::Arc;
 
@@ -241,6 +242,15 @@ impl World {
     pub fn occluded_eights(&self, rays: &[Rays8], blocked: &mut [u32]) {
         assert_eq!(rays.len(), blocked.len(), "an answer for eight rays");
         bundle::any(self, rays, blocked);
+    }
+
+    /// Every primitive that a ray hits with `t_min < t < t_max`, each once, where it is hit first; in the
+    /// order of the numbers of parts and primitives.
+    pub fn every(&self, ray: &Ray, found: &mut Vec<Hit>) {
+        found.clear();
+        within::every(self, ray, found);
+        found.sort_unstable_by_key(|hit| (hit.part, hit.prim));
+        found.dedup_by_key(|hit| (hit.part, hit.prim));
     }
 
     /// [`World::intersect`] by trying every primitive: the same bits, slowly. The oracle of tests.

@@ -81,6 +81,14 @@ impl Upper {
         hit
     }
 
+    /// Gives `visit` the number of every instance whose box the ray enters.
+    pub(super) fn each(&self, token: Token, ray: &Ray, mut visit: impl FnMut(usize)) {
+        self.visit(token, ray, ray.t_max, |instance| {
+            visit(instance);
+            ray.t_max
+        });
+    }
+
     fn visit(&self, token: Token, ray: &Ray, farthest: f32, mut visit: impl FnMut(usize) -> f32) {
         let (local, _) = self.frame.ray(ray);
         STACK.with_borrow_mut(|stack| {
