@@ -48,6 +48,7 @@
 //! | `reflection` | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name; or `{ texture = .. }` | `0` | Weight of the mirror ray. |
 //! | `transmission` | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name; or `{ texture = .. }` | `0` | Weight of the refracted ray. |
 //! | `ior` | a number above 0 up to 100 | `1.5` | Index of refraction of the inside relative to the outside. |
+//! | `priority` | a whole number from 0 to 1000000 | `0` | Of surfaces in one place the one of the highest priority is met first; of glasses that fill one place it alone is there. |
 //! | `fresnel` | `true` or `false` | true where `transmission` is not 0 | Whether the exact Fresnel factor F shares light between mirror (× F) and refraction (× (1 − F)). |
 //! | `dialect` | `lecture`, `mtl`, `pov-ray`, `tachyon`, `tachyon-metal`, `vtk`, `opengl`, `direct3d9`, `ospray`, `three-js`, `pymol`, `x3d`, `collada` or `rtc` | `"lecture"` | Whose "Phong" is meant: a preset of the five switches below. |
 //! | `times_cosine` (phong, blinn-phong, blinn-fast) | `true` or `false` | the dialect's | Whether the specular term is multiplied by N·L. |
@@ -108,6 +109,10 @@ pub struct Material<N = Param<f32>, C = Param<Rgb>> {
     pub transmission: C,
     /// Index of refraction of the inside relative to the outside, > 0. Default 1.5.
     pub ior: f32,
+    /// Which of several surfaces in one place is met first: the one of the highest priority. And of
+    /// several glasses that fill one place the one of the highest priority is what is there. From 0 to
+    /// [`Material::MOST_PRIORITY`]. Default 0.
+    pub priority: u32,
     /// Whether exact dielectric Fresnel shares light between mirror and refraction.
     /// Default: where `transmission` is not black.
     pub fresnel: bool,
@@ -147,6 +152,7 @@ impl Default for ConstantMaterial {
             reflection: Rgb::BLACK,
             transmission: Rgb::BLACK,
             ior: 1.5,
+            priority: 0,
             fresnel: false,
             dialect: Dialect::Lecture,
             times_cosine: false,
@@ -174,6 +180,9 @@ impl From<ConstantMaterial> for Material {
 impl Material {
     /// Indices of refraction.
     pub(crate) const IOR: Range = Range::above(0.0, 100.0);
+
+    /// The highest priority.
+    pub const MOST_PRIORITY: u32 = 1_000_000;
 
     /// Whether it has light of its own, or may have where a texture says so.
     pub fn glows(&self) -> bool {
@@ -256,6 +265,7 @@ impl<N: Copy, C: Copy> Material<N, C> {
             reflection: color("reflection", self.reflection),
             transmission: color("transmission", self.transmission),
             ior: self.ior,
+            priority: self.priority,
             fresnel: self.fresnel,
             dialect: self.dialect,
             times_cosine: self.times_cosine,

@@ -35,6 +35,8 @@ pub struct Material {
     pub transmission: Rgb,
     /// Index of refraction of the inside relative to the outside.
     pub ior: f32,
+    /// Which of several surfaces or glasses in one place counts: that of the highest priority.
+    pub priority: u32,
     /// Whether exact dielectric Fresnel shares light between the two.
     pub fresnel: bool,
 }
@@ -57,6 +59,7 @@ impl Material {
             reflection: material.reflection,
             transmission: material.transmission,
             ior: material.ior,
+            priority: material.priority,
             fresnel: material.fresnel,
         }
     }

@@ -1,5 +1,6 @@
 //! A geometry and its look together: all that a picture needs.
 
+mod coincident;
 mod shading;
 mod varied;
 
@@ -17,6 +18,7 @@ use crate::look::Look;
 use crate::material::Material;
 use crate::math::Dir3;
 use crate::texture::Texture;
+pub(crate) use coincident::Coincidences;
 use shading::Shading;
 pub(crate) use shading::Shading8;
 pub(crate) use varied::MadeMaterial;
@@ -34,6 +36,8 @@ pub struct View {
     /// What varies of each; empty where no material takes a value from a texture.
     varied: Vec<Varied>,
     textures: Vec<Texture>,
+    /// Where rays need more than the closest hit; `None`: nowhere.
+    coincidences: Option<Coincidences>,
     /// Whether rays go on from any material.
     has_bounces: bool,
     /// Whether any light has an extent.
@@ -98,6 +102,7 @@ impl View {
         let bounces =
             |m: &phong_scene::Material| !(m.reflection.is_black() && m.transmission.is_black());
         Ok(Self {
+            coincidences: Coincidences::of(&geometry, &materials),
             has_bounces: look.materials.iter().any(bounces),
             has_soft_lights: lights.iter().any(|light| light.soft),
             has_ambient_per_light: materials.iter().any(Material::takes_ambient_per_light),
@@ -159,6 +164,12 @@ impl View {
     /// Whether mirror or glass rays go on from any of the materials.
     pub fn has_bounces(&self) -> bool {
         self.has_bounces
+    }
+
+    /// Where rays need more than the closest hit; `None`: nowhere.
+    #[inline]
+    pub(crate) fn coincidences(&self) -> Option<&Coincidences> {
+        self.coincidences.as_ref()
     }
 
     /// Whether any light has an extent: whether samples differ but by their rays.

@@ -31,6 +31,12 @@ pub(crate) fn material(material: &Material, textures: Option<&[Texture]>, faults
         judge.number(field, number, &Range::NOT_NEGATIVE);
     }
     judge.faults.number("ior", m.ior.into(), &Material::IOR);
+    if m.priority > Material::MOST_PRIORITY {
+        let most = Material::MOST_PRIORITY;
+        judge
+            .faults
+            .say("priority", format!("`priority` is from 0 to {most}; this is {}", m.priority));
+    }
     if !m.dialect.allows(&m.model) {
         let message = format!("the dialect `{}` contradicts the model", m.dialect.name());
         judge.faults.say("dialect", message);

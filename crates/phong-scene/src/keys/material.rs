@@ -196,6 +196,13 @@ pub(crate) static MATERIAL: Table = Table {
             "Index of refraction of the inside relative to the outside.",
         ),
         Key::new(
+            "priority",
+            Kind::Integer(0, Material::MOST_PRIORITY as u64),
+            Default::Integer(0),
+            "Of surfaces in one place the one of the highest priority is met first; of glasses \
+             that fill one place it alone is there.",
+        ),
+        Key::new(
             "fresnel",
             Kind::Flag,
             Default::Said("true where `transmission` is not 0"),

@@ -293,6 +293,7 @@ impl Make {
             reflection: if self.flag() { Rgb::BLACK } else { self.color() },
             transmission,
             ior: self.one(&[1.5, 1.0, 0.666_666_7]),
+            priority: self.one(&[0, 0, 7]),
             fresnel: self.flag(),
             dialect,
             times_cosine: if lobe { self.flag() } else { preset.times_cosine },

@@ -65,7 +65,7 @@ impl Batch {
 
     /// The number of the object that a primitive belongs to.
     #[inline]
-    pub(super) fn object(&self, local: u32) -> u32 {
+    pub(crate) fn object(&self, local: u32) -> u32 {
         match self.objects {
             Objects::One(object) => object,
             Objects::OneEach(first) => first + local,
@@ -73,7 +73,7 @@ impl Batch {
     }
 
     /// Whether its primitives are one object together.
-    pub(super) fn is_bulk(&self) -> bool {
+    pub(crate) fn is_bulk(&self) -> bool {
         matches!(self.objects, Objects::One(_))
     }
 
@@ -83,6 +83,15 @@ impl Batch {
             MaterialNumbers::One(material) => Some(*material),
             MaterialNumbers::OneEach(materials) => materials.iter().copied().max(),
         }
+    }
+
+    /// The materials of its primitives, some perhaps named more than once.
+    pub(crate) fn materials_used(&self) -> impl Iterator<Item = u32> {
+        let (one, each) = match &self.materials {
+            MaterialNumbers::One(material) => (Some(*material), &[][..]),
+            MaterialNumbers::OneEach(materials) => (None, &materials[..]),
+        };
+        one.into_iter().chain(each.iter().copied())
     }
 
     /// How a sphere is turned; `None`: it is not, or it is no sphere.

@@ -2,16 +2,18 @@
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*, u32x8};
 use glam::{DVec3, Vec3};
-use phong_bvh::{Hits8, Kernel, Rays8, Surfaces8, lanes};
+use phong_bvh::{Hits8, Kernel, Ray, Rays8, Surfaces8, lanes, offset_origin};
 use phong_scene::{Background, Rgb};
 
 use super::Integrator;
 use super::bundle::Radiance8;
+use super::crossing::{Crossings, Departure};
 use crate::interaction::SurfaceInteraction;
 use crate::material::Material;
 use crate::math::lanes::{direction, dot, get, load3, select3, set, splat3, store3};
 use crate::terms::{Term, TermSet};
-use crate::view::{MadeMaterial, Shading8, View};
+use crate::view::{Coincidences, MadeMaterial, Shading8, View};
+use crate::witness::Branch;
 
 /// The surfaces that the rays of a bundle hit, eight for eight rays. The numbers of rays that hit
 /// nothing are unspecified.
@@ -22,6 +24,11 @@ pub(super) struct Interactions {
     pub(super) shading: Vec<Shading8>,
     /// Materials made for surfaces that textures vary, numbered behind those of the view.
     pub(super) made: Vec<MadeMaterial>,
+    /// What was met where more than the closest hit counts.
+    pub(super) crossings: Crossings,
+    /// The index of refraction of the far side relative to the near one, eight for eight rays; NaN: the
+    /// material's own. Empty: that of all.
+    pub(super) etas: Vec<[f32; 8]>,
 }
 
 impl Interactions {
@@ -32,6 +39,7 @@ impl Interactions {
         &mut self,
         integrator: &Integrator<'_>,
         rays: &[Rays8],
+        departures: &[Departure],
         height: &dyn Fn(usize, usize) -> f32,
         out: &mut Vec<Radiance8>,
     ) {
@@ -42,7 +50,11 @@ impl Interactions {
         self.made.clear();
         out.resize(rays.len(), Radiance8::NONE);
         scene.world().intersect_eights(rays, &mut self.hits);
-        scene.world().surface_eights(rays, &self.hits, &mut self.surfaces);
+        self.etas.clear();
+        match scene.coincidences() {
+            None => scene.world().surface_eights(rays, &self.hits, &mut self.surfaces),
+            Some(coincidences) => self.settle(scene, coincidences, rays, departures),
+        }
         scene.world().run(BeginRadiance {
             scene,
             background,
@@ -51,6 +63,44 @@ impl Interactions {
             interactions: self,
             out,
         });
+    }
+
+    /// Goes on from the closest hits to what is met first.
+    fn settle(
+        &mut self,
+        scene: &View,
+        coincidences: &Coincidences,
+        rays: &[Rays8],
+        departures: &[Departure],
+    ) {
+        let Self { hits, surfaces, crossings, etas, .. } = self;
+        let rays = crossings.settle(scene, coincidences, rays, departures, hits);
+        scene.world().surface_eights(rays, hits, surfaces);
+        etas.resize(rays.len(), [f32::NAN; 8]);
+        for (ray, eta, error) in crossings.each() {
+            let (i, lane) = (ray / 8, ray % 8);
+            set(&mut surfaces[i].p_error, lane, error.to_array());
+            etas[i][lane] = eta.unwrap_or(f32::NAN);
+        }
+    }
+
+    /// What a mirror or glass ray knows of where it starts. A ray that meets another surface at once
+    /// starts before the one it crossed.
+    pub(super) fn depart(&self, branch: Branch, i: usize, lane: usize, ray: &mut Ray) -> Departure {
+        let Some(crossing) = self.crossings.of(i, lane) else { return Departure::default() };
+        match branch {
+            Branch::Reflection => crossing.reflected(),
+            Branch::Transmission => {
+                let (departure, starts_before) = crossing.refracted();
+                if starts_before {
+                    let surface = &self.surfaces[i];
+                    let p = DVec3::from_array(surface.p.map(|all| all[lane]));
+                    let [error, ng] = [&surface.p_error, &surface.ng].map(|v| get(v, lane).into());
+                    ray.origin = offset_origin(p, error, ng, -ray.dir);
+                }
+                departure
+            }
+        }
     }
 
     /// The surface that one ray hit. `materials` are as many as the view has.
@@ -121,7 +171,7 @@ impl Kernel for BeginRadiance<'_> {
         /// What lights add to in any case, and the ambient term.
         const LOCAL: TermSet = TermSet::of(&[Term::Ambient, Term::Diffuse, Term::Specular]);
         let Self { scene, background, height, rays, interactions, out } = self;
-        let Interactions { hits, surfaces, shading, made } = interactions;
+        let Interactions { hits, surfaces, shading, made, .. } = interactions;
         let eights = rays.iter().zip(hits).zip(surfaces).zip(shading).zip(out);
         for (i, ((((rays, hits), surface), shading), out)) in eights.enumerate() {
             let met = hits.met;
@@ -231,7 +281,7 @@ mod tests {
                 hits: vec![Hits8::NONE],
                 surfaces: vec![surface],
                 shading: vec![shading],
-                made: Vec::new(),
+                ..Interactions::default()
             };
             for lane in 0..8 {
                 let (at, l) = (interactions.at(&[rays], 0, lane, 1), direction(&l, lane));

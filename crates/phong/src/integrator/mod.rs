@@ -8,12 +8,14 @@
 //! [`Terms`]: crate::terms::Terms
 
 mod bundle;
+mod crossing;
 mod interactions;
 mod lights;
 mod optics;
 
 pub use bundle::RayCounts;
 pub(crate) use bundle::{Bundle, CameraRay, Radiance8};
+pub(crate) use crossing::first_met;
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -25,6 +27,7 @@ use crate::sampling::{Sampler, Samplers8};
 use crate::view::View;
 use crate::witness::{Branch, Cut, CutReason, Witness};
 use bundle::count;
+use crossing::Departure;
 use interactions::Interactions;
 use lights::LightSamples;
 use optics::{Scatter, Scattered8};
@@ -66,10 +69,19 @@ struct SecondaryRays {
     samplers: Vec<Samplers8>,
     /// Where each ray came from, in the same order.
     from: Vec<Parent>,
-    /// The product of all weights from the camera to each, in the same order.
-    path_weights: Vec<Rgb>,
+    /// What each has behind it, in the same order.
+    paths: Paths,
     /// The rays of each surface, in its lane, before they are packed.
     scattered: Vec<Scattered8>,
+}
+
+/// What rays have behind them, in their order. Empty: they come from the camera.
+#[derive(Default)]
+struct Paths {
+    /// The product of all weights from the camera on.
+    weights: Vec<Rgb>,
+    /// Where each starts; empty where no scene asks for it.
+    departures: Vec<Departure>,
 }
 
 /// The ray that a mirror or refracted ray came from.
@@ -86,7 +98,8 @@ impl SecondaryRays {
         self.rays.clear();
         self.samplers.clear();
         self.from.clear();
-        self.path_weights.clear();
+        self.paths.weights.clear();
+        self.paths.departures.clear();
     }
 
     fn push(&mut self, parent: Parent, path_weight: Rgb, ray: &Ray, sampler: Option<Sampler>) {
@@ -102,7 +115,7 @@ impl SecondaryRays {
             samplers.set(lane, sampler);
         }
         self.from.push(parent);
-        self.path_weights.push(path_weight);
+        self.paths.weights.push(path_weight);
     }
 }
 
@@ -131,7 +144,7 @@ impl Integrator<'_> {
             &bundle.rays,
             &bundle.samplers,
             &height,
-            &[],
+            &Paths::default(),
             self.depth,
             scratch,
             counts,
@@ -141,15 +154,14 @@ impl Integrator<'_> {
     }
 
     /// Traces a bundle. `height` gives the place in a gradient background, 0 to 1, of a ray that hits
-    /// nothing. `path_weights` are the products of all weights on the way to the rays, in their order;
-    /// empty: they come from the camera. `bounces` is how many more are allowed. The results are in `scratch.out`.
+    /// nothing. `paths` are what the rays have behind them. `bounces` is how many more are allowed. The results are in `scratch.out`.
     #[expect(clippy::too_many_arguments, reason = "the state of the recursion")]
     fn trace_bundle<W: Witness>(
         &self,
         rays: &[Rays8],
         samplers: &[Samplers8],
         height: &dyn Fn(usize, usize) -> f32,
-        path_weights: &[Rgb],
+        paths: &Paths,
         bounces: u32,
         scratch: &mut ScratchBuffer,
         counts: &mut RayCounts,
@@ -160,7 +172,7 @@ impl Integrator<'_> {
             out.resize(rays.len(), Radiance8::NONE);
             return;
         }
-        interactions.intersect(self, rays, height, out);
+        interactions.intersect(self, rays, &paths.departures, height, out);
         if W::LISTENS {
             for (i, (rays8, out)) in rays.iter().zip(&*out).enumerate() {
                 for lane in lanes(rays8.there) {
@@ -196,16 +208,7 @@ impl Integrator<'_> {
         let is_transparent = self.background == Background::Transparent;
         for branch in [Branch::Reflection, Branch::Transmission] {
             let (secondary, scratch) = &mut **deeper.get_or_insert_default();
-            self.scatter(
-                branch,
-                rays,
-                interactions,
-                samplers,
-                path_weights,
-                bounces,
-                secondary,
-                witness,
-            );
+            self.scatter(branch, rays, interactions, samplers, paths, bounces, secondary, witness);
             if secondary.from.is_empty() {
                 continue;
             }
@@ -216,12 +219,12 @@ impl Integrator<'_> {
             let up = self.scene.camera().up();
             let height =
                 |i: usize, lane: usize| 0.5 - 0.5 * secondary.rays[i].get(lane).dir.dot(up);
-            let SecondaryRays { rays, samplers, from, path_weights, .. } = &*secondary;
+            let SecondaryRays { rays, samplers, from, paths, .. } = &*secondary;
             self.trace_bundle(
                 rays,
                 samplers,
                 &height,
-                path_weights,
+                paths,
                 bounces - 1,
                 scratch,
                 counts,
@@ -252,7 +255,7 @@ impl Integrator<'_> {
         rays: &[Rays8],
         interactions: &Interactions,
         samplers: &[Samplers8],
-        path_weights: &[Rgb],
+        paths: &Paths,
         bounces: u32,
         secondary: &mut SecondaryRays,
         witness: &mut W,
@@ -265,7 +268,7 @@ impl Integrator<'_> {
         for (i, scattered) in scattered.iter().enumerate() {
             for lane in lanes(scattered.there) {
                 let (weight, fresnel) = scattered.weight(lane);
-                let so_far = path_weights.get(8 * i + lane).copied().unwrap_or(Rgb::WHITE);
+                let so_far = paths.weights.get(8 * i + lane).copied().unwrap_or(Rgb::WHITE);
                 let path_weight = so_far * weight;
                 let reason = if bounces == 0 {
                     Some(CutReason::Depth)
@@ -280,7 +283,12 @@ impl Integrator<'_> {
                 }
                 let sampler = samplers.get(i).map(|s| s.get(lane).branch(branch as u32));
                 let parent = Parent { ray: (i, lane), weight, fresnel };
-                secondary.push(parent, path_weight, &scattered.ray(lane), sampler);
+                let mut ray = scattered.ray(lane);
+                if self.scene.coincidences().is_some() {
+                    let departure = interactions.depart(branch, i, lane, &mut ray);
+                    secondary.paths.departures.push(departure);
+                }
+                secondary.push(parent, path_weight, &ray, sampler);
             }
         }
         secondary.scattered = scattered;

@@ -81,6 +81,10 @@ impl Kernel for Scatter<'_> {
                     load3(simd, &surface.ng),
                     to_eye(simd, rays),
                 );
+                let at = match interactions.etas.get(i) {
+                    Some(etas) => at.with_eta(f32x8::load_array_ref(simd, etas)),
+                    None => at,
+                };
                 let (dir, weight, share) = match branch {
                     Branch::Reflection => at.mirrored(material),
                     Branch::Transmission => at.refracted(material),
@@ -127,6 +131,12 @@ impl<F: Lanes<Scalar = f32>> Side<F> {
         let facing = select3(inside, neg(ng), ng);
         let eta = F::select(inside, cos.splat(1.0 / material.ior), cos.splat(material.ior));
         Self { n, e, facing, eta }
+    }
+
+    /// With other indices of refraction where there are any: where `eta` is not NaN.
+    #[inline(always)]
+    fn with_eta(self, eta: F) -> Self {
+        Self { eta: F::select(eta.gt(eta.splat(0.0)), eta, self.eta), ..self }
     }
 
     /// The exact reflectance.

@@ -10,7 +10,7 @@ use super::{Cancel, Cancelled, Pass, RenderOptions};
 use crate::aov::Aov;
 use crate::film::{LayerKind, Sums8, TileSums, Window, coverage};
 use crate::filter::Filter;
-use crate::integrator::{CameraRay, Integrator, RayCounts, ScratchBuffer};
+use crate::integrator::{CameraRay, Integrator, RayCounts, ScratchBuffer, first_met};
 use crate::math::lanes::{Lanes3, store3};
 use crate::sampling::Sampler;
 use crate::terms::{Terms, Terms8};
@@ -242,6 +242,13 @@ impl<'a> TileRenderer<'a> {
             let (hit, cost) = scene.world().intersect_counted(&ray);
             (hit, cost.nodes)
         });
+        let (ray, hit) = match ray {
+            Some(ray) if hit.is_some() => {
+                let (ray, hit) = first_met(scene, ray, hit);
+                (Some(ray), hit)
+            }
+            ray => (ray, hit),
+        };
         let at = ray.filter(|_| hit.is_some()).map(|ray| scene.interaction(&ray, &hit));
         for (kind, values) in self.layers.iter().zip(out) {
             let LayerKind::Aov(aov) = kind else { continue };

@@ -65,6 +65,7 @@ pub(super) fn material(
         reflection: textures.color(v, "reflection")?,
         transmission,
         ior: v.number("ior")? as f32,
+        priority: v.integer("priority")? as u32,
         fresnel: v.flag("fresnel").unwrap_or(!transmission.is_black()),
         dialect,
         times_cosine: v.flag("times_cosine").unwrap_or(preset.times_cosine),

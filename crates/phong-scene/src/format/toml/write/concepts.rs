@@ -187,6 +187,7 @@ pub(super) fn material(material: &Material, textures: &[String], key: &str) -> O
         "reflection" => color(m.reflection),
         "transmission" => color(m.transmission),
         "ior" => Value::Number(short(m.ior)),
+        "priority" => Value::Integer(m.priority.into()),
         "fresnel" if m.fresnel == m.transmission.is_black() => Value::Flag(m.fresnel),
         "dialect" => Value::Word(m.dialect.name()),
         "times_cosine" if m.times_cosine != preset.times_cosine => Value::Flag(m.times_cosine),
