@@ -4,6 +4,7 @@
 //! read, what is suggested and what is documented cannot drift apart.
 
 mod camera;
+mod hint;
 mod kind;
 mod light;
 mod material;
@@ -13,6 +14,7 @@ mod schema;
 mod shape;
 mod texture;
 
+pub(crate) use hint::{of_key, of_word};
 pub(crate) use kind::{Default, Kind};
 pub(crate) use light::LIGHT;
 pub(crate) use material::MATERIAL;

@@ -92,6 +92,7 @@ cases! {
     groups_that_hold_one_another_are_told
     names_may_be_of_any_letters
     nan_and_infinity_are_wrong_everywhere
+    numbers_that_are_bytes_or_radians_are_doubted
     one_table_and_several_are_not_the_same
     shapes_that_are_none_are_told
     textures_that_are_not_there_or_do_not_fit
@@ -103,6 +104,7 @@ cases! {
     what_is_required_and_missing_is_told_at_its_table
     what_nobody_uses_is_a_warning
     without_any_material_the_help_says_how_to_write_one
+    words_of_other_programs_are_told_ours
 }
 
 fn assert_files(folder: &str, names: &[&str]) {

@@ -40,6 +40,7 @@ pub(super) fn mend(file: u32, notes: &mut Notes) -> Mended {
             continue;
         }
         for Statement { range, unclosed } in statements(text, section.clone()) {
+            let start = range.start;
             if bytes[range.clone()].iter().all(u8::is_ascii_whitespace) {
                 continue; // lost with its header
             }
@@ -57,7 +58,7 @@ pub(super) fn mend(file: u32, notes: &mut Notes) -> Mended {
                     let message = format!("this `{}` is never closed", &text[open.clone()]);
                     (open, message, None)
                 }
-                None => told(&error, text, range.start),
+                None => foreign(text, range).unwrap_or_else(|| told(&error, text, start)),
             });
         }
     }
@@ -91,6 +92,45 @@ pub(super) fn mend(file: u32, notes: &mut Notes) -> Mended {
 }
 
 type Told = (Range<usize>, String, Option<String>);
+
+/// A value as it is written elsewhere: `(0, 1, 0)` for a list, `1,5` for a decimal number.
+fn foreign(text: &str, statement: Range<usize>) -> Option<Told> {
+    let (key, value) = text.get(statement.clone())?.split_once('=')?;
+    let at = statement.start + key.len() + 1 + (value.len() - value.trim_start().len());
+    let value = value.trim();
+    if let Some(rest) = value.strip_prefix('(') {
+        let end = rest.find(')')?;
+        let help = format!("a list stands in square brackets: `[{}]`", rest.get(..end)?.trim());
+        let message = "round brackets hold nothing here".to_owned();
+        return Some((at..at + end + 2, message, Some(cut(help))));
+    }
+    let number = |c: char| c.is_ascii_digit() || "+-.,".contains(c);
+    let end = value.find(|c: char| !number(c)).unwrap_or(value.len());
+    let (number, rest) = value.split_at(end);
+    let parts: Vec<&str> = number.split(',').collect();
+    let digits = |part: &&str| part.parse::<f64>().is_ok();
+    if parts.len() < 2
+        || !parts.iter().all(digits)
+        || !(rest.is_empty() || rest.starts_with([' ', '#']))
+    {
+        return None;
+    }
+    let help = match parts[..] {
+        [whole, part] => format!("a decimal number has a point: `{whole}.{part}`"),
+        _ => format!("a list stands in square brackets: `[{}]`", parts.join(", ")),
+    };
+    let message = format!("{} is no value", quoted(number));
+    Some((at..at + end, message, Some(cut(help))))
+}
+
+/// A help of sane length.
+fn cut(mut help: String) -> String {
+    if let Some((end, _)) = help.char_indices().nth(120) {
+        help.truncate(end);
+        help.push('…');
+    }
+    help
+}
 
 /// The parser's error, its place counted from the beginning of the text.
 ///

@@ -8,7 +8,7 @@ use super::text::Spot;
 use super::value::{TexturedValue, Value, ValueReader};
 use crate::color::Rgb;
 use crate::diagnostic::Severity;
-use crate::keys::{BACKGROUND, Default, Key, Kind, TEXTURED, Table};
+use crate::keys::{BACKGROUND, Default, Key, Kind, TEXTURED, Table, of_key};
 use crate::scene::Background;
 use crate::wording::{closest, list};
 use glam::{DAffine3, DVec2, DVec3, DVec4};
@@ -26,6 +26,7 @@ pub(super) struct Values {
 
 /// The value of a key, which may be a table of its own.
 fn read_value(
+    table: &'static Table,
     key: &'static Key,
     value: &Spanned<DeValue<'_>>,
     file: u32,
@@ -48,7 +49,13 @@ fn read_value(
                 channel: by.word("channel"),
             }))
         }
-        _ => ValueReader { notes, file, key }.read(value),
+        _ => {
+            let read = ValueReader { notes, file, table: table.name, key }.read(value)?;
+            if let Some(bytes) = bytes(table, key, &read) {
+                say_bytes(notes, Spot::new(file, value.span()), bytes);
+            }
+            Some(read)
+        }
     }
 }
 
@@ -78,7 +85,7 @@ impl Values {
             let at = Spot::new(spot.file, name.span());
             match table.find(name.get_ref(), values.word) {
                 Some(key) => {
-                    let read = read_value(key, value, spot.file, notes);
+                    let read = read_value(table, key, value, spot.file, notes);
                     let spot = Spot::new(spot.file, value.span());
                     values.entries.push(Entry { key, spot, value: read });
                 }
@@ -95,7 +102,7 @@ impl Values {
             return;
         };
         if let Some(value) = text.get(key.name) {
-            let read = read_value(key, value, self.spot.file, notes);
+            let read = read_value(self.table, key, value, self.spot.file, notes);
             if let Some(Value::Word(word)) = read {
                 self.word = Some(word);
             }
@@ -271,12 +278,48 @@ pub(super) fn say_unknown(
         return;
     }
     let known = || table.keys().filter(|key| key.applies(word)).map(|key| key.name);
-    let help = match closest(name, known()) {
-        Some(meant) => format!("did you mean `{meant}`?"),
-        None => format!("known here: {}", list(known(), "and")),
+    let help = match (of_key(table.name, name), closest(name, known())) {
+        (Some(hint), _) => hint.to_owned(),
+        (None, Some(meant)) => format!("did you mean `{meant}`?"),
+        (None, None) => format!("known here: {}", list(known(), "and")),
     };
     let name = crate::wording::quoted(name);
     notes.error(at, format!("unknown key {name} in this `{}`", table.name)).help = Some(help);
+}
+
+/// A colour that was most likely copied from a colour picker: three whole numbers up to 255.
+///
+/// Materials reflect no more than they get, so there 2 is enough to doubt it. Lights and what glows
+/// may be brighter than white, so there one of the numbers has to be 100.
+fn bytes(table: &Table, key: &Key, value: &Value) -> Option<[u8; 3]> {
+    let least = match (table.name, key.name) {
+        (_, "eta" | "k") => return None,
+        ("material", "emission_color") => 100.0,
+        ("material" | "texture", _) => 2.0,
+        _ => 100.0,
+    };
+    let colors: Vec<Rgb> = match value {
+        Value::Color(color) | Value::Background(Background::Color(color)) => vec![*color],
+        Value::Colors(colors) => colors.to_vec(),
+        Value::Stops(stops) => stops.iter().map(|(_, color)| *color).collect(),
+        _ => return None,
+    };
+    let channels = || colors.iter().flat_map(|color| color.to_array());
+    let whole = channels().all(|v| (0.0..=255.0).contains(&v) && v.fract() == 0.0);
+    let doubted = colors.iter().find(|color| {
+        let [r, g, b] = color.to_array();
+        color.max_channel() >= least && !(r == g && g == b)
+    });
+    let doubted = doubted.filter(|_| whole)?;
+    Some(doubted.to_array().map(|v| v as u8))
+}
+
+fn say_bytes(notes: &mut Notes, at: Spot, [r, g, b]: [u8; 3]) {
+    let most = r.max(g).max(b);
+    let message = format!("[{r}, {g}, {b}] is {most} times as bright as white: are these bytes?");
+    notes.warning(at, message).help = Some(format!(
+        "in `[r, g, b]` 1 is full light, and numbers are linear; bytes are written \"#{r:02x}{g:02x}{b:02x}\""
+    ));
 }
 
 fn article(word: &str) -> &'static str {

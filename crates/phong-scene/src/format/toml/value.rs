@@ -7,7 +7,7 @@ use toml::de::DeValue;
 use super::notes::Notes;
 use super::text::Spot;
 use crate::color::Rgb;
-use crate::keys::{Key, Kind};
+use crate::keys::{Key, Kind, of_word};
 use crate::limits::{LARGEST, Range};
 use crate::scene::{Background, Image};
 use crate::transform::is_regular;
@@ -66,10 +66,19 @@ fn found(value: &DeValue<'_>) -> String {
     }
 }
 
+/// Whether a list that should hold `wanted` numbers holds more, all of them whole.
+fn are_decimal_commas(value: &DeValue<'_>, wanted: usize) -> bool {
+    let DeValue::Array(items) = value else { return false };
+    let whole = items.iter().all(|item| matches!(item.get_ref(), DeValue::Integer(_)));
+    whole && items.len() > wanted && items.len() <= 2 * wanted
+}
+
 /// Reads values of one key, and says what is wrong with them.
 pub(super) struct ValueReader<'n> {
     pub(super) notes: &'n mut Notes,
     pub(super) file: u32,
+    /// The table that the key is of.
+    pub(super) table: &'static str,
     pub(super) key: &'static Key,
 }
 
@@ -126,14 +135,25 @@ impl ValueReader<'_> {
 
     /// Says what the key wants and what it got.
     fn mismatch<T>(&mut self, value: &Spanned<DeValue<'_>>) -> Option<T> {
+        let spot = self.spot(value);
+        self.mismatch_helped(spot, value, false)
+    }
+
+    /// The same; `commas`: decimal commas are the likely reason.
+    fn mismatch_helped<T>(
+        &mut self,
+        spot: Spot,
+        value: &Spanned<DeValue<'_>>,
+        commas: bool,
+    ) -> Option<T> {
         let message = format!(
             "`{}` must be {}; this is {}",
             self.key.name,
             self.key.kind.words(),
             found(value.get_ref())
         );
-        let spot = self.spot(value);
-        self.notes.error(spot, message);
+        let help = "decimals are written with a point, like 1.5: a comma begins the next number";
+        self.notes.error(spot, message).help = commas.then(|| help.to_owned());
         None
     }
 
@@ -181,7 +201,11 @@ impl ValueReader<'_> {
             .and_then(|items| items.first_chunk::<N>().filter(|_| items.len() == N))
         {
             Some(items) => Some(items),
-            None => self.mismatch(value),
+            None => {
+                let spot = self.spot(value);
+                let commas = N == 3 && are_decimal_commas(value.get_ref(), N);
+                self.mismatch_helped(spot, value, commas)
+            }
         }
     }
 
@@ -309,8 +333,10 @@ impl ValueReader<'_> {
             return None;
         }
         let message = format!("`{name}` must be {}; this is {}", kind.words(), quoted(text));
-        self.notes.error(spot, message).help = closest(text, words.iter().chain(*later).copied())
-            .map(|word| format!("did you mean `{word}`?"));
+        let near = || closest(text, words.iter().chain(*later).copied());
+        let hint = of_word(self.table, name, text).map(str::to_owned);
+        self.notes.error(spot, message).help =
+            hint.or_else(|| near().map(|word| format!("did you mean `{word}`?")));
         None
     }
 
