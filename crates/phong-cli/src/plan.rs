@@ -75,7 +75,7 @@ impl Outputs {
             Self::Part(output) => {
                 output.write(|mut out| part::write(film.film_tiles(), settings, &mut out))
             }
-            Self::Picture(format, files) => write_files(*format, files, film, settings.encoding),
+            Self::Picture(format, files) => write_files(*format, files, film, settings),
         }
     }
 
@@ -93,11 +93,15 @@ fn write_files(
     format: Format,
     files: &mut [(Content, Output)],
     film: &Film,
-    encoding: Encoding,
+    settings: &Settings,
 ) -> Result<(), Failure> {
-    let picture = finish(film, &Finishing::default());
+    let finishing = match settings.scene() {
+        Some(sum) => Finishing::default().of_scene(sum),
+        None => Finishing::default(),
+    };
+    let (picture, encoding) = (finish(film, &finishing), &settings.encoding);
     files.iter_mut().try_for_each(|(content, output)| {
-        output.write(|mut out| image::write(&picture, *content, format, &encoding, &mut out))
+        output.write(|mut out| image::write(&picture, *content, format, encoding, &mut out))
     })
 }
 

@@ -8,24 +8,42 @@ use crate::film::{Film, LayerKind};
 /// How a picture is to be finished. The default leaves it as its film has it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
-pub struct Finishing {}
+pub struct Finishing {
+    /// The scene's [`fingerprint`](crate::part::fingerprint()): PNG and EXR files then say which
+    /// scene they are of. `None`: they do not.
+    pub scene: Option<u32>,
+}
+
+impl Finishing {
+    /// The same, of the scene with this [`fingerprint`](crate::part::fingerprint()).
+    pub fn of_scene(self, fingerprint: u32) -> Self {
+        Self { scene: Some(fingerprint) }
+    }
+}
 
 /// A film, and the picture that it is finished to.
 #[derive(Clone, Debug)]
 pub struct Finished<'a> {
     film: &'a Film,
+    scene: Option<u32>,
 }
 
 /// Finishes a film's picture.
 pub fn finish<'a>(film: &'a Film, finishing: &Finishing) -> Finished<'a> {
-    let Finishing {} = finishing;
-    Finished { film }
+    let Finishing { scene } = *finishing;
+    Finished { film, scene }
 }
 
 impl<'a> Finished<'a> {
     /// The film, as it was rendered.
     pub fn film(&self) -> &'a Film {
         self.film
+    }
+
+    /// What a file says of its origin: the program with its version, and the scene's fingerprint.
+    pub(crate) fn origin(&self) -> [Option<(&'static str, String)>; 2] {
+        let program = concat!("phong ", env!("CARGO_PKG_VERSION")).to_owned();
+        [Some(("Software", program)), self.scene.map(|sum| ("Scene", format!("crc32 {sum:08x}")))]
     }
 
     /// The values of a layer as they are to be seen; `None` if the film has no such layer.

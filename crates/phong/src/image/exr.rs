@@ -6,7 +6,7 @@ use exr::block::lines::LineRefMut;
 use exr::image::write::samples::{SamplesWriter, WritableSamples};
 use exr::math::RoundingMode;
 use exr::meta::MetaData;
-use exr::meta::attribute::{Chromaticities, LevelMode, SampleType};
+use exr::meta::attribute::{AttributeValue, Chromaticities, LevelMode, SampleType};
 use exr::meta::header::Header;
 use exr::prelude::{
     AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, Text, Vec2,
@@ -85,9 +85,17 @@ pub(super) fn write(
         opaque = vec![1.0; width * film.height() as usize];
         list.push(channel("A".to_owned(), &opaque, 1, 0));
     }
+    let [software, scene] = picture.origin().map(|said| said.map(|(_, text)| text));
+    let mut attributes = LayerAttributes::default();
+    attributes.software_name = software.map(Text::new_or_panic);
+    attributes.other.extend(
+        scene.map(|sum| {
+            (Text::new_or_panic("scene"), AttributeValue::Text(Text::new_or_panic(sum)))
+        }),
+    );
     let layer = Layer::new(
         (width, film.height() as usize),
-        LayerAttributes::default(),
+        attributes,
         Encoding::SMALL_LOSSLESS,
         AnyChannels::sort(list),
     );

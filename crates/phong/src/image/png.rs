@@ -88,6 +88,9 @@ pub(super) fn write(
         encoder.set_source_gamma(ScaledFloat::from_scaled(100_000));
     }
     encoder.set_compression(Compression::Fast);
+    for (keyword, text) in picture.origin().into_iter().flatten() {
+        encoder.add_text_chunk(keyword.to_owned(), text).map_err(encoding_error)?;
+    }
     let mut writer = encoder.write_header().map_err(encoding_error)?;
     writer.write_image_data(&bytes).map_err(encoding_error)?;
     writer.finish().map_err(encoding_error)

@@ -44,6 +44,36 @@ fn a_png_holds_the_encoded_picture() {
 }
 
 #[test]
+fn a_png_says_which_program_made_it_and_of_which_scene() {
+    let film = film([1, 1], &[(PICTURE, &[0.5, 0.25, 1.0])]);
+    let mut out = Cursor::new(Vec::new());
+    let finished = finish(&film, &Finishing::default().of_scene(0xbeef));
+    write(&finished, Content::Layer(PICTURE), Format::Png, &Encoding::default(), &mut out).unwrap();
+    let reader = ::png::Decoder::new(Cursor::new(out.into_inner())).read_info().unwrap();
+    let texts = &reader.info().uncompressed_latin1_text;
+    let said: Vec<_> = texts.iter().map(|t| (t.keyword.as_str(), t.text.as_str())).collect();
+    let program = concat!("phong ", env!("CARGO_PKG_VERSION"));
+    assert_eq!(said, [("Software", program), ("Scene", "crc32 0000beef")]);
+}
+
+#[cfg(feature = "exr")]
+#[test]
+fn an_exr_says_which_program_made_it_and_of_which_scene() {
+    let film = film([1, 1], &[(PICTURE, &[0.5, 0.25, 1.0])]);
+    let mut out = Cursor::new(Vec::new());
+    let finished = finish(&film, &Finishing::default().of_scene(0xbeef));
+    write(&finished, Content::Film, Format::Exr, &Encoding::default(), &mut out).unwrap();
+    let meta =
+        ::exr::meta::MetaData::read_from_buffered(Cursor::new(out.into_inner()), false).unwrap();
+    let told = format!("{:?}", meta.headers[0].own_attributes);
+    assert!(told.contains("crc32 0000beef"), "{told}");
+    let program = concat!("phong ", env!("CARGO_PKG_VERSION"));
+    assert!(
+        meta.headers[0].own_attributes.software_name.as_ref().is_some_and(|name| name.eq(program))
+    );
+}
+
+#[test]
 fn a_png_of_16_bits_is_big_endian() {
     let film = film([1, 1], &[(PICTURE, &[0.5, 0.18, 1.0])]);
     let encoding = Encoding { bits: Bits::Sixteen, ..Encoding::default() };

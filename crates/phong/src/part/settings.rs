@@ -52,6 +52,12 @@ impl Settings {
         }
     }
 
+    /// The scene's [`fingerprint`](super::fingerprint()); `None` in a part that does not say it.
+    pub fn scene(&self) -> Option<u32> {
+        let (_, sum) = self.picture.iter().find(|(name, _)| name == "scene")?;
+        u32::from_str_radix(sum, 16).ok()
+    }
+
     /// A film of this picture without any tile.
     pub fn empty_film(&self) -> Film {
         Film::new(self.size, self.window, self.tile, &self.layers)
