@@ -25,7 +25,7 @@ fn a_mistyped_command_is_corrected() {
 fn every_command_has_help_with_an_exit_code_of_nought() {
     let folder = given(&[]);
     let commands = "render explain figure eval fit compare grade check info convert bench merge \
-                    studio keys completions man";
+                    studio keys completions man new";
     for command in commands.split_whitespace() {
         let then = folder.done(&format!("{command} --help"));
         assert!(!then.out.is_empty(), "{command}");

@@ -16,6 +16,7 @@ Examples:
   phong render scene.toml -o all.exr --terms --aov depth,normal
   phong render scene.toml -o a.part --tile 0/2     # and 1/2 elsewhere, then: phong merge
   phong render scene.toml -o - | display           # to another program
+  phong render scene.toml --size 480x270 --watch      again at every change
   cat scene.toml | phong render - --format toml -o scene.png";
 
 /// A picture of a scene or a bare model
@@ -106,6 +107,10 @@ pub(crate) struct WorkArgs {
     /// Keep a checkpoint OUT.part while rendering, and go on from it if there is one
     #[arg(long)]
     pub(crate) resume: bool,
+
+    /// Draw again whenever the scene or a file it names changes, until interrupted
+    #[arg(long, conflicts_with_all = ["tile", "resume"])]
+    pub(crate) watch: bool,
 
     /// One JSON object about the work, on standard output
     #[arg(long)]

@@ -16,8 +16,10 @@ pub(crate) mod info;
 pub(crate) mod keys;
 pub(crate) mod man;
 pub(crate) mod merge;
+pub(crate) mod new;
 pub(crate) mod render;
 pub(crate) mod studio;
+pub(crate) mod watch;
 
 use clap::builder::Styles;
 use clap::builder::styling::AnsiColor;
@@ -35,6 +37,7 @@ const STYLES: Styles = Styles::styled()
 
 const EXAMPLES: &str = "\
 Examples:
+  phong new                                  a first scene, scene.toml
   phong render scene.toml                    a picture of a scene, scene.png
   phong render dragon.ply --view iso         of a bare model, with camera and lights of its own
   phong check scene.toml                     every problem, with file, line and column
@@ -71,6 +74,9 @@ pub(crate) enum Command {
     Convert(convert::Args),
     Bench(bench::Args),
     Merge(merge::Args),
+    New(new::Args),
+    // Not built yet: it answers, and is not listed.
+    #[command(hide = true)]
     Studio(studio::Args),
     Keys(keys::Args),
     Completions(completions::Args),
@@ -88,7 +94,8 @@ pub(crate) fn run(command: Command) -> Result<(), Failure> {
 
 fn run_here(command: Command) -> Result<(), Failure> {
     match command {
-        Command::Render(args) => render::run(&args),
+        Command::Render(args) if args.work.watch => watch::run(&args),
+        Command::Render(args) => render::run(&args).map(drop),
         Command::Explain(args) => explain::run(&args),
         Command::Figure(args) => figure::run(&args),
         Command::Eval(args) => eval::run(&args),
@@ -100,6 +107,7 @@ fn run_here(command: Command) -> Result<(), Failure> {
         Command::Convert(args) => convert::run(&args),
         Command::Bench(args) => bench::run(&args),
         Command::Merge(args) => merge::run(&args),
+        Command::New(args) => new::run(&args),
         Command::Studio(args) => studio::run(&args),
         Command::Keys(args) => keys::run(&args),
         Command::Completions(args) => completions::run(&args),

@@ -1,5 +1,6 @@
 //! `phong render`: a picture of a scene.
 
+use std::path::PathBuf;
 use std::time::Instant;
 
 use phong::film::{LayerKind, Window};
@@ -20,7 +21,8 @@ use crate::plan::Plan;
 use crate::progress::{Meter, rate, short};
 use crate::report;
 
-pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
+/// Draws the picture; tells the files that the scene was read from.
+pub(crate) fn run(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
     let mut clock = Clock::start();
     let plan = Plan::new(args)?;
     let quiet = args.work.quiet;
@@ -36,9 +38,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     clock.lap("read");
 
     meter.stage("building");
-    let scene_sum =
-        if plan.share.is_some() || args.work.resume { fingerprint(&input.scene) } else { 0 };
-    let settings = Settings::of(scene_sum, &options, plan.encoding);
+    let settings = Settings::of(fingerprint(&input.scene), &options, plan.encoding);
     let scene = compile(&input.scene, &args.input, options.film_bytes())?;
     clock.lap("build");
 
@@ -77,8 +77,10 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     }
     clock.lap("write");
 
-    // Memory goes back to the system with the process, all at once.
-    std::mem::forget((scene, film));
+    if !args.work.watch {
+        // Memory goes back to the system with the process, all at once.
+        std::mem::forget((scene, film));
+    }
     if args.work.json {
         let Window { x0, y0, x1, y1 } = options.window();
         let layer =
@@ -109,7 +111,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
             rate(rays.total(), seconds),
         ));
     }
-    Ok(())
+    Ok(input.files().to_vec())
 }
 
 /// Times of the stages, one after another.
