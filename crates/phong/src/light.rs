@@ -179,6 +179,14 @@ impl Light {
         }
     }
 
+    /// Where it is, rounded as it is used; `None`: it is distant.
+    pub(crate) fn position(&self) -> Option<DVec3> {
+        match self.kind {
+            Kind::Distant { .. } => None,
+            Kind::Point { position, .. } => Some(position),
+        }
+    }
+
     /// The largest channel of its two colours; 0 for a light that gives none.
     pub(crate) fn brightest(&self) -> f32 {
         self.color.max_channel().max(self.specular_color.max_channel())

@@ -1,6 +1,7 @@
 //! A geometry and its look together: all that a picture needs.
 
 mod coincident;
+mod fixture;
 mod shading;
 mod varied;
 
@@ -19,6 +20,7 @@ use crate::material::Material;
 use crate::math::Dir3;
 use crate::texture::Texture;
 pub(crate) use coincident::Coincidences;
+pub(crate) use fixture::Fixture;
 use shading::Shading;
 pub(crate) use shading::Shading8;
 pub(crate) use varied::MadeMaterial;
@@ -31,6 +33,8 @@ pub struct View {
     look: Look,
     camera: Camera,
     lights: Vec<Light>,
+    /// What each light is mounted in.
+    fixtures: Vec<Fixture>,
     /// The materials; of those that vary, with white for every texture.
     materials: Vec<Material>,
     /// What varies of each; empty where no material takes a value from a texture.
@@ -95,6 +99,11 @@ impl View {
         let lights: Vec<_> = look.lights.iter().map(|light| Light::new(light, center)).collect();
         let ready = |m: &phong_scene::Material| Material::new(&m.at(|_| Rgb::WHITE), viewer);
         let materials: Vec<_> = look.materials.iter().map(ready).collect();
+        let fixture = |light: &Light| {
+            let around = |at| Fixture::of(&geometry, &materials, at, look.camera.eye);
+            light.position().map(around).unwrap_or_default()
+        };
+        let fixtures = lights.iter().map(fixture).collect();
         let mut varied: Vec<_> = look.materials.iter().map(Varied::of).collect();
         if varied.iter().all(|&varied| varied == Varied::Nothing) {
             varied = Vec::new();
@@ -107,6 +116,7 @@ impl View {
             has_soft_lights: lights.iter().any(|light| light.soft),
             has_ambient_per_light: materials.iter().any(Material::takes_ambient_per_light),
             textures: look.textures.iter().map(Texture::new).collect(),
+            fixtures,
             geometry,
             look,
             camera,
@@ -148,6 +158,12 @@ impl View {
     #[inline]
     pub fn lights(&self) -> &[Light] {
         &self.lights
+    }
+
+    /// What a light is mounted in.
+    #[inline]
+    pub(crate) fn fixture(&self, light: usize) -> &Fixture {
+        &self.fixtures[light]
     }
 
     /// The lights as they were written, in the same order.

@@ -59,9 +59,11 @@ pub struct LightContribution {
     pub sample: Option<LightSample>,
     /// The light tinted by the material.
     pub incident: Option<Incident>,
-    /// Whether the light is above the horizon, geometric and shading.
+    /// Whether the light is above the horizon: that of N, and where things cast shadows, that of the
+    /// geometric normal as well, but for smooth meshes whose shadow rays start above the face.
     pub above: bool,
-    /// The ray that asked whether it is seen; `None` if none was needed.
+    /// The ray that asked whether it is seen, from just above the surface to just before the light; `None`
+    /// if none was needed.
     pub shadow: Option<Ray>,
     /// Whether it is seen: above the horizon and nothing between.
     pub visible: bool,

@@ -162,7 +162,8 @@ pub struct Lit {
     pub c_d: Rgb,
     /// `C_{m,s}`.
     pub c_s: Rgb,
-    /// Whether the light is above the horizon, geometric and shading.
+    /// Whether the light is above the horizon: that of N, and where things cast shadows, that of the
+    /// geometric normal as well, but for smooth meshes whose shadow rays start above the face.
     pub above: bool,
     /// Whether a ray was sent to look for it.
     pub tested: bool,

@@ -16,11 +16,19 @@ pub(crate) struct Batch {
     pub(super) colors: Shared<Rgb>,
     /// Two colours a cylinder, of the half at either end; empty: the material's.
     pub(super) end_colors: Shared<[Rgb; 2]>,
-    /// What turns normals of the mesh into those of the world, up to their length; `None`: they are
-    /// the same.
-    pub(super) normals_to_world: Option<Box<Mat3>>,
+    /// From the mesh to the world; `None`: they are the same.
+    pub(super) to_world: Option<Box<ToWorld>>,
     /// The spheres that are turned, in order of their number, and the rotation of each.
     pub(super) rotations: Vec<(u32, DMat3)>,
+}
+
+/// What turns vectors of a mesh with normals into those of the world.
+#[derive(Debug)]
+pub(super) struct ToWorld {
+    /// Normals, up to their length.
+    pub(super) normals: Mat3,
+    /// Edges.
+    pub(super) edges: Mat3,
 }
 
 /// The objects that a batch's primitives belong to.
@@ -58,7 +66,7 @@ impl Batch {
             mesh: None,
             colors: Shared::default(),
             end_colors: Shared::default(),
-            normals_to_world: None,
+            to_world: None,
             rotations: Vec::new(),
         }
     }
@@ -134,7 +142,45 @@ impl Batch {
         let [a, b, c] = at_corners(&mesh.normals, &mesh.normal_indices, local, corners)?;
         let [a, b, c] = [unit(a), unit(b), unit(c)];
         let n = (1.0 - hit.u - hit.v) * a + hit.u * b + hit.v * c;
-        Dir3::new(self.normals_to_world.as_ref().map_or(n, |matrix| **matrix * n))
+        Dir3::new(self.to_world.as_ref().map_or(n, |to_world| to_world.normals * n))
+    }
+
+    /// The way from a point of a triangle to the curved surface that its normals stand for, in the world:
+    /// each corner's tangent plane lifts what lies below it onto itself, and the point takes the mean by
+    /// its weights. 0 where the mesh has no normals, or is not convex there. (Hanika, *Hacking the shadow
+    /// terminator*, Ray Tracing Gems II, 2021.)
+    ///
+    /// `front` is the geometric normal on the side that is lit, and the normals are those of the other
+    /// side where they are `flipped`; a corner whose normal disagrees lifts nothing.
+    pub(super) fn lift(
+        &self,
+        local: u32,
+        corners: [u32; 3],
+        [a, b, c]: [Vec3; 3],
+        hit: &Hit,
+        (front, flipped): (Vec3, bool),
+    ) -> Vec3 {
+        let Some(mesh) = self.mesh.as_ref() else { return Vec3::ZERO };
+        let normals = at_corners(&mesh.normals, &mesh.normal_indices, local, corners);
+        let Some(normals) = normals else { return Vec3::ZERO };
+        let (mut ab, mut ac, mut normals) = (b - a, c - a, normals.map(unit));
+        if let Some(ToWorld { normals: turn, edges }) = self.to_world.as_deref() {
+            (ab, ac) = (*edges * ab, *edges * ac);
+            normals = normals.map(|n| unit(*turn * n));
+        }
+        let from_a = hit.u * ab + hit.v * ac;
+        let from = [from_a, from_a - ab, from_a - ac];
+        let weights = [1.0 - hit.u - hit.v, hit.u, hit.v];
+        let mut lift = Vec3::ZERO;
+        for ((n, from), weight) in normals.into_iter().zip(from).zip(weights) {
+            let n = if flipped { -n } else { n };
+            let below = from.dot(n).min(0.0);
+            if n.dot(front) > 0.0 {
+                lift -= weight * below * n;
+            }
+        }
+        // Beyond the range of f32 there is nothing to lift.
+        if lift.is_finite() { lift } else { Vec3::ZERO }
     }
 
     /// The interpolated texture coordinates; `None` where the mesh has none.

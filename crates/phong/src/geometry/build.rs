@@ -7,7 +7,7 @@ use phong_bvh::{BuildError, BuildOptions, Part, Plane, Primitives, Sphere};
 use phong_scene::{Bounds, Cylinders, Mesh, Points, Shape, cofactor, even_scale};
 
 use super::ObjectRecord;
-use super::batch::{Batch, MaterialNumbers, MeshAttributes, Objects};
+use super::batch::{Batch, MaterialNumbers, MeshAttributes, Objects, ToWorld};
 use super::flatten::Placed;
 use super::solid::{self, canonical};
 use super::trees::{Arrays, Trees};
@@ -108,11 +108,10 @@ fn of_mesh(mesh: &Mesh, to_world: DMat3, object: u32, material: u32) -> Batch {
         let matrix = cofactor(to_world);
         let largest = matrix.to_cols_array().into_iter().fold(0.0, |a: f64, b| a.max(b.abs()));
         let matrix = if largest > 0.0 { matrix * largest.recip() } else { matrix };
-        batch.normals_to_world = Some(Box::new(Mat3::from_cols(
-            matrix.x_axis.as_vec3(),
-            matrix.y_axis.as_vec3(),
-            matrix.z_axis.as_vec3(),
-        )));
+        let narrow =
+            |m: DMat3| Mat3::from_cols(m.x_axis.as_vec3(), m.y_axis.as_vec3(), m.z_axis.as_vec3());
+        batch.to_world =
+            Some(Box::new(ToWorld { normals: narrow(matrix), edges: narrow(to_world) }));
     }
     batch.mesh =
         Some(Box::new(MeshAttributes { normals, normal_indices, uvs, uv_indices, colors }));

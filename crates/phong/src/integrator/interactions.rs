@@ -58,6 +58,7 @@ impl Interactions {
         scene.world().run(BeginRadiance {
             scene,
             background,
+            lift: integrator.shadows && integrator.terminator,
             height,
             rays,
             interactions: self,
@@ -157,6 +158,8 @@ pub(super) fn material<'m>(
 struct BeginRadiance<'a> {
     scene: &'a View,
     background: Background,
+    /// Whether shadow rays from smooth meshes start above the face.
+    lift: bool,
     height: &'a dyn Fn(usize, usize) -> f32,
     rays: &'a [Rays8],
     interactions: &'a mut Interactions,
@@ -170,7 +173,7 @@ impl Kernel for BeginRadiance<'_> {
     fn run<S: Simd>(self, simd: S) {
         /// What lights add to in any case, and the ambient term.
         const LOCAL: TermSet = TermSet::of(&[Term::Ambient, Term::Diffuse, Term::Specular]);
-        let Self { scene, background, height, rays, interactions, out } = self;
+        let Self { scene, background, lift, height, rays, interactions, out } = self;
         let Interactions { hits, surfaces, shading, made, .. } = interactions;
         let eights = rays.iter().zip(hits).zip(surfaces).zip(shading).zip(out);
         for (i, ((((rays, hits), surface), shading), out)) in eights.enumerate() {
@@ -200,7 +203,7 @@ impl Kernel for BeginRadiance<'_> {
                 continue;
             }
             let (ng, e) = (load3(simd, &surface.ng), to_eye(simd, rays));
-            scene.shading8(simd, hits, ng, e, shading);
+            scene.shading8(simd, hits, ng, e, lift, shading);
             if scene.has_textures() {
                 scene.vary(rays, hits, surface, shading, made);
             }
@@ -226,19 +229,17 @@ impl Kernel for BeginRadiance<'_> {
     }
 }
 
-/// Where a light in direction `l` is above the horizon: that of the surface as it is, and that
-/// of N.
+/// The geometric normals on the side that the rays come from.
 #[inline(always)]
-pub(super) fn is_above<S: Simd>(
-    l: [f32x8<S>; 3],
-    n: [f32x8<S>; 3],
-    ng: [f32x8<S>; 3],
-    e: [f32x8<S>; 3],
-) -> mask32x8<S> {
-    let zero = f32x8::splat(l[0].token(), 0.0);
-    let over = dot(l, ng);
-    let over = dot(ng, e).simd_lt(zero).select(-over, over);
-    dot(l, n).simd_gt(zero) & over.simd_gt(zero)
+pub(super) fn facing<S: Simd>(ng: [f32x8<S>; 3], e: [f32x8<S>; 3]) -> [f32x8<S>; 3] {
+    let back = dot(ng, e).simd_lt(f32x8::splat(ng[0].token(), 0.0));
+    select3(back, [-ng[0], -ng[1], -ng[2]], ng)
+}
+
+/// Where a light in direction `l` is above the horizon of `n`.
+#[inline(always)]
+pub(super) fn is_above<S: Simd>(l: [f32x8<S>; 3], n: [f32x8<S>; 3]) -> mask32x8<S> {
+    dot(l, n).simd_gt(f32x8::splat(l[0].token(), 0.0))
 }
 
 #[cfg(test)]
@@ -275,7 +276,8 @@ mod tests {
             }
             let l8 = load3(simd, &l);
             let (n, ng) = (load3(simd, &shading.n), load3(simd, &surface.ng));
-            let mask = is_above(l8, n, ng, to_eye(simd, &rays)).to_bitmask();
+            let front = facing(ng, to_eye(simd, &rays));
+            let mask = (is_above(l8, n) & is_above(l8, front)).to_bitmask();
             let origins = offset_origins(simd, &surface, l8);
             let interactions = Interactions {
                 hits: vec![Hits8::NONE],

@@ -1,37 +1,43 @@
 //! What lights add to the surfaces that rays hit, eight at a time.
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
-use phong_bvh::{Kernel, Rays8, lanes, offset_origins};
+use phong_bvh::{Hits8, Kernel, Rays8, lanes};
 use phong_scene::Rgb;
 
 use super::Integrator;
 use super::bundle::Radiance8;
-use super::interactions::{Interactions, is_above, material, same_material, to_eye};
+use super::interactions::{Interactions, facing, is_above, material, same_material, to_eye};
+use super::shadow_rays::aim;
 use crate::light::{Light, LightSample, Reach};
 use crate::math::Dir3;
 use crate::math::lanes::{Lanes3, direction, dot, get, load3, select3, store3};
 use crate::sampling::{Samplers8, Use};
 use crate::terms::{Term, Terms};
+use crate::view::Fixture;
 use crate::witness::{LightContribution, Witness};
 
 /// What one light sends to each surface that a bundle's rays hit.
 #[derive(Default)]
 pub(super) struct LightSamples {
     samples: Vec<LightSample8>,
-    /// A ray from each surface to the light. `dir` is L, which is 0 where the surface point is the light's
-    /// own position, and `t_max` is the distance. Rays that are needed to find out whether the light is
-    /// visible are marked as present.
+    /// The rays that are needed to find out whether the light is visible.
     shadow_rays: Vec<Rays8>,
     blocked: Vec<u32>,
+    /// What they hit, where that matters.
+    hits: Vec<Hits8>,
 }
 
 /// What one light sends to eight surfaces.
 #[derive(Clone, Copy)]
 #[repr(align(32))]
 struct LightSample8 {
+    /// L; 0 where the surface point is the light's own position.
+    l: Lanes3,
+    distance: [f32; 8],
     /// The share of the light's colours that arrives.
     share: [f32; 8],
-    /// The surfaces above whose horizon the light is, one bit each.
+    /// The surfaces above whose horizon the light is, one bit each: that of N, and where things cast
+    /// shadows, of faces as well that stand for no smooth surface.
     above: u32,
     /// The surfaces that receive light: the light is above the horizon, is not 0 there, and nothing
     /// blocks it. One bit each.
@@ -39,16 +45,14 @@ struct LightSample8 {
 }
 
 impl LightSample8 {
-    const NONE: Self = Self { share: [0.0; 8], above: 0, visible: 0 };
+    const NONE: Self =
+        Self { l: [[0.0; 8]; 3], distance: [0.0; 8], share: [0.0; 8], above: 0, visible: 0 };
 
     /// What is sent to one surface; `None` where the surface point is the light's position.
-    fn get(&self, shadow_rays: &Rays8, light: &Light, lane: usize) -> Option<LightSample> {
-        let reach = Reach {
-            l: direction(&shadow_rays.dir, lane),
-            distance: shadow_rays.t_max[lane],
-            share: self.share[lane],
-        };
-        (get(&shadow_rays.dir, lane) != [0.0; 3]).then(|| light.colored(reach))
+    fn get(&self, light: &Light, lane: usize) -> Option<LightSample> {
+        let (l, distance) = (direction(&self.l, lane), self.distance[lane]);
+        let reach = Reach { l, distance, share: self.share[lane] };
+        (get(&self.l, lane) != [0.0; 3]).then(|| light.colored(reach))
     }
 }
 
@@ -64,14 +68,15 @@ impl Integrator<'_> {
         to: &mut LightSamples,
     ) -> u64 {
         let light = &self.scene.lights()[number];
-        let LightSamples { samples, shadow_rays, blocked } = to;
+        let LightSamples { samples, shadow_rays, blocked, hits } = to;
         samples.resize(rays.len(), LightSample8::NONE);
         shadow_rays.resize(rays.len(), Rays8::NONE);
         let casts = self.shadows && light.shadows;
         let purpose = Use::Light(number as u32);
-        let bvh = self.scene.world();
+        let (bvh, fixture) = (self.scene.world(), self.scene.fixture(number));
         let count = bvh.run(SampleLight {
             light,
+            fixture,
             purpose,
             casts,
             rays,
@@ -80,7 +85,16 @@ impl Integrator<'_> {
             samples,
             shadow_rays,
         });
-        if casts {
+        if casts && fixture.has_bodies() {
+            hits.resize(rays.len(), Hits8::NONE);
+            bvh.intersect_eights(shadow_rays, hits);
+            for (samples, hits) in samples.iter_mut().zip(hits) {
+                // What is seen first may be the luminous body that the light is in.
+                let blocks = |&lane: &usize| !fixture.is_body(&hits.get(lane));
+                let blocked = lanes(hits.met).filter(blocks).fold(0, |all, lane| all | 1 << lane);
+                samples.visible &= !blocked;
+            }
+        } else if casts {
             blocked.resize(rays.len(), 0);
             bvh.occluded_eights(shadow_rays, blocked);
             for (samples, blocked) in samples.iter_mut().zip(blocked) {
@@ -118,7 +132,7 @@ impl Integrator<'_> {
             for lane in lanes(interactions.hits[i].met) {
                 let at = interactions.at(rays, i, lane, self.scene.materials().len());
                 let has = |mask: u32| mask >> lane & 1 != 0;
-                let sample = samples.get(shadow_rays, light, lane);
+                let sample = samples.get(light, lane);
                 let Terms { diffuse, specular, .. } = alone[i].terms.get(lane);
                 let of = interactions.shading[i].material[lane] as usize;
                 let material = material(self.scene, &interactions.made, of);
@@ -150,7 +164,7 @@ impl Integrator<'_> {
                 let number = shading.material[lane] as usize;
                 let material = material(self.scene, &interactions.made, number);
                 if material.takes_ambient_per_light()
-                    && let Some(sample) = samples.get(&from.shadow_rays[i], light, lane)
+                    && let Some(sample) = samples.get(light, lane)
                 {
                     let color = Rgb::from(get(&shading.color, lane));
                     let more = material.ambient_of_light(color, self.scene.ambient(), &sample);
@@ -163,6 +177,7 @@ impl Integrator<'_> {
 
 struct SampleLight<'a> {
     light: &'a Light,
+    fixture: &'a Fixture,
     purpose: Use,
     /// Whether objects can block it.
     casts: bool,
@@ -178,8 +193,8 @@ impl Kernel for SampleLight<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> u64 {
-        let Self { light, purpose, casts, rays, interactions, samplers, samples, shadow_rays } =
-            self;
+        let Self { light, fixture, purpose, casts, rays, interactions, .. } = self;
+        let Self { samplers, samples, shadow_rays, .. } = self;
         let brightest = f32x8::splat(simd, light.brightest());
         let mut count = 0;
         let Interactions { hits, surfaces, shading, .. } = interactions;
@@ -193,16 +208,22 @@ impl Kernel for SampleLight<'_> {
             let place = light.soft.then(|| samplers[i].pair(purpose));
             let reach = light.reach8(simd, &surface.p, place.as_ref());
             let (n, ng) = (load3(simd, &shading.n), load3(simd, &surface.ng));
-            let above = is_above(reach.l, n, ng, to_eye(simd, rays));
+            let front = facing(ng, to_eye(simd, rays));
+            let mut above = is_above(reach.l, n);
+            if casts {
+                // Smooth meshes have no horizon but N's: what else is below meets the mesh.
+                let smooth = mask32x8::from_bitmask(simd, shading.smooth.into());
+                above = above & (is_above(reach.l, front) | smooth);
+            }
             // A spot sends nothing beyond its edge: no shadow ray is needed.
             let bright = (reach.share * brightest).simd_gt(f32x8::splat(simd, 0.0));
             let lit = hits.met & (above & bright).to_bitmask() as u32;
             samples.share = reach.share.into();
             (samples.above, samples.visible) = (hits.met & above.to_bitmask() as u32, lit);
-            shadow_rays.dir = store3(reach.l);
-            shadow_rays.t_max = reach.distance.into();
+            samples.l = store3(reach.l);
+            samples.distance = reach.distance.into();
             if casts && lit != 0 {
-                shadow_rays.origin = offset_origins(simd, surface, reach.l);
+                aim(simd, (surface, shading), front, &reach, fixture, shadow_rays);
                 shadow_rays.there = lit;
                 count += u64::from(lit.count_ones());
             }
@@ -227,9 +248,7 @@ impl Kernel for Shade<'_> {
     fn run<S: Simd>(self, simd: S) {
         let Self { integrator, number, rays, interactions, from, out } = self;
         let light = &integrator.scene.lights()[number];
-        for (i, ((samples, shadow_rays), out)) in
-            from.samples.iter().zip(&from.shadow_rays).zip(out).enumerate()
-        {
+        for (i, (samples, out)) in from.samples.iter().zip(out).enumerate() {
             let shading = &interactions.shading[i];
             let mut left = samples.visible;
             while left != 0 {
@@ -237,7 +256,7 @@ impl Kernel for Shade<'_> {
                 let (number, same) = same_material(simd, &shading.material, left);
                 left &= !same;
                 let material = material(integrator.scene, &interactions.made, number);
-                let (n, l) = (load3(simd, &shading.n), load3(simd, &shadow_rays.dir));
+                let (n, l) = (load3(simd, &shading.n), load3(simd, &samples.l));
                 let e = material.eye_of(to_eye(simd, &rays[i]));
                 if let Some([diffuse, specular]) = material.reflectance.weights(n, e, l) {
                     let color = load3(simd, &shading.color);
@@ -259,7 +278,7 @@ impl Kernel for Shade<'_> {
                     continue;
                 }
                 for lane in lanes(same) {
-                    let Some(sample) = samples.get(shadow_rays, light, lane) else { continue };
+                    let Some(sample) = samples.get(light, lane) else { continue };
                     let (n, e) = (direction(&shading.n, lane), -direction(&rays[i].dir, lane));
                     let color = Rgb::from(get(&shading.color, lane));
                     let tangent = if material.reflectance.is_brushed() {

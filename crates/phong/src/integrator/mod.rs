@@ -12,6 +12,7 @@ mod crossing;
 mod interactions;
 mod lights;
 mod optics;
+mod shadow_rays;
 
 pub use bundle::RayCounts;
 pub(crate) use bundle::{Bundle, CameraRay, Radiance8};

@@ -1,12 +1,13 @@
 //! What shading needs of a surface besides its geometry, of one surface or of eight.
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*, u32x8};
+use glam::Vec3;
 use phong_bvh::{Hit, Hits8, lanes};
 use phong_scene::Rgb;
 
 use super::View;
 use crate::math::Dir3;
-use crate::math::lanes::{Lanes3, dot, load3, select3, set, splat3, store3};
+use crate::math::lanes::{Lanes3, dot, get, load3, select3, set, splat3, store3};
 
 /// What shading needs of a surface besides its geometry.
 pub(super) struct Shading {
@@ -28,10 +29,21 @@ pub(crate) struct Shading8 {
     pub(crate) color: Lanes3,
     /// Numbers of the materials.
     pub(crate) material: [u32; 8],
+    /// Surfaces of meshes with smooth normals, one bit each, where they are asked for: shadow rays start
+    /// above the face.
+    pub(crate) smooth: u32,
+    /// How far above: of those surfaces.
+    pub(crate) lift: Lanes3,
 }
 
 impl Shading8 {
-    pub(crate) const NONE: Self = Self { n: [[0.0; 8]; 3], color: [[0.0; 8]; 3], material: [0; 8] };
+    pub(crate) const NONE: Self = Self {
+        n: [[0.0; 8]; 3],
+        color: [[0.0; 8]; 3],
+        material: [0; 8],
+        smooth: 0,
+        lift: [[0.0; 8]; 3],
+    };
 }
 
 impl View {
@@ -58,7 +70,8 @@ impl View {
     }
 
     /// [`View::shading`] of those of eight surfaces that were hit: the same bits, with the
-    /// material's colour where the geometry brings none.
+    /// material's colour where the geometry brings none. With `lift` the smooth ones are told how far above
+    /// them shadow rays start.
     #[inline(always)]
     pub(crate) fn shading8<S: Simd>(
         &self,
@@ -66,9 +79,11 @@ impl View {
         hits: &Hits8,
         ng: [f32x8<S>; 3],
         e: [f32x8<S>; 3],
+        lift: bool,
         shading: &mut Shading8,
     ) {
-        let Shading8 { n, color, material } = shading;
+        let Shading8 { n, color, material, smooth, lift: lifts } = shading;
+        *smooth = 0;
         let zero = f32x8::splat(simd, 0.0);
         *n = store3(ng);
         let mut left = hits.met;
@@ -96,6 +111,7 @@ impl View {
                 set(color, lane, own.to_array());
                 if let Some(normal) = normal {
                     set(n, lane, normal.to_array());
+                    *smooth |= u32::from(lift) << lane;
                 }
             }
         }
@@ -106,6 +122,13 @@ impl View {
         let up = load3(simd, n);
         let away = dot(up, front).simd_lt(zero);
         *n = store3(select3(away, [-up[0], -up[1], -up[2]], up));
+        if *smooth != 0 {
+            let (front, away) = (store3(front), away.to_bitmask());
+            for lane in lanes(*smooth) {
+                let side = (Vec3::from(get(&front, lane)), away >> lane & 1 != 0);
+                set(lifts, lane, self.geometry.lift(&hits.get(lane), side).to_array());
+            }
+        }
     }
 }
 
@@ -116,7 +139,7 @@ mod tests {
     use phong_scene::{Material, MaterialId, Mesh, Object, Points, Scene, Shape};
 
     use super::*;
-    use crate::math::lanes::{direction, get};
+    use crate::math::lanes::direction;
 
     /// A plane, a ball, a mesh of two materials with normals, one with colours, and coloured points, seen
     /// by rays down −z that lie close together.
@@ -183,7 +206,8 @@ mod tests {
         for ((rays, hits), surface) in eights.iter().zip(&hits).zip(&surfaces) {
             let mut eight = Shading8::NONE;
             let [x, y, z] = load3(simd, &rays.dir);
-            view.shading8(simd, hits, load3(simd, &surface.ng), [-x, -y, -z], &mut eight);
+            let ng = load3(simd, &surface.ng);
+            view.shading8(simd, hits, ng, [-x, -y, -z], false, &mut eight);
             assert_eq!(hits.met, 0xff, "the plane is behind everything");
             for lane in lanes(hits.met) {
                 let (ng, e) = (direction(&surface.ng, lane), -direction(&rays.dir, lane));
