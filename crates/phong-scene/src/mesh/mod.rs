@@ -3,6 +3,7 @@
 //! The arrays are [`Shared`]: a clone of a mesh refers to the same ones, and so do the trees that
 //! the renderer builds. Nothing copies them.
 
+mod blocks;
 mod cylinders;
 mod groups;
 mod part;

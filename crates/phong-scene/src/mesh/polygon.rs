@@ -14,9 +14,14 @@ use std::collections::VecDeque;
 use glam::{DVec2, DVec3, Vec3};
 use rayon::prelude::*;
 
-/// Points looked at per corner before a polygon is given up as tangled: a simple one of a few
-/// thousand corners needs less, and no file can keep the machine busy for long.
-const PATIENCE: u64 = 8192;
+use super::blocks::Blocks;
+
+/// Corners looked at per corner before a polygon is given up as tangled: simple ones need fewer,
+/// and no file can keep the machine busy for long.
+const PATIENCE: u64 = 256;
+
+/// Corners that are looked at in any polygon before it is given up.
+const PATIENCE_AT_LEAST: u64 = 1 << 22;
 
 /// Polygons whose fans are checked by one task.
 const GROUP: usize = 1024;
@@ -130,11 +135,9 @@ struct Clipper<'a> {
     previous: Vec<u32>,
     next: Vec<u32>,
     /// Corners that may lie in another's ear: those where the outline does not turn left.
-    blocks: Vec<bool>,
+    blocks: Blocks,
     /// Corners that wait in the queue to be clipped.
     waits: Vec<bool>,
-    /// All corners by x, so that an ear is tested only against those above and below it.
-    by_x: Vec<u32>,
     left: usize,
     looked_at: u64,
     triangles: Vec<[u32; 3]>,
@@ -143,23 +146,18 @@ struct Clipper<'a> {
 impl<'a> Clipper<'a> {
     fn new(points: &'a [DVec2]) -> Self {
         let n = points.len() as u32;
-        let mut by_x: Vec<u32> = (0..n).collect();
-        by_x.sort_unstable_by(|&a, &b| {
-            points[a as usize].x.total_cmp(&points[b as usize].x).then(a.cmp(&b))
-        });
         let mut clipper = Self {
             points,
             previous: (0..n).map(|i| if i == 0 { n - 1 } else { i - 1 }).collect(),
             next: (0..n).map(|i| if i + 1 == n { 0 } else { i + 1 }).collect(),
-            blocks: vec![false; points.len()],
+            blocks: Blocks::new(points),
             waits: vec![false; points.len()],
-            by_x,
             left: points.len(),
             looked_at: 0,
             triangles: Vec::with_capacity(points.len() - 2),
         };
         for i in 0..n {
-            clipper.blocks[i as usize] = clipper.turn(i) <= 0.0;
+            clipper.blocks.set(i, clipper.turn(i) <= 0.0);
         }
         clipper
     }
@@ -168,18 +166,25 @@ impl<'a> Clipper<'a> {
     fn clip(&mut self) -> bool {
         let mut clean = true;
         let mut any = 0;
+        let patience = PATIENCE_AT_LEAST.max(PATIENCE * self.points.len() as u64);
         while self.left > 3 {
-            let patient = self.looked_at < PATIENCE * self.points.len() as u64;
-            let mut queue: VecDeque<u32> = if patient { self.ears(any) } else { VecDeque::new() };
+            if self.looked_at > patience {
+                // What comes next goes, and so on to the end.
+                clean = false;
+                any = self.cut_off(any);
+                continue;
+            }
+            let mut queue = self.ears(any);
             if queue.is_empty() {
-                // Not simple: what turns left least wrongly goes, or simply what comes next.
+                // Not simple: what turns left least wrongly goes.
                 clean &= self.is_flat();
-                any = self.cut_off(if patient { self.straightest(any) } else { any });
+                any = self.cut_off(self.straightest(any));
+                self.looked_at += 2 * self.left as u64;
                 continue;
             }
             while let Some(ear) = queue.pop_front() {
                 self.waits[ear as usize] = false;
-                if self.left == 3 {
+                if self.left == 3 || self.looked_at > patience {
                     break;
                 }
                 if !self.is_ear(ear) {
@@ -202,6 +207,7 @@ impl<'a> Clipper<'a> {
     fn ears(&mut self, start: u32) -> VecDeque<u32> {
         let mut ears = VecDeque::new();
         let mut at = start;
+        self.looked_at += self.left as u64;
         for _ in 0..self.left {
             if self.is_ear(at) {
                 self.waits[at as usize] = true;
@@ -218,16 +224,11 @@ impl<'a> Clipper<'a> {
         self.triangles.push([before, corner, after]);
         self.next[before as usize] = after;
         self.previous[after as usize] = before;
-        self.blocks[corner as usize] = false;
+        self.blocks.set(corner, false);
         for neighbour in [before, after] {
-            self.blocks[neighbour as usize] = self.turn(neighbour) <= 0.0;
+            self.blocks.set(neighbour, self.turn(neighbour) <= 0.0);
         }
         self.left -= 1;
-        if 2 * self.left < self.by_x.len() {
-            let (next, previous) = (&self.next, &self.previous);
-            // A corner that was cut off is nobody's neighbour.
-            self.by_x.retain(|&i| next[previous[i as usize] as usize] == i);
-        }
         after
     }
 
@@ -251,28 +252,33 @@ impl<'a> Clipper<'a> {
             return false;
         }
         let (low, high) = (a.min(b).min(c), a.max(b).max(c));
-        let first = self.by_x.partition_point(|&i| self.points[i as usize].x < low.x);
-        for &i in &self.by_x[first..] {
-            let p = self.points[i as usize];
-            if p.x > high.x {
-                break;
-            }
-            self.looked_at += 1;
-            // A corner at the same place as one of the three is no obstacle: outlines with holes
-            // pass twice through the ends of the bridges that join them.
-            let inside = self.blocks[i as usize]
-                && (low.y..=high.y).contains(&p.y)
+        // A corner at the same place as one of the three is no obstacle: outlines with holes
+        // pass twice through the ends of the bridges that join them.
+        let inside = |p: DVec2| {
+            p.cmpge(low).all()
+                && p.cmple(high).all()
                 && p != a
                 && p != b
                 && p != c
                 && area(a, b, p) >= 0.0
                 && area(b, c, p) >= 0.0
-                && area(c, a, p) >= 0.0;
-            if inside {
-                return false;
-            }
-        }
-        true
+                && area(c, a, p) >= 0.0
+        };
+        // The corner of a box that lies farthest to the left of an edge; every step of the area is
+        // monotone, rounding included, so no point of the box has a greater one.
+        let leftmost = |from: DVec2, to: DVec2, low: DVec2, high: DVec2| {
+            let x = if to.y > from.y { low.x } else { high.x };
+            let y = if to.x > from.x { high.y } else { low.y };
+            area(from, to, DVec2::new(x, y))
+        };
+        let may = |from: DVec2, to: DVec2| {
+            from.cmple(high).all()
+                && to.cmpge(low).all()
+                && leftmost(a, b, from, to) >= 0.0
+                && leftmost(b, c, from, to) >= 0.0
+                && leftmost(c, a, from, to) >= 0.0
+        };
+        !self.blocks.any(self.points, &mut self.looked_at, may, inside)
     }
 
     /// The corner whose triangle is smallest, going around from `start`.
@@ -401,6 +407,38 @@ mod tests {
         let outer = (0..500).map(|i| at(i, 1.0 + f64::from(i) * 0.01));
         let inner = (0..500).rev().map(|i| at(i, 0.6 + f64::from(i) * 0.01));
         covers_exactly_once(&polygon(&outer.chain(inner).collect::<Vec<_>>()));
+    }
+
+    #[test]
+    fn long_outlines_of_any_run_are_covered_and_what_is_looked_at_grows_as_they_do() {
+        let n = 20_000_u32;
+        let mut comb = vec![(0.0, 0.0)];
+        comb.extend((0..n / 2).map(f64::from).flat_map(|x| [(x + 0.1, 10.0), (x + 1.0, 0.0)]));
+        comb.extend([(f64::from(n / 2), -1.0), (0.0, -1.0)]);
+        let lying: Vec<_> = comb.iter().map(|&(x, y)| (y, x)).collect();
+        let star = (0..n).map(|i| {
+            let (angle, r) = (f64::from(i) / f64::from(n) * 6.283, 1.0 + f64::from(i % 2));
+            (r * libm::cos(angle), r * libm::sin(angle))
+        });
+        for outline in [comb, lying, star.collect()] {
+            let points = flatten(&polygon(&outline));
+            let mut clipper = Clipper::new(&points);
+            assert!(clipper.clip());
+            assert!(clipper.looked_at < 200 * u64::from(n), "{}", clipper.looked_at);
+        }
+    }
+
+    #[test]
+    fn a_long_tangle_is_given_up_before_long() {
+        let at = |i: u32| f64::from(i.wrapping_mul(2_654_435_761) >> 8);
+        let tangle: Vec<_> = (0..20_000).map(|i| DVec2::new(at(i), at(i + 77))).collect();
+        let line: Vec<_> = (0..20_000).map(|i| DVec2::new(f64::from(i), 0.0)).collect();
+        for points in [tangle, line] {
+            let mut clipper = Clipper::new(&points);
+            clipper.clip();
+            assert_eq!(clipper.triangles.len(), points.len() - 2);
+            assert!(clipper.looked_at < 2 * PATIENCE_AT_LEAST.max(PATIENCE * 20_000));
+        }
     }
 
     #[test]

@@ -57,8 +57,8 @@ use crate::source::{Source, trouble};
 pub(crate) struct Library {
     file: Arc<str>,
     drafts: Vec<Draft>,
-    /// The draft of each name that counts: the first.
-    numbers: BTreeMap<String, usize>,
+    /// The drafts of each name, of which the first counts.
+    numbers: BTreeMap<String, Vec<usize>>,
     /// Whether its colours are bytes.
     bytes: bool,
     findings: Findings,
@@ -91,17 +91,22 @@ impl Library {
             cursor.next_line();
         }
         let Reader { drafts, findings, .. } = reader;
-        let mut numbers = BTreeMap::new();
+        let mut numbers: BTreeMap<String, Vec<usize>> = BTreeMap::new();
         for (number, draft) in drafts.iter().enumerate() {
-            numbers.entry(draft.name.clone()).or_insert(number);
+            numbers.entry(draft.name.clone()).or_default().push(number);
         }
         let bytes = are_bytes(drafts.iter().flat_map(Draft::colors));
         Some(Self { file, drafts, numbers, bytes, findings })
     }
 
+    /// The names of its materials.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &String> {
+        self.numbers.keys()
+    }
+
     /// The material of this name; `None`: the file defines none.
     pub(crate) fn material(&mut self, name: &str) -> Option<Material> {
-        let number = *self.numbers.get(name)?;
+        let (&number, again) = self.numbers.get(name)?.split_first()?;
         if self.bytes {
             self.findings.warning(
                 "colours read as bytes",
@@ -116,10 +121,10 @@ impl Library {
             self.drafts.iter_mut().for_each(Draft::divide_colors);
         }
         let line = self.drafts[number].span.place.line;
-        for again in self.drafts[number + 1..].iter().filter(|draft| draft.name == name) {
+        for &again in again {
             self.findings.warning(
                 "materials defined before",
-                || again.span.clone(),
+                || self.drafts[again].span.clone(),
                 || format!("the material `{name}` is defined on line {line}, which counts"),
             );
         }

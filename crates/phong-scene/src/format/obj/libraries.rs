@@ -1,5 +1,7 @@
 //! The MTL files that an OBJ file names.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use crate::diagnostic::{Diagnostic, Span};
 use crate::format::input::Input;
 use crate::format::mtl::Library;
@@ -11,6 +13,8 @@ use crate::source::{Source, byte_letter};
 #[derive(Debug, Default)]
 pub(super) struct Libraries {
     all: Vec<Library>,
+    /// The first of them that defines a material of this name.
+    first: BTreeMap<String, usize>,
 }
 
 impl Libraries {
@@ -28,13 +32,13 @@ impl Libraries {
     ) -> Self {
         let Input { path, source, limits, .. } = *input;
         let mut libraries = Self::default();
-        let mut read = Vec::new();
+        let mut read = BTreeSet::new();
         for (names, span) in statements {
             for choice in
                 [vec![names.clone()], split_at_extensions(&names), split_at_blanks(&names)]
             {
                 let found: Vec<_> = choice.iter().map(|name| locate(name, path, source)).collect();
-                let last_choice = choice == split_at_blanks(&names);
+                let last_choice = choice.iter().all(|name| !name.contains(char::is_whitespace));
                 if found.iter().any(Option::is_none) && !last_choice {
                     continue;
                 }
@@ -43,7 +47,7 @@ impl Libraries {
                         Some(at) if read.contains(&at) => {}
                         Some(at) => {
                             libraries.all.extend(Library::read(&at, source, limits, told));
-                            read.push(at);
+                            read.insert(at);
                         }
                         None => {
                             // Of a name with blanks, the words say nothing.
@@ -60,12 +64,17 @@ impl Libraries {
                 break;
             }
         }
+        for (number, library) in libraries.all.iter().enumerate() {
+            for name in library.names() {
+                libraries.first.entry(name.clone()).or_insert(number);
+            }
+        }
         libraries
     }
 
     /// The material of this name; `None`: no file defines it.
     pub(super) fn material(&mut self, name: &str) -> Option<Material> {
-        self.all.iter_mut().find_map(|library| library.material(name))
+        self.all[*self.first.get(name)?].material(name)
     }
 
     /// Everything there is to say about the materials that were asked for.
@@ -105,7 +114,8 @@ fn split_at_extensions(names: &str) -> Vec<String> {
     let mut found = Vec::new();
     let mut start = 0;
     let mut from = 0;
-    while let Some(at) = names[from..].to_ascii_lowercase().find(".mtl") {
+    let lower = names.to_ascii_lowercase();
+    while let Some(at) = lower[from..].find(".mtl") {
         from += at + 4;
         if names[from..].chars().next().is_none_or(char::is_whitespace) {
             found.push(names[start..from].trim().to_owned());
