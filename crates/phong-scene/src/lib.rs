@@ -45,7 +45,7 @@ pub use material::{
 pub use mesh::{Caps, Cylinders, Mesh, NO_INDEX, Points, Shared};
 pub use scene::{Background, FilterKind, Group, Image, Object, Reading, Scene};
 pub use shape::{GroupId, Shape};
-pub use source::{Blob, Folder, Memory, Source, path_of, path_text, trouble};
+pub use source::{Blob, Folder, Jail, Memory, Source, path_of, path_text, read_stream, trouble};
 pub use texture::{
     Channel, Param, Texture, TextureId, TextureKind, TextureRef, TextureSpace, Textured,
 };

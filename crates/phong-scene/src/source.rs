@@ -6,8 +6,8 @@ use std::ffi::OsStr;
 use std::ffi::OsString;
 use std::fmt;
 use std::fs::File;
-use std::io;
-use std::path::PathBuf;
+use std::io::{self, Read as _};
+use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 /// Opens the files a scene is made of.
@@ -95,6 +95,7 @@ pub fn trouble(error: &io::Error) -> String {
         Kind::ReadOnlyFilesystem => "nothing can be written there",
         Kind::InvalidFilename => "no file can have that name",
         Kind::FileTooLarge => "the system takes no file that large",
+        Kind::OutOfMemory => "there is not enough memory for it",
         _ => said,
     }
     .to_owned()
@@ -130,20 +131,123 @@ pub trait Blob: Send + Sync {
     }
 }
 
-/// The file system, with paths as written.
+/// The file system, with paths as written. Only files are opened: a pipe may wait for its writer
+/// for ever, and a device has no end.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Folder;
 
 impl Source for Folder {
     fn open(&self, path: &str) -> io::Result<Box<dyn Blob>> {
-        let file = File::open(path_of(path))?;
-        let meta = file.metadata()?;
-        if meta.is_dir() {
-            return Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder"));
+        open_file(&path_of(path))
+    }
+}
+
+/// The files in a folder and below it, and no others: for scenes of people one does not know.
+///
+/// Links are followed, and what they lead to must be in the folder as well. A path is resolved, held
+/// against the folder, and opened as resolved: whoever may change the folder at that very moment is
+/// not kept out.
+#[derive(Clone, Debug)]
+pub struct Jail {
+    /// Without links.
+    folder: PathBuf,
+}
+
+impl Jail {
+    /// The files in this folder.
+    ///
+    /// # Errors
+    /// What the system says of the folder, or that it is none.
+    pub fn new(folder: &Path) -> io::Result<Self> {
+        let folder = folder.canonicalize()?;
+        if !folder.is_dir() {
+            return Err(io::Error::new(io::ErrorKind::NotADirectory, "it is no folder"));
         }
-        #[cfg(not(unix))]
-        let file = std::sync::Mutex::new(file);
-        Ok(Box::new(OpenFile { len: meta.len(), file }))
+        Ok(Self { folder })
+    }
+
+    /// The file that a path names, without links.
+    ///
+    /// # Errors
+    /// What the system says, or that the file lies outside.
+    pub fn resolve(&self, path: &Path) -> io::Result<PathBuf> {
+        let outside = || {
+            let message = format!("it lies outside {}", self.folder.display());
+            io::Error::new(io::ErrorKind::PermissionDenied, message)
+        };
+        match path.canonicalize() {
+            Ok(real) if real.starts_with(&self.folder) => Ok(real),
+            Ok(_) => Err(outside()),
+            // What is not there either lies outside by its name, or nothing is given away.
+            Err(error) if plain(path).is_some_and(|path| path.starts_with(&self.folder)) => {
+                Err(error)
+            }
+            Err(_) => Err(outside()),
+        }
+    }
+}
+
+impl Source for Jail {
+    fn open(&self, path: &str) -> io::Result<Box<dyn Blob>> {
+        open_file(&self.resolve(&path_of(path))?)
+    }
+}
+
+/// A path from the root on without `.` and `..`, as far as its words say; its folder is resolved.
+fn plain(path: &Path) -> Option<PathBuf> {
+    let mut plain = Path::new(".").canonicalize().ok()?;
+    for part in path.components() {
+        match part {
+            Component::CurDir => {}
+            Component::ParentDir => {
+                plain.pop();
+            }
+            part => plain.push(part),
+        }
+    }
+    let name = plain.file_name()?.to_owned();
+    let folder = plain.parent()?;
+    Some(folder.canonicalize().unwrap_or_else(|_| folder.to_owned()).join(name))
+}
+
+/// Opens a file, and nothing else.
+fn open_file(path: &Path) -> io::Result<Box<dyn Blob>> {
+    let kind = path.metadata()?;
+    if kind.is_dir() {
+        return Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder"));
+    }
+    if !kind.is_file() {
+        let message = "it is no file but a pipe or a device";
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
+    }
+    let file = File::open(path)?;
+    let len = file.metadata()?.len();
+    #[cfg(not(unix))]
+    let file = std::sync::Mutex::new(file);
+    Ok(Box::new(OpenFile { len, file }))
+}
+
+/// All that a stream holds, if that is at most so many bytes; what it takes in memory is little more.
+///
+/// # Errors
+/// What the stream says; [`FileTooLarge`](io::ErrorKind::FileTooLarge) beyond `most` bytes;
+/// [`OutOfMemory`](io::ErrorKind::OutOfMemory).
+pub fn read_stream(mut stream: impl io::Read, most: u64) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    loop {
+        // A quarter more each time: doubling would hold twice of what there is.
+        let more = (bytes.len() / 4).max(1 << 16) as u64;
+        let room = more.min(most.saturating_add(1).saturating_sub(bytes.len() as u64));
+        bytes.try_reserve_exact(room as usize)?;
+        let read = stream.by_ref().take(room).read_to_end(&mut bytes)?;
+        if bytes.len() as u64 > most {
+            let message = format!("it holds more than {most} bytes");
+            return Err(io::Error::new(io::ErrorKind::FileTooLarge, message));
+        }
+        if (read as u64) < room {
+            bytes.shrink_to_fit();
+            return Ok(bytes);
+        }
     }
 }
 
@@ -179,7 +283,7 @@ impl Blob for OpenFile {
 /// Files in memory: for tests, fuzzing, and standard input.
 #[derive(Clone, Debug, Default)]
 pub struct Memory {
-    files: BTreeMap<String, Arc<[u8]>>,
+    files: BTreeMap<String, Arc<Vec<u8>>>,
 }
 
 impl Memory {
@@ -190,8 +294,8 @@ impl Memory {
 
     /// The same with one more file.
     #[must_use]
-    pub fn with(mut self, path: impl Into<String>, bytes: impl Into<Arc<[u8]>>) -> Self {
-        self.files.insert(path.into(), bytes.into());
+    pub fn with(mut self, path: impl Into<String>, bytes: impl Into<Vec<u8>>) -> Self {
+        self.files.insert(path.into(), Arc::new(bytes.into()));
         self
     }
 }
@@ -205,7 +309,7 @@ impl Source for Memory {
     }
 }
 
-struct Bytes(Arc<[u8]>);
+struct Bytes(Arc<Vec<u8>>);
 
 impl Blob for Bytes {
     fn len(&self) -> u64 {
@@ -223,6 +327,16 @@ impl Blob for Bytes {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_stream_is_read_to_its_end_or_its_bound() {
+        let text = vec![7; 300_000];
+        assert_eq!(read_stream(&text[..], 300_000).unwrap(), text);
+        assert_eq!(read_stream(&text[..0], 0).unwrap(), [0; 0]);
+        let error = read_stream(&text[..], 299_999).unwrap_err();
+        assert_eq!(error.kind(), io::ErrorKind::FileTooLarge);
+        assert!(read_stream(io::repeat(0), 1 << 20).is_err());
+    }
 
     #[test]
     fn what_the_system_says_is_told_in_words_without_its_numbers() {

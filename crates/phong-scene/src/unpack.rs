@@ -6,7 +6,7 @@ use std::io::{self, Read};
 use flate2::read::MultiGzDecoder;
 
 use crate::limits::Limits;
-use crate::source::{Blob, Memory, Source};
+use crate::source::{Blob, Memory, Source, read_stream, trouble};
 
 /// The most that a packed file may hold, whatever the limits say: few bytes may hold any number.
 const MOST: u64 = 8 << 30;
@@ -39,17 +39,16 @@ impl Source for Unpacked<'_> {
         if !head[..read].starts_with(&[0x1f, 0x8b, 8]) {
             return Ok(blob);
         }
-        let mut bytes = Vec::new();
         let packed = io::BufReader::with_capacity(1 << 16, Reader { blob: &*blob, at: 0 });
-        let mut unpacked = MultiGzDecoder::new(packed).take(self.most.saturating_add(1));
-        unpacked.read_to_end(&mut bytes).map_err(|error| {
-            let message = format!("it is packed, and cannot be unpacked: {error}");
+        let bytes = read_stream(MultiGzDecoder::new(packed), self.most).map_err(|error| {
+            let message = match error.kind() {
+                io::ErrorKind::FileTooLarge => {
+                    format!("unpacked it takes more than {} bytes", self.most)
+                }
+                _ => format!("it is packed, and cannot be unpacked: {}", trouble(&error)),
+            };
             io::Error::new(error.kind(), message)
         })?;
-        if bytes.len() as u64 > self.most {
-            let message = format!("unpacked it takes more than {} bytes", self.most);
-            return Err(io::Error::new(io::ErrorKind::FileTooLarge, message));
-        }
         Memory::new().with(path, bytes).open(path)
     }
 }

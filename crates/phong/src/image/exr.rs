@@ -14,7 +14,7 @@ use exr::prelude::{
 };
 
 use super::WriteError;
-use super::picture::{Picture, Plane, ReadError, Transfer, count};
+use super::picture::{Picture, Plane, ReadError, Transfer, count, within};
 use crate::aov::Aov;
 use crate::film::LayerKind;
 use crate::finish::Finished;
@@ -123,7 +123,7 @@ fn channel_names(kind: LayerKind) -> Vec<String> {
 }
 
 /// Reads all channels of the first part, at full resolution.
-pub(super) fn read(bytes: &[u8]) -> Result<Picture, ReadError> {
+pub(super) fn read(bytes: &[u8], max_bytes: u64) -> Result<Picture, ReadError> {
     use exr::prelude::{ReadChannels, ReadLayers};
     let broken = |error: exr::error::Error| ReadError::Broken(format!("OpenEXR: {error}"));
     // The header alone first: what it declares is bounded before anything is allocated.
@@ -134,6 +134,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Picture, ReadError> {
         count(side(header.layer_size.0), side(header.layer_size.1), channels)?;
         let shown = header.shared_attributes.display_window.size;
         count(side(shown.0), side(shown.1), channels)?;
+        for size in [header.layer_size, shown] {
+            within([side(size.0), side(size.1)], 4 * channels, max_bytes)?;
+        }
     }
     let image = exr::prelude::read()
         .no_deep_data()

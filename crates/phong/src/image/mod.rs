@@ -28,17 +28,49 @@ pub use picture::{Picture, Plane, ReadError, Transfer};
 pub use save::{Draft, SaveError, WriteSeek, place, remove_abandoned, save};
 
 impl Picture {
+    /// Whether bytes begin as those of a file that is read; four suffice.
+    pub fn is_known(begin: &[u8]) -> bool {
+        Kind::of(begin).is_some()
+    }
+
     /// Reads a PNG, PFM or EXR file, known by how it begins. 16-bit PNGs keep all their bits.
     ///
     /// # Errors
     /// [`ReadError`], for anything but a whole picture of at most 2³⁰ values.
     pub fn read(bytes: &[u8]) -> Result<Self, ReadError> {
-        match bytes {
-            [0x89, b'P', b'N', b'G', ..] => png::read(bytes),
-            [b'P', b'F' | b'f', ..] => pfm::read(bytes),
+        Self::read_within(bytes, u64::MAX)
+    }
+
+    /// The same, if the picture and what is needed to decode it take at most so many bytes of memory;
+    /// how many it takes is told by the head of the file, before anything of it is decoded.
+    ///
+    /// # Errors
+    /// As [`Picture::read`], and [`ReadError::Memory`].
+    pub fn read_within(bytes: &[u8], max_bytes: u64) -> Result<Self, ReadError> {
+        match Kind::of(bytes) {
+            Some(Kind::Png) => png::read(bytes, max_bytes),
+            Some(Kind::Pfm) => pfm::read(bytes, max_bytes),
             #[cfg(feature = "exr")]
-            [0x76, 0x2f, 0x31, 0x01, ..] => exr::read(bytes),
+            Some(Kind::Exr) => exr::read(bytes, max_bytes),
             _ => Err(ReadError::Unknown),
+        }
+    }
+}
+
+/// What a file is by how it begins.
+enum Kind {
+    Png,
+    Pfm,
+    Exr,
+}
+
+impl Kind {
+    fn of(bytes: &[u8]) -> Option<Self> {
+        match bytes {
+            [0x89, b'P', b'N', b'G', ..] => Some(Self::Png),
+            [b'P', b'F' | b'f', ..] => Some(Self::Pfm),
+            [0x76, 0x2f, 0x31, 0x01, ..] => Some(Self::Exr),
+            _ => None,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use super::picture::{Picture, Plane, ReadError, Transfer, count};
+use super::picture::{Picture, Plane, ReadError, Transfer, count, within};
 use super::{WriteError, layer};
 use crate::film::LayerKind;
 use crate::finish::Finished;
@@ -33,7 +33,7 @@ pub(super) fn write(
 }
 
 /// Reads either kind, in either byte order.
-pub(super) fn read(bytes: &[u8]) -> Result<Picture, ReadError> {
+pub(super) fn read(bytes: &[u8], max_bytes: u64) -> Result<Picture, ReadError> {
     let broken = |what: &str| ReadError::Broken(format!("PFM: {what}"));
     let mut rest = bytes;
     let channels = match word(&mut rest) {
@@ -50,6 +50,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Picture, ReadError> {
         .filter(|s: &f32| s.is_finite() && *s != 0.0)
         .ok_or_else(|| broken("the scale must be a number other than 0"))?;
     let values = count(width, height, channels)?;
+    within([width, height], 4 * channels, max_bytes)?;
     // The header may end its lines as Windows does, and pixels may begin with any byte.
     let end = bytes.len() - rest.len();
     if bytes[end - 1] == b'\r' && rest.first() == Some(&b'\n') && rest.len() as u64 > 4 * values {

@@ -49,6 +49,18 @@ pub enum ReadError {
     /// It is damaged, or uses what we do not read.
     #[error("{0}")]
     Broken(String),
+    /// Reading it would take more memory than allowed.
+    #[error("{width} × {height} pixels take {needed} bytes of memory, over the limit of {limit}")]
+    Memory {
+        /// Width in pixels.
+        width: u32,
+        /// Height in pixels.
+        height: u32,
+        /// Bytes that it takes.
+        needed: u64,
+        /// The limit.
+        limit: u64,
+    },
     /// It has more pixels than we read.
     #[error("{width} × {height} pixels are more than are read")]
     TooLarge {
@@ -65,6 +77,15 @@ pub(super) fn count(width: u32, height: u32, channels: u64) -> Result<u64, ReadE
         .checked_mul(channels)
         .filter(|&values| values <= MAX_VALUES)
         .ok_or(ReadError::TooLarge { width, height })
+}
+
+/// Says if a picture takes more memory than allowed: `bytes` for each of its pixels.
+pub(super) fn within([width, height]: [u32; 2], bytes: u64, limit: u64) -> Result<(), ReadError> {
+    let needed = (u64::from(width) * u64::from(height)).saturating_mul(bytes);
+    if needed > limit {
+        return Err(ReadError::Memory { width, height, needed, limit });
+    }
+    Ok(())
 }
 
 impl Picture {

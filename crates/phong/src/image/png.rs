@@ -7,7 +7,7 @@ use png::{BitDepth, ColorType, Compression, ScaledFloat, SrgbRenderingIntent, Tr
 use rayon::prelude::*;
 
 use super::curve::{Curve, linear_level};
-use super::picture::{MAX_VALUES, Picture, Plane, ReadError, Transfer, count};
+use super::picture::{MAX_VALUES, Picture, Plane, ReadError, Transfer, count, within};
 use super::{Bits, Encoding, WriteError, layer};
 use crate::aov::Aov;
 use crate::film::LayerKind;
@@ -167,7 +167,7 @@ fn encoding_error(error: png::EncodingError) -> WriteError {
 }
 
 /// Reads a PNG of any kind; palettes and few bits are spread out.
-pub(super) fn read(bytes: &[u8]) -> Result<Picture, ReadError> {
+pub(super) fn read(bytes: &[u8], max_bytes: u64) -> Result<Picture, ReadError> {
     let broken = |error: png::DecodingError| ReadError::Broken(format!("PNG: {error}"));
     let limits = png::Limits { bytes: 4 * MAX_VALUES as usize };
     let mut decoder = png::Decoder::new_with_limits(Cursor::new(bytes), limits);
@@ -176,6 +176,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<Picture, ReadError> {
     let (width, height) = (reader.info().width, reader.info().height);
     count(width, height, 4)?;
     let size = reader.output_buffer_size().ok_or(ReadError::TooLarge { width, height })?;
+    let (_, depth) = reader.output_color_type();
+    let line = reader.output_line_size(width).unwrap_or(usize::MAX) as u64;
+    let value = if depth == BitDepth::Sixteen { 2 } else { 1 };
+    let values = line / (u64::from(width) * value).max(1);
+    within([width, height], values * (value + size_of::<f32>() as u64), max_bytes)?;
     let mut data = vec![0; size];
     let frame = reader.next_frame(&mut data).map_err(broken)?;
     let linear = reader.info().srgb.is_none()
