@@ -5,20 +5,20 @@ use std::sync::Arc;
 use phong::geometry::{Geometry, GeometryError, GeometryOptions};
 use phong::look::Look;
 use phong::view::{View, ViewError};
-use phong_lab::measure::memory;
 use phong_scene::{Diagnostic, Place, Scene, Span};
 
 use crate::args::InputArgs;
 use crate::failure::Failure;
+use crate::memory;
 use crate::report::readable;
 
 /// Makes a scene ready beside which `beside` bytes of memory are needed for something else.
 pub(crate) fn compile(scene: &Scene, args: &InputArgs, beside: u64) -> Result<View, Failure> {
-    let limit = args.max_memory.or_else(memory::total);
+    let limit = Some(memory::limit()).filter(|&limit| limit < u64::MAX);
     let over = |needed: u64, limit: u64| {
         let (needed, limit) = (readable(needed), readable(limit));
         let message = format!("this needs about {needed} of memory, over the limit of {limit}");
-        Failure::usage(message).with_help(if args.max_memory.is_some() {
+        Failure::usage(message).with_help(if memory::is_said() {
             "allow more with --max-memory, or render a smaller picture"
         } else {
             "there is no more in this machine; render a smaller picture, or a --crop of it"

@@ -1,58 +1,97 @@
 //! Reading what the command line names: files, pipes, standard input.
 
-use std::fs::{self, File};
+use std::fs::{self, File, FileType};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 use glam::DVec3;
 use phong_scene::{
-    Blob, CameraKind, Diagnostic, Folder, Format, Limits, Memory, Reading, Scene, Severity, Side,
-    Source, closest, path_of, trouble,
+    Blob, CameraKind, Diagnostic, Folder, Format, Jail, Limits, Memory, Reading, Scene, Severity,
+    Side, Source, closest, path_of, read_stream, trouble,
 };
 
 use crate::args::{InputArgs, View, ViewArgs};
 use crate::failure::Failure;
-use crate::report;
+use crate::{memory, report};
 
-/// The most that is read from a pipe, which does not say how long it is.
+/// The most that is read from a pipe, which does not say how long it is, whatever memory there is.
 const MAX_PIPED: u64 = 4 << 30;
 
 /// The most names of a folder that a misspelt one is compared with.
 const MOST_COMPARED: usize = 10_000;
 
-/// The file system, with `-` for standard input; remembers what was opened.
+/// The folder that nothing is read outside of; none: there is none.
+static JAIL: OnceLock<Jail> = OnceLock::new();
+
+/// Reads nothing outside this folder from now on.
+pub(crate) fn keep_within(folder: &Path) -> Result<(), Failure> {
+    let jail = Jail::new(folder).map_err(|error| {
+        Failure::usage(format!("--jail {}: {}", folder.display(), trouble(&error)))
+    })?;
+    // It is set once, and the first counts.
+    let _ = JAIL.set(jail);
+    Ok(())
+}
+
+/// Where a path leads, if nothing keeps it from being read.
+fn allowed(path: &Path) -> io::Result<PathBuf> {
+    JAIL.get().map_or_else(|| Ok(path.to_owned()), |jail| jail.resolve(path))
+}
+
+/// The files that INPUT may be made of; remembers what was opened.
 #[derive(Debug, Default)]
 pub(crate) struct Files {
+    /// INPUT as it was typed: it alone may be standard input or a pipe.
+    input: String,
     opened: Mutex<Vec<PathBuf>>,
-    stdin: bool,
+    /// All that the pipe held: it is read once.
+    piped: Mutex<Option<Memory>>,
 }
 
 impl Source for Files {
     fn open(&self, path: &str) -> io::Result<Box<dyn Blob>> {
-        if self.stdin && path == "-" {
-            return piped(path, io::stdin().lock());
+        let is_input = path == self.input;
+        if is_input && path == "-" {
+            return self.piped(path, || Ok(io::stdin().lock()));
         }
-        let file = path_of(path);
-        let meta = fs::metadata(&file)?;
+        let file = allowed(&path_of(path))?;
+        let kind = fs::metadata(&file)?.file_type();
         self.opened.lock().unwrap_or_else(PoisonError::into_inner).push(file.clone());
-        if meta.is_file() || meta.is_dir() {
-            Folder.open(path)
-        } else {
-            piped(path, File::open(file)?)
+        if is_input && is_pipe(kind) {
+            return self.piped(path, || File::open(file));
+        }
+        match JAIL.get() {
+            Some(jail) => jail.open(path),
+            None => Folder.open(path),
         }
     }
 }
 
-/// All that a pipe holds: readers want to know a file's length, and to read it anywhere.
-fn piped(path: &str, pipe: impl Read) -> io::Result<Box<dyn Blob>> {
-    let mut bytes = Vec::new();
-    pipe.take(MAX_PIPED + 1).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > MAX_PIPED {
-        let message = "more than 4 GiB from a pipe: write it to a file first";
-        return Err(io::Error::new(io::ErrorKind::FileTooLarge, message));
+#[cfg(unix)]
+fn is_pipe(kind: FileType) -> bool {
+    std::os::unix::fs::FileTypeExt::is_fifo(&kind)
+}
+
+#[cfg(not(unix))]
+fn is_pipe(kind: FileType) -> bool {
+    !kind.is_file() && !kind.is_dir()
+}
+
+impl Files {
+    /// All that a pipe holds: readers want to know a file's length, and to read it anywhere.
+    fn piped<R: Read>(
+        &self,
+        path: &str,
+        pipe: impl FnOnce() -> io::Result<R>,
+    ) -> io::Result<Box<dyn Blob>> {
+        let mut piped = self.piped.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(files) = &*piped {
+            return files.open(path);
+        }
+        let bytes = read_stream(pipe()?, MAX_PIPED.min(memory::limit()))?;
+        piped.insert(Memory::new().with(path, bytes)).open(path)
     }
-    Memory::new().with(path, bytes).open(path)
 }
 
 /// A scene that was read.
@@ -92,12 +131,12 @@ pub(crate) fn open_file(path: &Path) -> Result<File, Failure> {
     if let Some(error) = hindrance(path) {
         return Err(unreadable(path, &error));
     }
-    File::open(path).map_err(|error| unreadable(path, &error))
+    allowed(path).and_then(File::open).map_err(|error| unreadable(path, &error))
 }
 
 /// Why a file cannot be opened; `None`: it can, or it is a pipe, which is not opened a second time.
 fn hindrance(path: &Path) -> Option<io::Error> {
-    match fs::metadata(path) {
+    match allowed(path).and_then(fs::metadata) {
         Err(error) => Some(error),
         Ok(meta) if meta.is_dir() => Some(io::ErrorKind::IsADirectory.into()),
         Ok(meta) if meta.is_file() => File::open(path).err(),
@@ -108,6 +147,8 @@ fn hindrance(path: &Path) -> Option<io::Error> {
 /// What to do about a file that cannot be opened: for a missing one, the name of one like it.
 fn way_out(path: &Path, error: &io::Error) -> Option<String> {
     match error.kind() {
+        // Names of files outside are not given away.
+        _ if JAIL.get().is_some() => None,
         io::ErrorKind::NotFound => {
             let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
             let folder = folder.unwrap_or(Path::new("."));
@@ -141,9 +182,9 @@ pub(crate) fn read(args: &InputArgs) -> Result<(Reading, Vec<PathBuf>), Failure>
         return Err(Failure::usage("standard input has no name that says what it is")
             .with_help("say it: `phong ... - --format toml`"));
     }
-    let files = Files { stdin, ..Files::default() };
+    let files = Files { input: args.input.clone(), ..Files::default() };
     let default = Limits { lenient: args.lenient, ..Limits::default() };
-    let limits = Limits { bytes: args.max_memory.unwrap_or(default.bytes), ..default };
+    let limits = Limits { bytes: memory::limit(), ..default };
     let mut reading = phong_scene::read(&args.input, args.format, &files, &limits);
     // Of a file that cannot be opened nothing else is said.
     if let ([only], false) = (&mut reading.diagnostics[..], stdin) {

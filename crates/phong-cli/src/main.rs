@@ -10,6 +10,7 @@ mod compile;
 mod failure;
 mod input;
 mod interrupt;
+mod memory;
 mod output;
 mod plan;
 mod progress;
@@ -23,7 +24,7 @@ use clap::Parser;
 fn main() -> ExitCode {
     interrupt::expect();
     let done = match command::Cli::try_parse() {
-        Ok(cli) => command::run(cli.command).map(|()| 0),
+        Ok(cli) => command::run(cli).map(|()| 0),
         Err(answer) => report::answer(&answer),
     };
     match done {

@@ -9,20 +9,43 @@ use phong_scene::{Diagnostic, Label, Severity, Span};
 
 use crate::failure::Failure;
 
+/// Bytes of diagnostics that are drawn; beyond that they are counted. A file may be wrong a hundred
+/// thousand times, and nobody reads that.
+const MOST_DRAWN: usize = 60 << 10;
+
 /// Draws diagnostics on standard error, with carets, and a count after them if there are several.
+/// Where there are too many, errors are drawn before warnings, each in its order.
 pub(crate) fn diagnostics(all: &[Diagnostic]) {
+    write_stderr(&drawn(all));
+}
+
+fn drawn(all: &[Diagnostic]) -> String {
     let renderer = renderer();
-    let mut text = String::new();
-    for diagnostic in all {
-        draw(&renderer, diagnostic, &mut text);
+    let mut drawn: Vec<Option<String>> = vec![None; all.len()];
+    let mut room = MOST_DRAWN;
+    'all: for severity in [Severity::Error, Severity::Warning] {
+        let these = all.iter().zip(&mut drawn).filter(|(d, _)| d.severity == severity);
+        for (diagnostic, place) in these {
+            let mut text = String::new();
+            draw(&renderer, diagnostic, &mut text);
+            let Some(left) = room.checked_sub(text.len()) else { break 'all };
+            room = left;
+            *place = Some(text);
+        }
     }
+    let untold = drawn.iter().filter(|text| text.is_none()).count();
+    let mut text: String = drawn.into_iter().flatten().collect();
     let errors = all.iter().filter(|d| d.is_error()).count();
-    if all.len() > 1 {
+    if all.len() > 1 || untold > 0 {
         let counts = [(errors, "error"), (all.len() - errors, "warning")];
         let counts: Vec<_> = counts.into_iter().filter(|&(n, _)| n > 0).map(count).collect();
-        let _ = writeln!(text, "{}", counts.join(", "));
+        let _ = write!(text, "{}", counts.join(", "));
+        if untold > 0 {
+            let _ = write!(text, ", of which {untold} are not shown");
+        }
+        text.push('\n');
     }
-    write_stderr(&text);
+    text
 }
 
 /// One error that is at no place in a file.
@@ -171,6 +194,18 @@ mod tests {
         assert_eq!(shortest(-0.0).to_string(), "0");
         assert_eq!(shortest(f64::INFINITY), f64::INFINITY);
         assert!(shortest(f64::NAN).is_nan());
+    }
+
+    #[test]
+    fn of_too_many_diagnostics_the_errors_are_drawn_first_and_the_rest_is_counted() {
+        let warning = Diagnostic::warning("odd ".repeat(20), None);
+        let mut all = vec![warning; 10_000];
+        all[9_000] = Diagnostic::error("wrong", None);
+        let text = drawn(&all);
+        assert!(text.len() < 64 << 10 && text.contains("error: wrong"), "{}", text.len());
+        let drawn = text.matches("warning: odd").count();
+        let end = format!("1 error, 9999 warnings, of which {} are not shown\n", 9_999 - drawn);
+        assert!(drawn > 100 && text.ends_with(&end), "{end}");
     }
 
     #[test]

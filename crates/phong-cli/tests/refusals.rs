@@ -176,8 +176,8 @@ fn what_the_system_says_is_told_in_words() {
 #[test]
 fn too_little_memory_for_a_text_is_told_with_what_it_takes() {
     let folder = given(&[("a.toml", BALLS)]);
-    let needed = format!("may take {} of memory, over the limit of 1024", 85 * BALLS.len());
-    folder.when("render a.toml --max-memory 1k").is_refused(&["a.toml", &needed]);
+    let needed = format!("takes {} of memory at least, over the limit of 500", 3 * BALLS.len());
+    folder.when("render a.toml --max-memory 500").is_refused(&["a.toml", &needed]);
 }
 
 #[test]

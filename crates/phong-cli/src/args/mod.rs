@@ -6,13 +6,29 @@
 mod picture;
 mod values;
 
+use std::path::PathBuf;
+
 use clap::{Args, ValueEnum};
 
 pub(crate) use picture::{ImageArgs, RenderArgs};
 pub(crate) use values::{
-    Crop, PictureSize, Vec3Arg, bytes, input_help, size, vector, whole, written_format,
-    written_help,
+    Crop, PictureSize, Vec3Arg, input_help, size, vector, whole, written_format, written_help,
 };
+
+/// What no command goes beyond.
+#[derive(Args, Clone, Debug, Default)]
+#[command(next_help_heading = "Bounds")]
+pub(crate) struct BoundArgs {
+    /// Memory to use at most; over it is an error. Plain bytes, or with k, M or G (powers of 1024)
+    /// [default: what the system has for the program]
+    #[arg(long, global = true, value_name = "BYTES", value_parser = values::bytes)]
+    #[arg(allow_hyphen_values = true)]
+    pub(crate) max_memory: Option<u64>,
+
+    /// Read nothing outside this folder, links followed: for scenes of people you do not know
+    #[arg(long, global = true, value_name = "DIR")]
+    pub(crate) jail: Option<PathBuf>,
+}
 
 /// What to read, and how.
 #[derive(Args, Clone, Debug)]
@@ -22,10 +38,6 @@ pub(crate) struct InputArgs {
 
     #[arg(long, value_name = "NAME", value_parser = values::format, help = values::format_help())]
     pub(crate) format: Option<phong_scene::Format>,
-
-    /// Memory to use at most; over it is an error. Plain bytes, or with k, M or G (powers of 1024)
-    #[arg(long, value_name = "BYTES", value_parser = values::bytes, allow_hyphen_values = true)]
-    pub(crate) max_memory: Option<u64>,
 
     /// Make warnings errors
     #[arg(long)]

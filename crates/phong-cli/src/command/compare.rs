@@ -3,21 +3,23 @@
 mod scenes;
 mod text;
 
-use std::fs;
+use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
 use phong::film::{Film, LayerKind, Window};
 use phong::finish::{Finishing, finish};
-use phong::image::{self, Content, Encoding, Format, Picture};
+use phong::image::{self, Content, Encoding, Format, Picture, ReadError};
 use phong::render::RenderOptions;
 use phong_lab::compare::{self, Comparison};
 use phong_lab::fit::{FitError, Target};
+use phong_scene::read_stream;
 use serde_json::{Value, json};
 
 use super::fit::trouble;
 use crate::args::ImageArgs;
 use crate::failure::Failure;
-use crate::input::unreadable;
+use crate::input::{open_file, unreadable};
+use crate::memory;
 use crate::output::Output;
 use crate::report::{self, shortest};
 
@@ -63,10 +65,6 @@ pub(crate) struct Args {
     /// One JSON object on standard output
     #[arg(long)]
     pub(crate) json: bool,
-
-    /// Memory to use at most, as for render
-    #[arg(long, value_name = "BYTES", value_parser = crate::args::bytes, allow_hyphen_values = true)]
-    pub(crate) max_memory: Option<u64>,
 
     /// Make warnings of scenes errors
     #[arg(long)]
@@ -203,14 +201,22 @@ fn hold(a: &str, b: &str, [one, two]: &[Picture; 2]) -> Result<Comparison, Failu
     })
 }
 
-/// An image, read.
+/// An image, read. It may take half of the memory there is: another is read beside it, or drawn.
 pub(crate) fn read(path: &Path) -> Result<Picture, Failure> {
     let at_fault = |why: String| Failure::usage(format!("{}: {why}", path.display()));
-    let bytes = fs::read(path).map_err(|error| unreadable(path, &error))?;
-    if bytes.is_empty() {
+    let mut file = open_file(path)?;
+    let unreadable = |error: io::Error| unreadable(path, &error);
+    let most = memory::limit() / 2;
+    // What is no picture is not read to its end, which it may not have.
+    let begin = read_stream((&mut file).take(8), most.max(8)).map_err(unreadable)?;
+    if begin.is_empty() {
         return Err(at_fault("the file is empty".to_owned()));
     }
-    Picture::read(&bytes).map_err(|error| at_fault(error.to_string()))
+    if !Picture::is_known(&begin) {
+        return Err(at_fault(ReadError::Unknown.to_string()));
+    }
+    let bytes = read_stream(begin.chain(file), most).map_err(unreadable)?;
+    Picture::read_within(&bytes, most).map_err(|error| at_fault(error.to_string()))
 }
 
 /// Where differences are drawn.

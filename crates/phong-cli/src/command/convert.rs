@@ -4,7 +4,6 @@ use std::ffi::OsStr;
 use std::io::{BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
-use phong_lab::measure::memory;
 use phong_scene::{
     Account, Diagnostic, Export, ExportOptions, File, Format, PlyEncoding, Severity,
 };
@@ -15,7 +14,7 @@ use crate::args::{InputArgs, PictureSize, ViewArgs, size, written_format, writte
 use crate::failure::Failure;
 use crate::output::{Output, keep_inputs_safe};
 use crate::progress::Meter;
-use crate::{input, report};
+use crate::{input, memory, report};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -80,12 +79,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     input::look(&mut input, &args.view)?;
     meter.stage("converting");
     let ply = if args.ascii { PlyEncoding::Ascii } else { PlyEncoding::Binary };
-    let options = ExportOptions {
-        format,
-        ply,
-        bare: input.bare,
-        max_bytes: args.input.max_memory.or_else(memory::total).unwrap_or(u64::MAX),
-    };
+    let options = ExportOptions { format, ply, bare: input.bare, max_bytes: memory::limit() };
     let name = args.output.file_name().unwrap_or(OsStr::new("-")).to_string_lossy();
     let inputs = input.files().to_vec();
     let Export { files, account } =

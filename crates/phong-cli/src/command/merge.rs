@@ -4,11 +4,11 @@ use std::io::BufReader;
 use std::path::PathBuf;
 
 use phong::part::{Join, Part, PartError};
-use phong_lab::measure::memory;
 
 use crate::args::EncodingArgs;
 use crate::failure::Failure;
 use crate::input::open_file;
+use crate::memory;
 use crate::output::keep_inputs_safe;
 use crate::plan::Outputs;
 
@@ -35,7 +35,8 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
-    let limit = memory::total().unwrap_or(u64::MAX);
+    // One part beside what is put together already.
+    let limit = memory::limit() / 2;
     let mut join = Join::default();
     for path in &args.parts {
         let at_fault = |why: String| Failure::usage(format!("{}: {why}", path.display()));

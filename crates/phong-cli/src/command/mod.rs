@@ -25,9 +25,9 @@ use clap::builder::Styles;
 use clap::builder::styling::AnsiColor;
 use clap::{Parser, Subcommand};
 
-use crate::args::RenderArgs;
+use crate::args::{BoundArgs, RenderArgs};
 use crate::failure::Failure;
-use crate::threads;
+use crate::{input, memory, threads};
 
 const STYLES: Styles = Styles::styled()
     .header(AnsiColor::Green.on_default().bold())
@@ -57,6 +57,9 @@ Exit codes: 0 done, 1 the answer is \"no\", 2 the input or the command line is a
 pub(crate) struct Cli {
     #[command(subcommand)]
     pub(crate) command: Command,
+
+    #[command(flatten)]
+    pub(crate) bounds: BoundArgs,
 }
 
 /// Every command; its file in `command/` holds its arguments and what it does.
@@ -83,8 +86,12 @@ pub(crate) enum Command {
     Man(man::Args),
 }
 
-/// Does what was asked, on as many threads as were asked for.
-pub(crate) fn run(command: Command) -> Result<(), Failure> {
+/// Does what was asked, within its bounds, on as many threads as were asked for.
+pub(crate) fn run(Cli { command, bounds }: Cli) -> Result<(), Failure> {
+    memory::keep_within(bounds.max_memory);
+    if let Some(folder) = &bounds.jail {
+        input::keep_within(folder)?;
+    }
     let (wanted, quiet) = match &command {
         Command::Render(args) => (args.work.threads, args.work.quiet),
         _ => (None, false),

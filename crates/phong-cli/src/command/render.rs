@@ -6,7 +6,7 @@ use std::time::Instant;
 use phong::film::{LayerKind, Window};
 use phong::part::{Settings, fingerprint};
 use phong::render::{Event, Outcome, Rendering};
-use phong_lab::measure::memory;
+use phong_lab::measure::memory::peak;
 use serde_json::json;
 
 use super::check;
@@ -97,7 +97,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
                 "shadow": rays.shadow,
                 "secondary": rays.secondary,
             },
-            "peak_bytes": memory::peak(),
+            "peak_bytes": peak(),
             "warnings": input.warnings.iter().map(check::json).collect::<Vec<_>>(),
         }))?;
     } else if report::is_watched() && !quiet {

@@ -50,7 +50,6 @@ pub(super) fn render(
     let inputs = names.map(|name| InputArgs {
         input: name.clone(),
         format: None,
-        max_memory: args.max_memory,
         strict: args.strict,
         lenient: false,
     });
