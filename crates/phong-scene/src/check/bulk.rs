@@ -23,9 +23,10 @@ pub(super) fn mesh(mesh: &Mesh, materials: usize, faults: &mut Faults) {
             faults.say(field, format!("`{field}` holds {count}; the most are {most}"));
         }
     }
-    first(&mesh.positions, "positions", |p| wrong_numbers(&p.to_array()), faults);
-    first(&mesh.normals, "normals", |n| wrong_numbers(&n.to_array()), faults);
-    first(&mesh.uvs, "uvs", |uv: &Vec2| wrong_numbers(&uv.to_array()), faults);
+    vectors(&mesh.positions, "positions", faults);
+    vectors(&mesh.normals, "normals", faults);
+    let right = |uv: &Vec2| are_held(&uv.to_array());
+    first(&mesh.uvs, "uvs", right, |uv| wrong_numbers(&uv.to_array()), faults);
     colors(&mesh.colors, "positions", vertices, faults);
     corners(&mesh.indices, "indices", vertices, triangles, false, faults);
     let kinds = [
@@ -48,10 +49,9 @@ pub(super) fn mesh(mesh: &Mesh, materials: usize, faults: &mut Faults) {
         let message = format!("`face_materials` holds {} for {triangles} triangles", faces.len());
         faults.say("face_materials", message);
     }
-    let outside = |&m: &u32| {
-        (m as usize >= materials).then(|| format!("is {m}, but there are {materials} materials"))
-    };
-    first(faces, "face_materials", outside, faults);
+    let right = |&m: &u32| (m as usize) < materials;
+    let outside = |&m: &u32| Some(format!("is {m}, but there are {materials} materials"));
+    first(faces, "face_materials", right, outside, faults);
 }
 
 /// Judges points.
@@ -60,7 +60,7 @@ pub(super) fn points(points: &Points, faults: &mut Faults) {
     if points.spheres.is_empty() {
         faults.say("spheres", "`spheres` is empty");
     }
-    first(&points.spheres, "spheres", wrong_ball, faults);
+    first(&points.spheres, "spheres", is_ball, wrong_ball, faults);
     colors(&points.colors, "spheres", points.spheres.len(), faults);
 }
 
@@ -78,11 +78,19 @@ pub(super) fn cylinders(cylinders: &Cylinders, faults: &mut Faults) {
         };
         wrong_ball(&ends[0]).or_else(|| wrong_ball(&ends[1])).or_else(empty)
     };
-    first(segments, "segments", wrong, faults);
+    let right = |ends: &[[f32; 4]; 2]| {
+        is_ball(&ends[0]) & is_ball(&ends[1]) & (*caps == Caps::Round || !Cylinders::is_empty(ends))
+    };
+    first(segments, "segments", right, wrong, faults);
     colors(pairs.as_flattened(), "ends of segments", 2 * segments.len(), faults);
 }
 
-/// What is wrong with `[x, y, z, radius]`.
+/// Whether all is well with `[x, y, z, radius]`.
+fn is_ball(ball: &[f32; 4]) -> bool {
+    are_held(ball) & (ball[3] > 0.0)
+}
+
+/// What is wrong with it, if anything is.
 fn wrong_ball(ball: &[f32; 4]) -> Option<String> {
     wrong_numbers(ball).or_else(|| {
         let radius = f64::from(ball[3]);
@@ -91,26 +99,41 @@ fn wrong_ball(ball: &[f32; 4]) -> Option<String> {
     })
 }
 
-/// Says what is wrong with the first value of which something is, and how many more there are.
+/// Says what is wrong with the first value that is not `right`, and how many more there are.
+///
+/// `right` is asked of every value, so it is plain arithmetic; the words are found for one alone.
 fn first<T: Sync>(
     values: &[T],
     field: &'static str,
-    wrong: impl Fn(&T) -> Option<String> + Sync,
+    right: impl Fn(&T) -> bool + Sync,
+    wrong: impl Fn(&T) -> Option<String>,
     faults: &mut Faults,
 ) {
-    let all = values.par_iter().with_min_len(PIECE);
-    let Some(number) = all.position_first(|value| wrong(value).is_some()) else { return };
-    let count = values[number..].par_iter().with_min_len(PIECE);
-    let count = count.filter(|value| wrong(value).is_some()).count();
+    // All of a piece, without a branch for each.
+    let is_right = |piece: &[T]| piece.iter().fold(true, |all, value| all & right(value));
+    let count = |piece: &[T]| {
+        let wrong = || piece.iter().filter(|value| !right(value)).count();
+        if is_right(piece) { 0 } else { wrong() }
+    };
+    let count: usize = values.par_chunks(PIECE).map(count).sum();
+    let Some(number) = values.iter().position(|value| count > 0 && !right(value)) else { return };
     let what = wrong(&values[number]).unwrap_or_default();
     let more = if count > 1 { format!(", and {} more", count - 1) } else { String::new() };
     faults.say(field, format!("`{field}` {number} {what}{more}"));
 }
 
+/// Whether all are numbers that a scene may hold.
+fn are_held(values: &[f32]) -> bool {
+    values.iter().fold(true, |all, v| all & (v.abs() <= LARGEST as f32))
+}
+
+fn vectors(values: &[Vec3], field: &'static str, faults: &mut Faults) {
+    let right = |v: &Vec3| are_held(&v.to_array());
+    first(values, field, right, |v| wrong_numbers(&v.to_array()), faults);
+}
+
 fn wrong_numbers(values: &[f32]) -> Option<String> {
-    // One comparison each where all is well.
-    let held = values.iter().all(|v| v.abs() <= LARGEST as f32);
-    if held { None } else { values.iter().find_map(|&v| not_held(v.into())) }
+    values.iter().find_map(|&v| not_held(v.into()))
 }
 
 fn colors(colors: &[Rgb], per: &str, count: usize, faults: &mut Faults) {
@@ -124,7 +147,11 @@ fn colors(colors: &[Rgb], per: &str, count: usize, faults: &mut Faults) {
         };
         wrong_numbers(&color.to_array()).or_else(negative)
     };
-    first(colors, "colors", wrong, faults);
+    let right = |color: &Rgb| {
+        let channels = color.to_array();
+        are_held(&channels) & channels.iter().fold(true, |all, &channel| all & (channel >= 0.0))
+    };
+    first(colors, "colors", right, wrong, faults);
 }
 
 /// Three indices a triangle, each below `count`, or none where that is `optional`.
@@ -140,12 +167,13 @@ fn corners(
         let message = format!("`{field}` holds {} for {triangles} triangles", indices.len());
         faults.say(field, message);
     }
+    let is_right = |i: u32| ((i as usize) < count) | (optional & (i == NO_INDEX));
+    let right = |corners: &[u32; 3]| corners.iter().fold(true, |all, &i| all & is_right(i));
     let wrong = |corners: &[u32; 3]| {
-        let bad = |&&i: &&u32| i as usize >= count && !(optional && i == NO_INDEX);
-        let index = corners.iter().find(bad)?;
+        let index = corners.iter().find(|&&i| !is_right(i))?;
         Some(format!("holds the index {index}, but there are {count}"))
     };
-    first(indices, field, wrong, faults);
+    first(indices, field, right, wrong, faults);
 }
 
 /// Normals that corners use must have a direction.
@@ -155,7 +183,7 @@ fn directions(mesh: &Mesh, faults: &mut Faults) {
         // What is out of range or no number has been said.
         mesh.normals.get(*i as usize).is_some_and(|n: &Vec3| *n == Vec3::ZERO)
     };
-    if mesh.normals.is_empty() {
+    if !mesh.normals.par_iter().with_min_len(PIECE).any(|n| *n == Vec3::ZERO) {
         return;
     }
     let wrong = |corners: &[u32; 3]| {
@@ -163,5 +191,5 @@ fn directions(mesh: &Mesh, faults: &mut Faults) {
         Some(format!("uses the normal {index}, which is [0, 0, 0] and has no direction"))
     };
     let field = if mesh.normal_indices.is_empty() { "indices" } else { "normal_indices" };
-    first(used, field, wrong, faults);
+    first(used, field, |corners| !corners.iter().any(none), wrong, faults);
 }
