@@ -12,7 +12,7 @@ use crate::{
     Aabb, Ray, Rays8,
     eights::halves,
     lanes::{Lanes, add, dot, splat3, sub},
-    local,
+    local::{self, Loaded, load3},
 };
 
 /// Distance from the middle of a part, in its sizes, from which on rays are moved along first.
@@ -124,6 +124,27 @@ impl Frame {
         (local::Ray { origin: narrow(origin), t_min, dir: narrow(dir), t_max }, way)
     }
 
+    /// Whether this space is the world itself.
+    #[inline(always)]
+    pub(crate) fn is_of_world(&self) -> bool {
+        self.axes.is_none() && self.origin == DVec3::ZERO
+    }
+
+    /// The origin of this space in the world.
+    pub(crate) fn origin(&self) -> DVec3 {
+        self.origin
+    }
+
+    /// Whether its origin is that of another one.
+    pub(crate) fn starts_at(&self, other: &Self) -> bool {
+        self.origin == other.origin
+    }
+
+    /// Whether its axes are the world's.
+    pub(crate) fn is_upright(&self) -> bool {
+        self.axes.is_none()
+    }
+
     /// Eight rays in this space.
     #[inline(always)]
     pub(crate) fn rays<S: Simd>(
@@ -153,28 +174,53 @@ impl Frame {
         [low.way, high.way]
     }
 
-    /// Eight rays where the axes are the world's, none of them moved along; those that [`Frame::rays`]
-    /// would not move either, a bit each.
-    #[expect(clippy::needless_range_loop, reason = "an axis of four things at a time")]
+    /// Whether no ray that starts within these bounds, in this space, is moved along. Of rays just short of
+    /// that distance it may say no.
+    pub(crate) fn is_near(&self, bounds: [[f32; 2]; 3]) -> bool {
+        // The bounds are of rounded numbers.
+        let slack = 1e-6 * self.middle.abs().max_element() + 1e-3 * FAR * self.size;
+        (0..3).all(|axis| {
+            let off = bounds[axis].map(|v| (f64::from(v) - self.middle[axis]).abs());
+            off[0].max(off[1]) + slack < FAR * self.size
+        })
+    }
+
+    /// Eight rays where the axes are the world's, none of them moved along, into registers.
     #[inline(always)]
-    pub(crate) fn shift<S: Simd>(&self, simd: S, rays: &Rays8, to: &mut local::Rays8) -> u32 {
-        let Rays8 { origin, dir, t_min, t_max, there } = rays;
+    pub(crate) fn load<S: Simd>(&self, simd: S, rays: &Rays8) -> Loaded<S> {
         let zero: f64x4<S> = SimdBase::splat(simd, 0.0);
-        let mut far = [zero; 2];
-        for axis in 0..3 {
-            let [low, high] = halves(simd, &origin[axis]);
-            let (from, middle) = (zero.splat(self.origin[axis]), zero.splat(self.middle[axis]));
-            let (low, high) = (low - from, high - from);
-            low.narrow(high).store_array(&mut to.origin[axis]);
-            far = [
-                Lanes::max(far[0], Lanes::abs(low - middle)),
-                Lanes::max(far[1], Lanes::abs(high - middle)),
-            ];
+        let [x, y, z] = &rays.origin;
+        let [from_x, from_y, from_z] = splat3(zero, self.origin.to_array());
+        let [x, y, z] = [halves(simd, x), halves(simd, y), halves(simd, z)];
+        Loaded {
+            origin: [
+                (x[0] - from_x).narrow(x[1] - from_x),
+                (y[0] - from_y).narrow(y[1] - from_y),
+                (z[0] - from_z).narrow(z[1] - from_z),
+            ],
+            dir: load3(simd, &rays.dir),
+            t_min: f32x8::load_array_ref(simd, &rays.t_min),
+            t_max: f32x8::load_array_ref(simd, &rays.t_max),
         }
-        (to.dir, to.t_min, to.t_max, to.there) = (*dir, *t_min, *t_max, *there);
-        let limit = zero.splat(FAR * self.size);
-        let [low, high] = [far[0].simd_gt(limit), far[1].simd_gt(limit)];
-        !(low.to_bitmask() as u32 | (high.to_bitmask() as u32) << 4)
+    }
+
+    /// [`Frame::rays`] into registers, where the axes are the world's and no ray is moved along; else none.
+    #[inline(always)]
+    pub(crate) fn load_near<S: Simd>(&self, simd: S, rays: &Rays8) -> Option<Loaded<S>> {
+        if self.axes.is_some() {
+            return None;
+        }
+        let loaded = self.load(simd, rays);
+        if self.size == f64::INFINITY {
+            return Some(loaded);
+        }
+        // Rounded as they are, they may say no of rays that `Frame::rays` would leave where they are.
+        let middle = splat3(loaded.t_min, self.middle.as_vec3().to_array());
+        let off = sub(loaded.origin, middle);
+        let [x, y, z] = [Lanes::abs(off[0]), Lanes::abs(off[1]), Lanes::abs(off[2])];
+        let far = Lanes::max(Lanes::max(x, y), z);
+        let limit: f32x8<S> = SimdBase::splat(simd, (0.99 * FAR * self.size) as f32);
+        (!far.simd_ge(limit).any_true()).then_some(loaded)
     }
 
     /// A point of this space, rounded to f32, in the world; with the bound of its error, and its unit
@@ -187,7 +233,7 @@ impl Frame {
         &self,
         [p, p_error, ng]: [[F; 3]; 3],
     ) -> [[F; 3]; 3] {
-        if self.axes.is_none() && self.origin == DVec3::ZERO {
+        if self.is_of_world() {
             return [p, p_error, ng];
         }
         let origin = splat3(p[0], self.origin.to_array());

@@ -152,6 +152,9 @@ pub enum Canonical {
     Sphere,
     /// The unit disc in z = 0, geometric normal +z.
     Disc,
+    /// The triangle (0, 0), (1, 0), (0, 1) in z = 0, geometric normal +z. A hit has the weights of its
+    /// second and third corner.
+    Triangle,
     /// [−1, 1]³.
     Box,
     /// x² + y² = 1 for 0 ≤ z ≤ 1.

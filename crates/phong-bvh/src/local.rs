@@ -2,6 +2,7 @@
 //!
 //! Here everything is f32. [`Frame`](crate::frame::Frame) takes a ray of the world into that space.
 
+use fearless_simd::{Simd, f32x8, prelude::*};
 use glam::Vec3;
 
 /// A ray: the points `origin + t · dir` for `t_min < t < t_max`.
@@ -90,6 +91,17 @@ impl Rays8 {
         }
     }
 
+    /// All of them, for vector code.
+    #[inline(always)]
+    pub(crate) fn load<S: Simd>(&self, simd: S) -> Loaded<S> {
+        Loaded {
+            origin: load3(simd, &self.origin),
+            dir: load3(simd, &self.dir),
+            t_min: f32x8::load_array_ref(simd, &self.t_min),
+            t_max: f32x8::load_array_ref(simd, &self.t_max),
+        }
+    }
+
     /// Rays in order, as many eights as it takes.
     #[cfg(test)]
     pub(crate) fn of(rays: &[Ray]) -> Vec<Self> {
@@ -107,6 +119,35 @@ impl Rays8 {
         };
         rays.chunks(8).map(eight).collect()
     }
+}
+
+/// Eight rays in vector registers: the numbers of [`Rays8`].
+#[derive(Clone, Copy)]
+pub(crate) struct Loaded<S: Simd> {
+    pub(crate) origin: [f32x8<S>; 3],
+    pub(crate) dir: [f32x8<S>; 3],
+    pub(crate) t_min: f32x8<S>,
+    pub(crate) t_max: f32x8<S>,
+}
+
+impl<S: Simd> Loaded<S> {
+    /// Puts them into memory, those of `there` as rays that there are.
+    #[inline(always)]
+    pub(crate) fn store(self, there: u32, to: &mut Rays8) {
+        for axis in 0..3 {
+            self.origin[axis].store_array(&mut to.origin[axis]);
+            self.dir[axis].store_array(&mut to.dir[axis]);
+        }
+        self.t_min.store_array(&mut to.t_min);
+        self.t_max.store_array(&mut to.t_max);
+        to.there = there;
+    }
+}
+
+/// Three numbers of each of eight rays.
+#[inline(always)]
+pub(crate) fn load3<S: Simd>(simd: S, [x, y, z]: &[[f32; 8]; 3]) -> [f32x8<S>; 3] {
+    [f32x8::load_array_ref(simd, x), f32x8::load_array_ref(simd, y), f32x8::load_array_ref(simd, z)]
 }
 
 /// What eight rays hit in a tree.
@@ -130,13 +171,6 @@ impl Hits8 {
     /// Nothing was hit.
     pub(crate) const NONE: Self =
         Self { t: [f32::INFINITY; 8], prim: [u32::MAX; 8], u: [0.0; 8], v: [0.0; 8], met: 0 };
-
-    /// The hit in one lane, below 8.
-    #[inline]
-    pub(crate) fn get(&self, lane: usize) -> Hit {
-        Hit { t: self.t[lane], prim: self.prim[lane], u: self.u[lane], v: self.v[lane] }
-    }
-
     #[inline]
     pub(crate) fn set(&mut self, lane: usize, hit: Hit) {
         (self.t[lane], self.prim[lane]) = (hit.t, hit.prim);

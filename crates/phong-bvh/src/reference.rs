@@ -61,7 +61,9 @@ impl<'a> Prepared<'a> {
                 met.map(|met| Hit { u: f32::from(u8::from(met.second_half)), ..at(met.t) })
             }
             Primitives::Plane(_) => None,
-            Primitives::Solid(solid) => solid.intersect(self.ray).map(at),
+            Primitives::Solid(solid) => {
+                solid.intersect(self.ray).map(|(t, [u, v])| Hit { u, v, ..at(t) })
+            }
         }
     }
 }

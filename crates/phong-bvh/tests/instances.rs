@@ -161,7 +161,7 @@ fn agrees(world: &World, rays: &[Ray], expected: &[Hit]) {
         assert_eq!(blocked, want.is_some(), "occluded, of eight: {ray:?}");
         if want.is_some() {
             let (one, lane) = (world.surface(ray, want), i % 8);
-            let Surfaces8 { p, p_error, ng } = &surfaces[i / 8];
+            let Surfaces8 { p, p_error, ng, .. } = &surfaces[i / 8];
             for axis in 0..3 {
                 let eight = (p[axis][lane], p_error[axis][lane], ng[axis][lane]);
                 assert_eq!(eight, (one.p[axis], one.p_error[axis], one.ng[axis]), "{ray:?}");

@@ -167,8 +167,15 @@ impl TermSet {
     }
 
     /// They, in the order of the sum.
+    #[inline]
     pub fn iter(self) -> impl Iterator<Item = Term> {
-        Term::ALL.into_iter().filter(move |&term| self.has(term))
+        let mut left = self.0;
+        std::iter::from_fn(move || {
+            // Where none is left this is the number of no term.
+            let term = *Term::ALL.get(left.trailing_zeros() as usize)?;
+            left &= left - 1;
+            Some(term)
+        })
     }
 }
 

@@ -19,6 +19,7 @@ pub(crate) mod crossing;
 mod cylinder;
 mod disc;
 pub(crate) mod ellipsoid;
+mod facet;
 pub(crate) mod patch;
 pub(crate) mod plane;
 pub(crate) mod solid;

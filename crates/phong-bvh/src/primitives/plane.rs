@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use crate::{
     Plane,
-    local::{Ray, Rays8},
+    local::{Loaded, Ray},
 };
 
 impl Plane {
@@ -33,11 +33,9 @@ impl Plane {
     pub(crate) fn intersect8<S: Simd>(
         &self,
         simd: S,
-        rays: &Rays8,
+        rays: &Loaded<S>,
     ) -> Option<(mask32x8<S>, f32x8<S>)> {
-        let load = |lanes: &[f32; 8]| f32x8::load_array_ref(simd, lanes);
-        let Rays8 { origin: [ox, oy, oz], dir: [dx, dy, dz], t_min, t_max, .. } = rays;
-        let (o, d) = ([load(ox), load(oy), load(oz)], [load(dx), load(dy), load(dz)]);
+        let Loaded { origin: o, dir: d, t_min, t_max } = *rays;
         let (ox, oy, oz) = (o[0].widen(), o[1].widen(), o[2].widen());
         let (dx, dy, dz) = (d[0].widen(), d[1].widen(), d[2].widen());
         let low = self.parts4([ox.0, oy.0, oz.0], [dx.0, dy.0, dz.0]);
@@ -47,7 +45,7 @@ impl Plane {
             return None;
         }
         let t: f32x8<S> = (low[0] / low[1]).narrow(high[0] / high[1]);
-        Some((load(t_min).simd_lt(t) & t.simd_lt(load(t_max)), t))
+        Some((t_min.simd_lt(t) & t.simd_lt(t_max), t))
     }
 
     /// What [`Plane::solve`] divides, for four rays.
@@ -82,6 +80,7 @@ mod tests {
     use glam::Vec3;
 
     use super::*;
+    use crate::local::Rays8;
 
     const FLOOR: Plane = Plane { point: DVec3::new(0.0, 0.0, 1.0), normal: DVec3::Z };
 
@@ -108,7 +107,8 @@ mod tests {
         let mut count = 0;
         let rays: Vec<Ray> = (0..400).map(ray).collect();
         for (rays, eight) in rays.chunks(8).zip(Rays8::of(&rays)) {
-            let met = plane.intersect8(fearless_simd::Fallback::new(), &eight);
+            let simd = fearless_simd::Fallback::new();
+            let met = plane.intersect8(simd, &eight.load(simd));
             for (lane, ray) in rays.iter().enumerate() {
                 let here = met.filter(|(hit, _)| hit.to_bitmask() >> lane & 1 != 0);
                 let found = here.map(|(_, t)| t[lane]);

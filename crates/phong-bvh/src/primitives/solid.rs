@@ -5,24 +5,31 @@ use glam::{DMat3, DVec3, Vec3};
 use super::{
     box_, cone,
     crossing::{Crossings, Line},
-    cylinder, disc, ellipsoid,
+    cylinder, disc, ellipsoid, facet,
     patch::Patch,
     torus,
 };
 use crate::{Canonical, Solid, local::Ray};
 
 impl Solid {
-    /// The distance at which `ray` first meets the solid, or none.
+    /// Where `ray` first meets the solid, or none: the distance, and of a triangle the weights of its second and
+    /// third corner; else 0.
     ///
     /// Closed shapes are met from within too, and so are open cylinders and cones.
-    pub(crate) fn intersect(&self, ray: &Ray) -> Option<f32> {
+    pub(crate) fn intersect(&self, ray: &Ray) -> Option<(f32, [f32; 2])> {
         let (line, start) = self.line(ray);
         let within = |t: f64| {
             let t = (start + t) as f32;
             (ray.t_min < t && t < ray.t_max).then_some(t)
         };
         let crossings = self.crossings(&line, |t| within(t).is_some());
-        crossings.as_slice().iter().find_map(|crossing| within(crossing.t))
+        crossings.as_slice().iter().find_map(|crossing| {
+            let weights = match self.shape {
+                Canonical::Triangle => facet::weights(line.at(crossing.t)),
+                _ => [0.0; 2],
+            };
+            Some((within(crossing.t)?, weights))
+        })
     }
 
     /// The least box around the solid, in world space, rounded outwards: its lower and upper corner.
@@ -32,6 +39,7 @@ impl Solid {
         let [low, high] = match self.shape {
             Canonical::Sphere => around(middle, ellipsoid::reach(m)),
             Canonical::Disc => around(middle, disc::reach(m, 1.0)),
+            Canonical::Triangle => facet::bounds(m, middle),
             Canonical::Box => around(middle, box_::reach(m)),
             Canonical::Cylinder { .. } => frustum(m, middle, [1.0, 1.0]),
             Canonical::Cone { radius, radius_to, .. } => frustum(m, middle, [radius, radius_to]),
@@ -69,6 +77,7 @@ impl Solid {
         let local = match self.shape {
             Canonical::Sphere => ellipsoid::patch(p),
             Canonical::Disc => disc::patch(p, 0.0, 1.0, true),
+            Canonical::Triangle => facet::patch(p),
             Canonical::Box => box_::patch(p, face),
             Canonical::Cylinder { .. } => cylinder::patch(p, face),
             Canonical::Cone { radius, radius_to, .. } => cone::patch(p, [radius, radius_to], face),
@@ -111,6 +120,7 @@ impl Solid {
         match self.shape {
             Canonical::Sphere => ellipsoid::crossings(line),
             Canonical::Disc => disc::crossings(line),
+            Canonical::Triangle => facet::crossings(line),
             Canonical::Box => box_::span(line).into(),
             Canonical::Cylinder { capped } => cylinder::crossings(line, capped),
             Canonical::Cone { radius, radius_to, capped } => {

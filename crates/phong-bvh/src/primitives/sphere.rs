@@ -14,7 +14,7 @@ use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 
 use crate::{
     Sphere,
-    local::{Ray, Rays8},
+    local::{Loaded, Ray},
     node8::Row,
     primitives::splat3,
 };
@@ -89,17 +89,11 @@ impl<S: Simd> Closest8<S> {
 
     /// Eight rays, one in each lane.
     #[inline(always)]
-    pub(crate) fn of_rays(simd: S, rays: &Rays8) -> Self {
-        let load = |lanes: &[f32; 8]| f32x8::load_array_ref(simd, lanes);
-        let Rays8 { origin, dir, t_min, t_max, .. } = rays;
-        let [x, y, z] = [load(&dir[0]), load(&dir[1]), load(&dir[2])];
-        Self {
-            origin: [load(&origin[0]), load(&origin[1]), load(&origin[2])],
-            dir: [x, y, z],
-            scale: f32x8::splat(simd, 1.0) / (x * x + y * y + z * z),
-            t_min: load(t_min),
-            t_max: load(t_max),
-        }
+    pub(crate) fn of_rays(simd: S, rays: &Loaded<S>) -> Self {
+        let Loaded { origin, dir, t_min, t_max } = *rays;
+        let [x, y, z] = dir;
+        let scale = f32x8::splat(simd, 1.0) / (x * x + y * y + z * z);
+        Self { origin, dir, scale, t_min, t_max }
     }
 
     /// The lanes that are hit, and where: a ray against eight spheres.

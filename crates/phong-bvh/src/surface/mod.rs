@@ -11,6 +11,7 @@
 //! | triangle | barycentric weights of the second and third corner |
 //! | sphere, ellipsoid | longitude / 2π from x towards y, latitude from 0 at −z to 1 at +z |
 //! | plane | distance from `point` along its axes, not wrapped: x as far as it lies in the plane (else y), and what completes the right-handed frame |
+//! | triangle among solids | weights of its second and third corner |
 //! | disc, cap | (x + 1)/2, (y + 1)/2 over the radius |
 //! | box | 0…1 along the two axes after the face's own, against the first on a lower face |
 //! | cylinder, cone | angle / 2π from x towards y, z |
@@ -24,7 +25,7 @@ mod point;
 
 pub use offset::{offset_origin, offset_origins};
 
-use fearless_simd::{Simd, f32x8, f64x4, mask32x8, prelude::*, u32x8};
+use fearless_simd::{Simd, f32x8, f64x4, mask32x8, mask64x4, prelude::*, u32x8};
 use glam::{DVec2, DVec3, Vec3};
 
 use self::point::{
@@ -33,7 +34,7 @@ use self::point::{
 };
 use crate::{
     Coordinates, Cylinder, Hit, Hits8, Kernel, Primitives, Ray, Rays8, Sphere, Surface,
-    eights::whole,
+    eights::halves,
     frame::{Frame, Way, unit, wide as wide8},
     lanes, local,
     primitives::{
@@ -108,7 +109,7 @@ fn distance(primitives: &Primitives, ray: &local::Ray, way: Way<f64>, hit: &Hit)
             };
             at.map(|at| at.t)
         }
-        Primitives::Solid(solid) if way.skip > 0.0 => solid.intersect(ray),
+        Primitives::Solid(solid) if way.skip > 0.0 => solid.intersect(ray).map(|(t, _)| t),
         _ => None,
     };
     again.unwrap_or_else(|| way.there(hit.t))
@@ -124,6 +125,9 @@ pub struct Surfaces8 {
     pub p_error: [[f32; 8]; 3],
     /// [`Surface::ng`].
     pub ng: [[f32; 8]; 3],
+    /// Whether some `p_error` may be less than what rounding a coordinate of `p` to f32 costs: where things
+    /// are far from the world's origin.
+    pub coarse: bool,
 }
 
 impl Surfaces8 {
@@ -133,6 +137,7 @@ impl Surfaces8 {
             self.p_error[axis][lane] = p_error[axis];
             self.ng[axis][lane] = ng[axis];
         }
+        self.coarse = true;
     }
 }
 
@@ -151,6 +156,7 @@ impl<P: Places> Kernel for Surfaces<'_, P> {
     fn run<S: Simd>(self, simd: S) {
         let Self { world, rays, hits, out } = self;
         for ((rays, hits), out) in rays.iter().zip(hits).zip(out) {
+            out.coarse = false;
             let mut left = hits.met;
             while left != 0 {
                 // Neighbours are mostly of one part.
@@ -227,22 +233,26 @@ fn eight<S: Simd>(
             [triangle(four([a, b, c, d]), u.0, v.0), triangle(four([e, f, g, h]), u.1, v.1)]
         }
         others => {
-            let mut local = local::Rays8::NONE;
-            let [low, high] = frame.rays(simd, rays, &mut local);
-            let far = low.skip.simd_gt(0.0).any_true() || high.skip.simd_gt(0.0).any_true();
-            if far && !matches!(others, Primitives::Plane(_)) {
-                return false;
-            }
-            let local::Rays8 { origin: [ox, oy, oz], dir: [dx, dy, dz], .. } = &local;
-            let (ox, oy, oz) = (wide8(simd, ox), wide8(simd, oy), wide8(simd, oz));
-            let (dx, dy, dz) = (wide8(simd, dx), wide8(simd, dy), wide8(simd, dz));
+            let (rays, t) = if let Some(near) = frame.load_near(simd, rays) {
+                (near, wide8(simd, &hits.t))
+            } else {
+                let mut local = local::Rays8::NONE;
+                let [low, high] = frame.rays(simd, rays, &mut local);
+                let far = low.skip.simd_gt(0.0).any_true() || high.skip.simd_gt(0.0).any_true();
+                if far && !matches!(others, Primitives::Plane(_)) {
+                    return false;
+                }
+                let t = wide8(simd, &hits.t);
+                // As `Way::there` has it.
+                let (t_low, t_high) = (t.0 * low.scale - low.skip, t.1 * high.scale - high.skip);
+                let t: f32x8<S> = t_low.narrow(t_high);
+                (local.load(simd), t.widen())
+            };
+            let [ox, oy, oz] =
+                [rays.origin[0].widen(), rays.origin[1].widen(), rays.origin[2].widen()];
+            let [dx, dy, dz] = [rays.dir[0].widen(), rays.dir[1].widen(), rays.dir[2].widen()];
             let (low_o, high_o) = ([ox.0, oy.0, oz.0], [ox.1, oy.1, oz.1]);
             let (low_d, high_d) = ([dx.0, dy.0, dz.0], [dx.1, dy.1, dz.1]);
-            let t = wide8(simd, &hits.t);
-            // As `Way::there` has it.
-            let (t_low, t_high) = (t.0 * low.scale - low.skip, t.1 * high.scale - high.skip);
-            let t: f32x8<S> = t_low.narrow(t_high);
-            let t = t.widen();
             match others {
                 Primitives::Cylinders { cylinders, .. } => {
                     let four = |of| four_capsules(simd, cylinders, of);
@@ -268,16 +278,15 @@ fn eight<S: Simd>(
     let [high_p, high_error, high_ng] = frame.leave([[x.1, y.1, z.1], high.p_error, high.ng]);
     put(simd, &mut out.p_error, lanes, join(low_error, high_error));
     put(simd, &mut out.ng, lanes, join(low_ng, high_ng));
+    out.coarse |= !frame.is_of_world();
     let bits = lanes.to_bitmask();
+    let (of_low, of_high): (mask64x4<S>, mask64x4<S>) =
+        (SimdMask::from_bitmask(simd, bits & 15), SimdMask::from_bitmask(simd, bits >> 4));
     for axis in 0..3 {
-        let p = whole(low_p[axis], high_p[axis]);
-        if bits == 0xff {
-            out.p[axis] = p;
-            continue;
-        }
-        for (lane, to) in out.p[axis].iter_mut().enumerate() {
-            *to = if bits >> lane & 1 != 0 { p[lane] } else { *to };
-        }
+        let [old_low, old_high] = halves(simd, &out.p[axis]);
+        let to = out.p[axis].as_chunks_mut::<4>().0;
+        of_low.select(low_p[axis], old_low).store_array(&mut to[0]);
+        of_high.select(high_p[axis], old_high).store_array(&mut to[1]);
     }
     true
 }

@@ -4,7 +4,10 @@ use fearless_simd::{Simd, f32x8, prelude::*, u32x8};
 use glam::{DVec3, Vec3};
 
 use super::Surfaces8;
-use crate::eights::{halves, whole};
+use crate::{
+    eights::{halves, lanes, whole},
+    local::load3,
+};
 
 /// Where to start a ray that leaves the surface at `p` towards `dir`: beyond the error of `p`, on
 /// the side of `ng` that `dir` points to.
@@ -46,31 +49,37 @@ const HALF: f32 = f32::EPSILON / 2.0;
 
 /// [`offset_origin`] for eight rays: the same bits.
 #[inline(always)]
-pub fn offset_origins<S: Simd>(simd: S, surface: &Surfaces8, dir: [f32x8<S>; 3]) -> [[f64; 8]; 3] {
+pub fn offset_origins<S: Simd>(
+    simd: S,
+    surface: &Surfaces8,
+    dir: [f32x8<S>; 3],
+    to: &mut [[f64; 8]; 3],
+) {
     let zero = f32x8::splat(simd, 0.0);
     let (ng, error) = (load3(simd, &surface.ng), load3(simd, &surface.p_error));
     let below = (dir[0] * ng[0] + dir[1] * ng[1] + dir[2] * ng[2]).simd_lt(zero);
     let keep = ng[0].abs() * error[0] + ng[1].abs() * error[1] + ng[2].abs() * error[2];
-    let [x, y, z] = ng;
-    [
-        away(simd, &surface.p[0], error[0], keep * below.select(-x, x)),
-        away(simd, &surface.p[1], error[1], keep * below.select(-y, y)),
-        away(simd, &surface.p[2], error[2], keep * below.select(-z, z)),
-    ]
+    for axis in 0..3 {
+        let offset = keep * below.select(-ng[axis], ng[axis]);
+        let error = surface.coarse.then_some(error[axis]);
+        away(simd, &surface.p[axis], error, offset, &mut to[axis]);
+    }
 }
 
+/// Moves eight coordinates; `error`: those of which this may be too coarse in f32.
 #[inline(always)]
-fn load3<S: Simd>(simd: S, [x, y, z]: &[[f32; 8]; 3]) -> [f32x8<S>; 3] {
-    [f32x8::load_array_ref(simd, x), f32x8::load_array_ref(simd, y), f32x8::load_array_ref(simd, z)]
-}
-
-#[inline(always)]
-fn away<S: Simd>(simd: S, p: &[f64; 8], error: f32x8<S>, offset: f32x8<S>) -> [f64; 8] {
+fn away<S: Simd>(
+    simd: S,
+    p: &[f64; 8],
+    error: Option<f32x8<S>>,
+    offset: f32x8<S>,
+    to: &mut [f64; 8],
+) {
     let zero = f32x8::splat(simd, 0.0);
     let [low, high] = halves(simd, p);
     let by = offset.widen();
     let moved = [low + by.0, high + by.1];
-    let (point, near): (f32x8<S>, f32x8<S>) = (low.narrow(high), moved[0].narrow(moved[1]));
+    let near: f32x8<S> = moved[0].narrow(moved[1]);
     let down = offset.simd_lt(zero);
     // The next number up; down is up in a mirror.
     let up = down.select(-near, near);
@@ -80,14 +89,18 @@ fn away<S: Simd>(simd: S, p: &[f64; 8], error: f32x8<S>, offset: f32x8<S>) -> [f
     let next = up.simd_eq(zero).select(least, next);
     let next = down.select(-next, next);
     let near = (down | offset.simd_gt(zero)).select(next, near);
-    let coarse = error.simd_lt(point.abs() * HALF);
-    let (near_low, near_high) = near.widen();
-    if !coarse.any_true() {
-        return whole(near_low, near_high);
+    let wide = near.widen();
+    let halves = to.as_chunks_mut::<4>().0;
+    wide.0.store_array(&mut halves[0]);
+    wide.1.store_array(&mut halves[1]);
+    if let Some(error) = error {
+        let point: f32x8<S> = low.narrow(high);
+        let coarse = error.simd_lt(point.abs() * HALF);
+        let moved = whole(moved[0], moved[1]);
+        for lane in lanes(coarse.to_bitmask() as u32) {
+            to[lane] = moved[lane];
+        }
     }
-    let (coarse, near, moved) =
-        (coarse.to_bitmask(), whole(near_low, near_high), whole(moved[0], moved[1]));
-    std::array::from_fn(|lane| if coarse >> lane & 1 != 0 { moved[lane] } else { near[lane] })
 }
 
 #[cfg(test)]
@@ -102,7 +115,7 @@ mod tests {
             Vec3::new(x(i, k), x(i, k + 1), x(i, k + 2)).normalize_or(Vec3::NEG_Y)
         };
         for round in 0..60 {
-            let mut surface = Surfaces8::default();
+            let mut surface = Surfaces8 { coarse: true, ..Surfaces8::default() };
             let (mut dirs, mut want) = ([[0.0; 8]; 3], [DVec3::ZERO; 8]);
             for lane in 0..8 {
                 let i = 8 * round + lane;
@@ -124,7 +137,8 @@ mod tests {
                 want[lane] = offset_origin(p, p_error, ng, dir);
             }
             let dirs = dirs.map(|lanes| f32x8::load_array(simd, lanes));
-            let found = offset_origins(simd, &surface, dirs);
+            let mut found = [[0.0; 8]; 3];
+            offset_origins(simd, &surface, dirs, &mut found);
             for (lane, want) in want.into_iter().enumerate() {
                 let found = found.map(|all| all[lane].to_bits());
                 assert_eq!(found, want.to_array().map(f64::to_bits), "lane {lane}");

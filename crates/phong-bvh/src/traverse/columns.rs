@@ -225,13 +225,13 @@ pub(super) fn least<S: Simd>(rows: [f32x8<S>; 8]) -> [f32; 8] {
 
 /// The maximum of eight lanes.
 #[inline(always)]
-pub(super) fn highest<S: Simd>(v: f32x8<S>) -> f32 {
+pub(crate) fn highest<S: Simd>(v: f32x8<S>) -> f32 {
     v.reduce_max()
 }
 
 /// The minimum of eight lanes.
 #[inline(always)]
-pub(super) fn lowest<S: Simd>(v: f32x8<S>) -> f32 {
+pub(crate) fn lowest<S: Simd>(v: f32x8<S>) -> f32 {
     v.reduce_min()
 }
 

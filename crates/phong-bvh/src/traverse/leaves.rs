@@ -248,9 +248,9 @@ impl<S: Simd> Leaves<S> for Mixed<S> {
             Some(Kind::Triangles) => self.triangles.offer(simd, world, ray, leaf, best),
             Some(Kind::Spheres) => self.spheres.offer(simd, world, ray, leaf, best),
             Some(Kind::Solid) => {
-                let (t, prim) = solid(world, ray, leaf);
-                if let Some(t) = t {
-                    best.offer(t, prim, 0.0, 0.0);
+                let (hit, prim) = solid(world, ray, leaf);
+                if let Some((t, [u, v])) = hit {
+                    best.offer(t, prim, u, v);
                 }
             }
             Some(Kind::Indexed) => {
@@ -276,13 +276,13 @@ impl<S: Simd> Leaves<S> for Mixed<S> {
 
 /// Where a solid is hit, and its number.
 #[inline(never)]
-fn solid(world: &World<'_>, ray: &Ray, leaf: Ref) -> (Option<f32>, u32) {
+fn solid(world: &World<'_>, ray: &Ray, leaf: Ref) -> (Option<(f32, [f32; 2])>, u32) {
     let row = world.rows[leaf.row()];
-    let t = match &world.geometry[row.bits(1) as usize] {
+    let hit = match &world.geometry[row.bits(1) as usize] {
         Primitives::Solid(solid) => solid.intersect(ray),
         _ => None,
     };
-    (t, row.bits(0))
+    (hit, row.bits(0))
 }
 
 /// The block of triangles that a leaf names. Unused lanes repeat the first, with no number.

@@ -3,7 +3,6 @@
 mod boxes;
 mod coherent;
 mod columns;
-mod eights;
 mod every;
 mod frustum;
 mod interleaved;
@@ -15,14 +14,13 @@ mod slabs;
 mod walk;
 
 pub(crate) use self::boxes::{Boxes, Stack as BoxStack};
-pub(crate) use self::eights::Planes;
+pub(crate) use self::columns::{highest, lowest};
 pub(crate) use self::slabs::meet;
 
 use std::{cell::RefCell, marker::PhantomData};
 
 use self::{
     coherent::{Group, Groups},
-    eights::{AnyOfFew, ClosestOfFew},
     every::Every,
     interleaved::{Interleaved, RAYS, Stacks},
     leaves::{Anything, Content, OnlyCylinders, OnlySpheres, OnlyTriangles},
@@ -72,30 +70,9 @@ impl<'a> World<'a> {
         }
     }
 
-    /// The closest hit of each ray, `planes` being the geometry outside the tree.
-    pub(crate) fn closest_of_eights(&self, planes: Planes<'a>, rays: &[Rays8], hits: &mut [Hits8]) {
-        let block = self.single_leaf();
-        self.token.run(ClosestOfFew { planes, block, rays, hits });
-        if block.is_none() {
-            self.closer_of_eights(rays, hits);
-        }
-        end(hits);
-    }
-
-    /// The closest hit of each ray outside the tree.
-    pub(crate) fn closest_outside(&self, planes: Planes<'a>, rays: &[Rays8], hits: &mut [Hits8]) {
-        self.token.run(ClosestOfFew { planes, block: None, rays, hits });
-        end(hits);
-    }
-
-    /// Whether each ray hits anything outside the tree, a bit each.
-    pub(crate) fn any_outside(&self, planes: Planes<'a>, rays: &[Rays8], blocked: &mut [u32]) {
-        self.token.run(AnyOfFew { planes, block: None, rays, blocked });
-    }
-
     /// The closest hit of each ray in the tree; `hits` come with how far each has to look, and what
     /// is there.
-    pub(crate) fn closer_of_eights(&self, rays: &[Rays8], hits: &mut [Hits8]) {
+    pub(crate) fn closest_of_eights(&self, rays: &[Rays8], hits: &mut [Hits8]) {
         match self.only {
             Some(Kind::Triangles) => self.many_in::<OnlyTriangles, _>(rays, ClosestHit(hits)),
             Some(Kind::Spheres) => self.many_in::<OnlySpheres, _>(rays, ClosestHit(hits)),
@@ -104,17 +81,8 @@ impl<'a> World<'a> {
         }
     }
 
-    /// Whether each ray hits anything, a bit each, `planes` being the geometry outside the tree.
-    pub(crate) fn any_of_eights(&self, planes: Planes<'a>, rays: &[Rays8], blocked: &mut [u32]) {
-        let block = self.single_leaf();
-        self.token.run(AnyOfFew { planes, block, rays, blocked });
-        if block.is_none() {
-            self.more_of_eights(rays, blocked);
-        }
-    }
-
     /// Whether each ray hits anything in the tree, a bit each; those already `blocked` stay so.
-    pub(crate) fn more_of_eights(&self, rays: &[Rays8], blocked: &mut [u32]) {
+    pub(crate) fn any_of_eights(&self, rays: &[Rays8], blocked: &mut [u32]) {
         match self.only {
             Some(Kind::Triangles) => self.many_in::<OnlyTriangles, _>(rays, AnyHit(blocked)),
             Some(Kind::Spheres) => self.many_in::<OnlySpheres, _>(rays, AnyHit(blocked)),
@@ -132,7 +100,7 @@ impl<'a> World<'a> {
     }
 
     /// The only leaf of a tree that is a single leaf of spheres.
-    fn single_leaf(&self) -> Option<&'a [Row; sphere::BLOCK]> {
+    pub(crate) fn single_leaf(&self) -> Option<&'a [Row; sphere::BLOCK]> {
         let leaf = self.root.filter(|root| root.kind() == Some(Kind::Spheres))?;
         Some(rows(self.rows, leaf.row()))
     }
@@ -202,15 +170,6 @@ thread_local! {
     /// The rays of a bundle that have to be traced, a bit each.
     static LANES: RefCell<Vec<u32>> = const { RefCell::new(Vec::new()) };
     static GROUP: RefCell<Group> = const { RefCell::new(Group::EMPTY) };
-}
-
-/// Where nothing was hit, sets the distance to +∞.
-fn end(hits: &mut [Hits8]) {
-    for hits in hits.iter_mut().filter(|hits| hits.met != 0xff) {
-        for (t, prim) in hits.t.iter_mut().zip(hits.prim) {
-            *t = if prim == u32::MAX { f32::INFINITY } else { *t };
-        }
-    }
 }
 
 /// Counts what a ray costs; `()` counts nothing.

@@ -4,11 +4,15 @@ use std::cell::RefCell;
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*, u32x8};
 
-use super::{Best, Instance, World, loose::Loose};
+use super::{
+    Best, Instance, WithPlanes, World,
+    few::{self, Few, Spheres},
+    loose::Loose,
+};
 use crate::{
-    Aabb, Hits8, Rays8,
+    Aabb, Hits8, Rays8, Tree,
     eights::{halves, whole},
-    frame::{Frame, SLACK, Way},
+    frame::{Frame, SLACK},
     lanes,
     level::{Kernel, Token},
     local,
@@ -25,26 +29,31 @@ struct Room {
     rays: Vec<local::Rays8>,
     hits: Vec<local::Hits8>,
     ways: Vec<Ways8>,
-    blocked: Vec<u32>,
 }
 
-/// The [`Way`]s of eight rays.
+/// The [`Way`](crate::frame::Way)s of eight rays.
 #[derive(Clone, Copy)]
 #[repr(align(32))]
 struct Ways8 {
+    /// Whether distances are the world's, and the numbers here unspecified.
+    same: bool,
     scale: [f64; 8],
     skip: [f64; 8],
 }
 
 impl Ways8 {
-    const NONE: Self = Self { scale: [1.0; 8], skip: [0.0; 8] };
+    const NONE: Self = Self { same: true, scale: [1.0; 8], skip: [0.0; 8] };
 }
 
 /// The closest hit of each ray.
 pub(super) fn closest(world: &World, rays: &[Rays8], hits: &mut [Hits8]) {
+    let World { loose, instances, upper, token, .. } = world;
+    let (few, first) = few_of(world);
+    let done = token.run(few::Closest { few, first: true, rays, hits });
     ROOM.with_borrow_mut(|room| {
-        let World { loose, instances, upper, token, .. } = world;
-        loose_closest(loose, *token, rays, hits, room);
+        if loose.has_tree() && !(done && few.spheres.is_some()) {
+            closest_in(*token, loose.tree(), loose.frame(), loose, rays, hits, room);
+        }
         if let Some(upper) = upper {
             for (rays, hits) in rays.iter().zip(&mut *hits) {
                 for lane in lanes(rays.there) {
@@ -54,26 +63,33 @@ pub(super) fn closest(world: &World, rays: &[Rays8], hits: &mut [Hits8]) {
                     hits.set(lane, best.hit());
                 }
             }
-        } else {
-            for Instance { tree, frame, part } in instances {
-                let Some(bounds) = tree.bounds() else { continue };
-                room.resize(rays.len());
-                let Room { rays: local, hits: found, ways, .. } = &mut *room;
-                let enter = Enter { frame, bounds, rays, hits, local, found, ways };
-                if token.run(enter) {
-                    tree.rays(*token).closer_of_eights(local, found);
-                    token.run(Offer { part: *part, rays, found, ways, hits });
-                }
+            return;
+        }
+        for (number, instance) in instances.iter().enumerate() {
+            if done && first == Some(number) {
+                continue;
             }
+            let Instance { tree, frame, part } = instance;
+            if let Some(few) = instance.few(*token)
+                && token.run(few::Closest { few, first: false, rays, hits })
+            {
+                continue;
+            }
+            closest_in(*token, tree, frame, &OnePart(*part), rays, hits, room);
         }
     });
 }
 
 /// Whether each ray hits anything.
 pub(super) fn any(world: &World, rays: &[Rays8], blocked: &mut [u32]) {
+    blocked.fill(0);
+    let World { loose, instances, upper, token, .. } = world;
+    let (few, first) = few_of(world);
+    let done = token.run(few::Any { few, rays, blocked });
     ROOM.with_borrow_mut(|room| {
-        let World { loose, instances, upper, token, .. } = world;
-        loose_any(loose, *token, rays, blocked, room);
+        if loose.has_tree() && !(done && few.spheres.is_some()) {
+            any_in(*token, loose.tree(), loose.frame(), rays, blocked, room);
+        }
         if let Some(upper) = upper {
             for (rays, blocked) in rays.iter().zip(&mut *blocked) {
                 for lane in lanes(rays.there & !*blocked) {
@@ -81,17 +97,38 @@ pub(super) fn any(world: &World, rays: &[Rays8], blocked: &mut [u32]) {
                     *blocked |= u32::from(hit) << lane;
                 }
             }
-        } else {
-            for Instance { tree, frame, .. } in instances {
-                let Some(bounds) = tree.bounds() else { continue };
-                room.resize(rays.len());
-                let local = &mut room.rays;
-                if token.run(EnterAny { frame, bounds, rays, blocked, local }) {
-                    tree.rays(*token).more_of_eights(local, blocked);
-                }
+            return;
+        }
+        for (number, instance) in instances.iter().enumerate() {
+            if done && first == Some(number) {
+                continue;
             }
+            let Instance { tree, frame, .. } = instance;
+            if let Some(few) = instance.few(*token)
+                && token.run(few::Any { few, rays, blocked })
+            {
+                continue;
+            }
+            any_in(*token, tree, frame, rays, blocked, room);
         }
     });
+}
+
+/// The planes of a world and the spheres asked with them, and which of the instances these are, if they are one.
+fn few_of(world: &World) -> (Few<'_>, Option<usize>) {
+    let World { loose, instances, with_planes, token, .. } = world;
+    let planes = Few { frame: loose.frame(), planes: loose.planes(), spheres: None };
+    match *with_planes {
+        WithPlanes::Nothing => (planes, None),
+        WithPlanes::Loose(names) => {
+            let block = loose.tree().rays(*token).single_leaf();
+            (Few { spheres: block.map(|block| Spheres { block, names }), ..planes }, None)
+        }
+        WithPlanes::Instance(number) => match instances[number].few(*token) {
+            Some(own) => (Few { planes: planes.planes, ..own }, Some(number)),
+            None => (planes, None),
+        },
+    }
 }
 
 fn best_of(hits: &Hits8, lane: usize, t_max: f32) -> Best {
@@ -99,125 +136,78 @@ fn best_of(hits: &Hits8, lane: usize, t_max: f32) -> Best {
     Best(crate::Hit { t: if hit.is_some() { hit.t } else { t_max }, ..hit })
 }
 
-impl Room {
-    fn resize(&mut self, len: usize) {
-        self.rays.resize(len, local::Rays8::NONE);
-        self.hits.resize(len, local::Hits8::NONE);
-        self.ways.resize(len, Ways8::NONE);
-        self.blocked.resize(len, 0);
-    }
-}
-
-/// The closest hits among the primitives written one by one.
-fn loose_closest(loose: &Loose, token: Token, rays: &[Rays8], hits: &mut [Hits8], room: &mut Room) {
-    if loose.is_empty() {
-        return hits.fill(Hits8::NONE);
-    }
-    room.resize(rays.len());
+/// Takes the hits in a tree that are nearer than those so far.
+fn closest_in(
+    token: Token,
+    tree: &Tree,
+    frame: &Frame,
+    names: &impl Names,
+    rays: &[Rays8],
+    hits: &mut [Hits8],
+    room: &mut Room,
+) {
+    let Some(bounds) = tree.bounds() else { return };
+    room.rays.resize(rays.len(), local::Rays8::NONE);
+    room.hits.resize(rays.len(), local::Hits8::NONE);
+    room.ways.resize(rays.len(), Ways8::NONE);
     let Room { rays: local, hits: found, ways, .. } = room;
-    let tree = loose.tree().rays(token);
-    if token.run(Whole { loose, rays, local }) {
-        tree.closest_of_eights(loose.outside(), local, found);
-        return token.run(Name { loose, found, hits });
-    }
-    // Some rays start far from what is in the tree: they are moved along to it, and not to the planes.
-    tree.closest_outside(loose.outside(), local, found);
-    token.run(Name { loose, found, hits });
-    let Some(bounds) = loose.tree().bounds() else { return };
-    let enter = Enter { frame: loose.frame(), bounds, rays, hits, local, found, ways };
-    if token.run(enter) {
-        tree.closer_of_eights(local, found);
-        let mut batch = 0;
-        for (((rays, hits), found), ways) in rays.iter().zip(hits).zip(&*found).zip(&*ways) {
-            for lane in lanes(found.met) {
-                let (ray, hit) = (rays.get(lane), found.get(lane));
-                let way = Way { scale: ways.scale[lane], skip: ways.skip[lane] };
-                batch = loose.batch(batch, hit.prim);
-                let (part, prim) = (loose.part(batch), hit.prim - loose.numbers(batch).start);
-                let mut best = best_of(hits, lane, ray.t_max);
-                best.offer(way.back(hit.t, &ray), part, local::Hit { prim, ..hit });
-                hits.set(lane, best.hit());
-            }
-        }
+    if token.run(Enter { frame, bounds, rays, hits, local, found, ways }) {
+        tree.rays(token).closest_of_eights(local, found);
+        token.run(Offer { names, rays, found, ways, hits });
     }
 }
 
-/// Whether each ray hits any of the primitives written one by one.
-fn loose_any(loose: &Loose, token: Token, rays: &[Rays8], blocked: &mut [u32], room: &mut Room) {
-    blocked.fill(0);
-    if loose.is_empty() {
-        return;
-    }
-    room.resize(rays.len());
+/// Whether rays that are not blocked hit anything in a tree.
+fn any_in(
+    token: Token,
+    tree: &Tree,
+    frame: &Frame,
+    rays: &[Rays8],
+    blocked: &mut [u32],
+    room: &mut Room,
+) {
+    let Some(bounds) = tree.bounds() else { return };
+    room.rays.resize(rays.len(), local::Rays8::NONE);
     let local = &mut room.rays;
-    let tree = loose.tree().rays(token);
-    if token.run(Whole { loose, rays, local }) {
-        return tree.any_of_eights(loose.outside(), local, blocked);
-    }
-    tree.any_outside(loose.outside(), local, blocked);
-    let Some(bounds) = loose.tree().bounds() else { return };
-    if token.run(EnterAny { frame: loose.frame(), bounds, rays, blocked, local }) {
-        tree.more_of_eights(local, blocked);
+    if token.run(EnterAny { frame, bounds, rays, blocked, local }) {
+        tree.rays(token).any_of_eights(local, blocked);
     }
 }
 
-/// Gives the primitives met in the loose tree their parts, and their numbers there.
-struct Name<'a> {
-    loose: &'a Loose,
-    found: &'a [local::Hits8],
-    hits: &'a mut [Hits8],
+/// The part of what is met in a tree, and its number there.
+trait Names {
+    fn names<S: Simd>(&self, simd: S, found: &local::Hits8) -> [u32x8<S>; 2];
 }
 
-impl Kernel for Name<'_> {
-    type Output = ();
+/// All of it is of one part.
+struct OnePart(u32);
 
+impl Names for OnePart {
     #[inline(always)]
-    fn run<S: Simd>(self, simd: S) {
-        let Self { loose, found, hits } = self;
-        let mut batch = 0;
-        for (found, hits) in found.iter().zip(hits) {
-            let local::Hits8 { t, prim, u, v, met } = *found;
-            (hits.t, hits.u, hits.v, hits.met) = (t, u, v, met);
-            let number = u32x8::load_array_ref(simd, &prim);
-            let (mut part, mut prim) = (u32x8::splat(simd, u32::MAX), u32x8::splat(simd, u32::MAX));
-            let mut left = met;
-            while left != 0 {
-                // Neighbours are mostly of one batch.
-                batch = loose.batch(batch, found.prim[left.trailing_zeros() as usize & 7]);
-                let numbers = loose.numbers(batch);
-                let (start, end) =
-                    (u32x8::splat(simd, numbers.start), u32x8::splat(simd, numbers.end));
-                let same = number.simd_ge(start) & number.simd_lt(end);
-                let same = left & same.to_bitmask() as u32;
-                left &= !same;
-                let same = mask32x8::from_bitmask(simd, same.into());
-                part = same.select(u32x8::splat(simd, loose.part(batch)), part);
-                prim = same.select(number - start, prim);
-            }
-            part.store_array(&mut hits.part);
-            prim.store_array(&mut hits.prim);
-        }
+    fn names<S: Simd>(&self, simd: S, found: &local::Hits8) -> [u32x8<S>; 2] {
+        [u32x8::splat(simd, self.0), numbers(simd, &found.prim)]
     }
 }
 
-/// Takes rays to the world's centre; whether all are near enough to the loose tree to go on into it.
-struct Whole<'a> {
-    loose: &'a Loose,
-    rays: &'a [Rays8],
-    local: &'a mut [local::Rays8],
-}
-
-impl Kernel for Whole<'_> {
-    type Output = bool;
-
+impl Names for Loose {
     #[inline(always)]
-    fn run<S: Simd>(self, simd: S) -> bool {
-        let Self { loose, rays, local } = self;
-        let mut near = 0xff;
-        for (rays, local) in rays.iter().zip(local) {
-            near &= loose.frame().shift(simd, rays, local) | !rays.there;
+    fn names<S: Simd>(&self, simd: S, found: &local::Hits8) -> [u32x8<S>; 2] {
+        let number = numbers(simd, &found.prim);
+        let (mut part, mut prim) = (u32x8::splat(simd, u32::MAX), u32x8::splat(simd, u32::MAX));
+        let (mut left, mut batch) = (found.met, 0);
+        while left != 0 {
+            // Neighbours are mostly of one batch.
+            batch = self.batch(batch, found.prim[left.trailing_zeros() as usize & 7]);
+            let range = self.numbers(batch);
+            let (start, end) = (u32x8::splat(simd, range.start), u32x8::splat(simd, range.end));
+            let same = number.simd_ge(start) & number.simd_lt(end);
+            let same = left & same.to_bitmask() as u32;
+            left &= !same;
+            let same = mask32x8::from_bitmask(simd, same.into());
+            part = same.select(u32x8::splat(simd, self.part(batch)), part);
+            prim = same.select(number - start, prim);
         }
-        near & 0xff == 0xff || !loose.has_tree()
+        [part, prim]
     }
 }
 
@@ -247,21 +237,28 @@ impl Kernel for Enter<'_> {
             if rays.there == 0 {
                 continue;
             }
-            let [low, high] = frame.rays(simd, rays, local);
-            let end = load(simd, &local.t_max);
             let best = load(simd, &hits.t);
             let met = mask32x8::from_bitmask(simd, hits.met.into())
                 & best.simd_lt(down(load(simd, &rays.t_max)));
             let (best_low, best_high) = best.widen();
-            let reach: f32x8<S> = (best_low * low.scale * SLACK - low.skip)
-                .narrow(best_high * high.scale * SLACK - high.skip);
+            let reach: f32x8<S> = if let Some(near) = frame.load_near(simd, rays) {
+                near.store(rays.there, local);
+                ways.same = true;
+                (best_low * SLACK).narrow(best_high * SLACK)
+            } else {
+                let [low, high] = frame.rays(simd, rays, local);
+                ways.same = false;
+                ways.scale = whole(low.scale, high.scale);
+                ways.skip = whole(low.skip, high.skip);
+                (best_low * low.scale * SLACK - low.skip)
+                    .narrow(best_high * high.scale * SLACK - high.skip)
+            };
+            let end = load(simd, &local.t_max);
             let reach = (met & reach.simd_lt(end)).select(reach, end);
             local.there &= meet(simd, local, &bounds, reach);
             any |= local.there;
             found.t = reach.into();
             found.prim = [u32::MAX; 8];
-            ways.scale = whole(low.scale, high.scale);
-            ways.skip = whole(low.skip, high.skip);
         }
         any != 0
     }
@@ -289,7 +286,11 @@ impl Kernel for EnterAny<'_> {
             if there == 0 {
                 continue;
             }
-            frame.rays(simd, rays, local);
+            if let Some(near) = frame.load_near(simd, rays) {
+                near.store(rays.there, local);
+            } else {
+                frame.rays(simd, rays, local);
+            }
             let end = f32x8::load_array_ref(simd, &local.t_max);
             local.there = there & meet(simd, local, &bounds, end);
             any |= local.there;
@@ -299,29 +300,32 @@ impl Kernel for EnterAny<'_> {
 }
 
 /// Takes the hits in a part that are nearer than those so far, or as near and of a lower part.
-struct Offer<'a> {
-    part: u32,
+struct Offer<'a, N> {
+    names: &'a N,
     rays: &'a [Rays8],
     found: &'a [local::Hits8],
     ways: &'a [Ways8],
     hits: &'a mut [Hits8],
 }
 
-impl Kernel for Offer<'_> {
+impl<N: Names> Kernel for Offer<'_, N> {
     type Output = ();
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Self { part, rays, found, ways, hits } = self;
-        let part = u32x8::splat(simd, part);
+        let Self { names, rays, found, ways, hits } = self;
         for (((rays, found), ways), hits) in rays.iter().zip(found).zip(ways).zip(hits) {
             if found.met == 0 {
                 continue;
             }
-            // [`Way::back`], step by step.
-            let (low, high) = load(simd, &found.t).widen();
-            let (scale, skip) = (halves(simd, &ways.scale), halves(simd, &ways.skip));
-            let t: f32x8<S> = ((low + skip[0]) / scale[0]).narrow((high + skip[1]) / scale[1]);
+            let [part, prim] = names.names(simd, found);
+            // `Way::back`, step by step.
+            let mut t = load(simd, &found.t);
+            if !ways.same {
+                let (low, high) = t.widen();
+                let (scale, skip) = (halves(simd, &ways.scale), halves(simd, &ways.skip));
+                t = ((low + skip[0]) / scale[0]).narrow((high + skip[1]) / scale[1]);
+            }
             let (least, most) = (up(load(simd, &rays.t_min).abs()), down(load(simd, &rays.t_max)));
             let t = t.simd_gt(least).select(t, least);
             let t = t.simd_lt(most).select(t, most);
@@ -331,8 +335,7 @@ impl Kernel for Offer<'_> {
             let new = mask32x8::from_bitmask(simd, found.met.into()) & (nearer | !had);
             new.select(t, best).store_array(&mut hits.t);
             new.select(part, best_part).store_array(&mut hits.part);
-            new.select(numbers(simd, &found.prim), numbers(simd, &hits.prim))
-                .store_array(&mut hits.prim);
+            new.select(prim, numbers(simd, &hits.prim)).store_array(&mut hits.prim);
             new.select(load(simd, &found.u), load(simd, &hits.u)).store_array(&mut hits.u);
             new.select(load(simd, &found.v), load(simd, &hits.v)).store_array(&mut hits.v);
             hits.met |= found.met;

@@ -1,124 +1,202 @@
-//! Eight rays against each plane and, where the whole tree is a single leaf of spheres, as in many small
-//! scenes, against each of its spheres.
+//! Eight rays of the world against each plane and, where a whole tree is a single leaf of spheres, as in
+//! many small scenes, against each of its spheres.
+//!
+//! Rays are taken to the space of the tree as they are loaded, which saves the room and the time that a
+//! second bundle takes.
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*, u32x8};
 
-use super::columns::{highest, lowest};
 use crate::{
-    Plane, Primitives, lanes,
+    Hits8, Plane, Rays8,
+    frame::Frame,
+    lanes,
     level::Kernel,
-    local::{Hits8, Rays8},
+    local::Loaded,
     node8::Row,
     primitives::sphere::{BLOCK, Closest8},
+    traverse::{highest, lowest},
 };
 
-/// The geometry that has no bounds.
+/// What there is a handful of: planes, each with its part, and perhaps spheres.
+#[derive(Clone, Copy)]
+pub(super) struct Few<'a> {
+    /// Where all of it stands: about a point, with the world's axes.
+    pub(super) frame: &'a Frame,
+    pub(super) planes: &'a [(Plane, u32)],
+    pub(super) spheres: Option<Spheres<'a>>,
+}
+
+/// A tree that is a single leaf of spheres.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Planes<'a> {
-    pub(crate) geometry: &'a [Primitives],
-    /// Which of the geometries are planes.
-    pub(crate) which: &'a [usize],
-    /// First primitive number of each geometry.
-    pub(crate) first: &'a [u32],
+pub(super) struct Spheres<'a> {
+    pub(super) block: &'a [Row; BLOCK],
+    /// Part and number of each sphere.
+    pub(super) names: [[u32; 2]; 8],
 }
 
-impl<'a> Planes<'a> {
-    #[inline(always)]
-    fn each(self) -> impl Iterator<Item = (&'a Plane, u32)> {
-        self.which.iter().filter_map(move |&index| match &self.geometry[index] {
-            Primitives::Plane(plane) => Some((plane, self.first[index])),
-            _ => None,
-        })
-    }
+/// The closest hits of rays. Returns false, with the planes done and the spheres not, if some rays may start
+/// too far from the spheres to be taken to them as they are.
+pub(super) struct Closest<'a> {
+    pub(super) few: Few<'a>,
+    /// Whether these are the first things asked, so that nothing has been hit and `hits` are unspecified.
+    pub(super) first: bool,
+    pub(super) rays: &'a [Rays8],
+    pub(super) hits: &'a mut [Hits8],
 }
 
-/// The closest hit of each ray outside the tree and in `block`; where there is none, its end and
-/// the number of none.
-pub(crate) struct ClosestOfFew<'a> {
-    pub(crate) planes: Planes<'a>,
-    pub(crate) block: Option<&'a [Row; BLOCK]>,
-    pub(crate) rays: &'a [Rays8],
-    pub(crate) hits: &'a mut [Hits8],
-}
-
-impl Kernel for ClosestOfFew<'_> {
-    type Output = ();
+impl Kernel for Closest<'_> {
+    type Output = bool;
 
     #[inline(always)]
-    fn run<S: Simd>(self, simd: S) {
-        let Self { planes, block, rays, hits } = self;
+    fn run<S: Simd>(self, simd: S) -> bool {
+        let Self { few: Few { frame, planes, spheres }, first, rays, hits } = self;
+        let mut all = true;
         for (rays, hits) in rays.chunks(TOGETHER).zip(hits.chunks_mut(TOGETHER)) {
-            let near = block.map(|block| (block, near(simd, rays, block)));
+            let near = match spheres {
+                Some(Spheres { block, .. }) if all => near(simd, frame, rays, block),
+                _ => Some(0),
+            };
+            all &= near.is_some();
+            let near = near.unwrap_or(0);
+            if near == 0 && planes.is_empty() {
+                if first {
+                    hits.fill(Hits8::NONE);
+                }
+                continue;
+            }
             for (rays, hits) in rays.iter().zip(hits) {
-                let end = f32x8::load_array_ref(simd, &rays.t_max);
-                let mut best = (end, u32x8::splat(simd, u32::MAX));
+                if first {
+                    hits.met = 0;
+                }
                 let there = mask32x8::from_bitmask(simd, rays.there.into());
-                for (plane, number) in planes.each() {
+                let rays = &frame.load(simd, rays);
+                let mut best = Best::load(simd, hits, rays.t_max);
+                for (plane, part) in planes {
                     if let Some((met, t)) = plane.intersect8(simd, rays) {
-                        offer(simd, &mut best, there & met, t, number);
+                        best.offer(simd, there & met, t, [*part, 0]);
                     }
                 }
-                if let Some((block, near)) = near
+                if let Some(Spheres { block, names }) = spheres
                     && near != 0
                 {
                     let closest = Closest8::of_rays(simd, rays);
                     for lane in lanes(near) {
                         if let Some((met, t)) = closest.intersect_one(simd, block, lane) {
-                            let number = block[BLOCK - 1].bits(lane);
-                            offer(simd, &mut best, there & met, t, number);
+                            best.offer(simd, there & met, t, names[lane]);
                         }
                     }
                 }
-                let (t, prim) = best;
-                let met = prim.simd_lt(u32x8::splat(simd, u32::MAX)).to_bitmask() as u32;
-                *hits = Hits8 { t: t.into(), prim: prim.into(), met, ..Hits8::NONE };
+                best.store(simd, first, hits);
             }
         }
+        all
     }
 }
 
-/// Takes hits that are nearer, or as near and of a lower number.
-#[inline(always)]
-fn offer<S: Simd>(
-    simd: S,
-    best: &mut (f32x8<S>, u32x8<S>),
-    met: mask32x8<S>,
+/// The best hits of eight rays so far; where there is none, the distance is the ray's end.
+struct Best<S: Simd> {
     t: f32x8<S>,
-    number: u32,
-) {
-    let number = u32x8::splat(simd, number);
-    let lower = t.simd_eq(best.0) & number.simd_lt(best.1);
-    let better = met & (t.simd_lt(best.0) | lower);
-    *best = (better.select(t, best.0), better.select(number, best.1));
+    part: u32x8<S>,
+    prim: u32x8<S>,
+    /// Those that were found here.
+    new: mask32x8<S>,
 }
 
-/// Whether each ray hits anything outside the tree or in `block`, a bit each.
-pub(crate) struct AnyOfFew<'a> {
-    pub(crate) planes: Planes<'a>,
-    pub(crate) block: Option<&'a [Row; BLOCK]>,
-    pub(crate) rays: &'a [Rays8],
-    pub(crate) blocked: &'a mut [u32],
+impl<S: Simd> Best<S> {
+    #[inline(always)]
+    fn load(simd: S, hits: &Hits8, t_max: f32x8<S>) -> Self {
+        let new = mask32x8::splat(simd, false);
+        if hits.met == 0 {
+            let none = u32x8::splat(simd, u32::MAX);
+            return Self { t: t_max, part: none, prim: none, new };
+        }
+        let met = mask32x8::from_bitmask(simd, hits.met.into());
+        Self {
+            t: met.select(f32x8::load_array_ref(simd, &hits.t), t_max),
+            part: u32x8::load_array_ref(simd, &hits.part),
+            prim: u32x8::load_array_ref(simd, &hits.prim),
+            new,
+        }
+    }
+
+    /// Takes hits that are nearer, or as near and of a lower part, or primitive of the same.
+    #[inline(always)]
+    fn offer(&mut self, simd: S, met: mask32x8<S>, t: f32x8<S>, [part, prim]: [u32; 2]) {
+        let (part, prim) = (u32x8::splat(simd, part), u32x8::splat(simd, prim));
+        let lower = part.simd_lt(self.part) | (part.simd_eq(self.part) & prim.simd_lt(self.prim));
+        let better = met & (t.simd_lt(self.t) | (t.simd_eq(self.t) & lower));
+        self.t = better.select(t, self.t);
+        self.part = better.select(part, self.part);
+        self.prim = better.select(prim, self.prim);
+        self.new = self.new | better;
+    }
+
+    /// Puts those found here in their place. They have no barycentric weights.
+    #[inline(always)]
+    fn store(self, simd: S, first: bool, hits: &mut Hits8) {
+        let new = self.new.to_bitmask() as u32;
+        if first {
+            let none = f32x8::splat(simd, f32::INFINITY);
+            self.new.select(self.t, none).store_array(&mut hits.t);
+            self.part.store_array(&mut hits.part);
+            self.prim.store_array(&mut hits.prim);
+            (hits.u, hits.v, hits.met) = ([0.0; 8], [0.0; 8], new);
+            return;
+        }
+        if new == 0 {
+            return;
+        }
+        if hits.met & !new == 0 {
+            (hits.u, hits.v) = ([0.0; 8], [0.0; 8]);
+        } else {
+            for lane in lanes(new) {
+                (hits.u[lane], hits.v[lane]) = (0.0, 0.0);
+            }
+        }
+        self.t.store_array(&mut hits.t);
+        self.part.store_array(&mut hits.part);
+        self.prim.store_array(&mut hits.prim);
+        hits.met |= new;
+    }
 }
 
-impl Kernel for AnyOfFew<'_> {
-    type Output = ();
+/// Whether each ray hits anything, a bit each; of those already `blocked` nothing is asked. Returns as
+/// [`Closest`] does.
+pub(super) struct Any<'a> {
+    pub(super) few: Few<'a>,
+    pub(super) rays: &'a [Rays8],
+    pub(super) blocked: &'a mut [u32],
+}
+
+impl Kernel for Any<'_> {
+    type Output = bool;
 
     #[inline(always)]
-    fn run<S: Simd>(self, simd: S) {
-        let Self { planes, block, rays, blocked } = self;
+    fn run<S: Simd>(self, simd: S) -> bool {
+        let Self { few: Few { frame, planes, spheres }, rays, blocked } = self;
+        let mut all = true;
         for (rays, blocked) in rays.chunks(TOGETHER).zip(blocked.chunks_mut(TOGETHER)) {
-            let near = block.map(|block| (block, near(simd, rays, block)));
+            let near = match spheres {
+                Some(Spheres { block, .. }) if all => near(simd, frame, rays, block),
+                _ => Some(0),
+            };
+            all &= near.is_some();
+            let near = near.unwrap_or(0);
+            if near == 0 && planes.is_empty() {
+                continue;
+            }
             for (rays, blocked) in rays.iter().zip(blocked) {
-                *blocked = 0;
-                if rays.there == 0 {
+                let there = rays.there;
+                if there & !*blocked == 0 {
                     continue;
                 }
-                for (plane, _) in planes.each() {
+                let rays = &frame.load(simd, rays);
+                for (plane, _) in planes {
                     if let Some((met, _)) = plane.intersect8(simd, rays) {
                         *blocked |= met.to_bitmask() as u32;
                     }
                 }
-                if let Some((block, near)) = near
+                if let Some(Spheres { block, .. }) = spheres
                     && near != 0
                 {
                     let closest = Closest8::of_rays(simd, rays);
@@ -128,25 +206,30 @@ impl Kernel for AnyOfFew<'_> {
                         }
                     }
                 }
-                *blocked &= rays.there;
+                *blocked &= there;
             }
         }
+        all
     }
 }
 
 /// So many eights are tested together first for whether any of them can hit a sphere.
 const TOGETHER: usize = 16;
 
-/// The spheres of a block that any of the rays may hit, one bit each.
+/// The spheres of a block that any of the rays may hit, one bit each; `None` if some rays may be too far
+/// away to enter the block as they are.
 ///
 /// How far a sphere's middle is off the line of a ray is the length of `c × d`, `c` leading from the
 /// ray's origin to the middle and `d` unit. From the bounds of all origins and directions follow
 /// bounds of each coordinate of that, and so a distance that no ray comes nearer than.
 #[inline(always)]
-fn near<S: Simd>(simd: S, rays: &[Rays8], block: &[Row; BLOCK]) -> u32 {
+fn near<S: Simd>(simd: S, frame: &Frame, rays: &[Rays8], block: &[Row; BLOCK]) -> Option<u32> {
     let used = block[BLOCK - 1].0.iter().filter(|n| n.to_bits() != u32::MAX).count();
     let used = (1 << used) - 1;
-    let Some([ox, oy, oz, dx, dy, dz]) = bounds(simd, rays) else { return 0 };
+    let Some([ox, oy, oz, dx, dy, dz]) = bounds(simd, frame, rays) else { return Some(0) };
+    if !frame.is_near([ox, oy, oz]) {
+        return None;
+    }
     let center = |axis: usize, [low, high]: [f32; 2]| {
         let c = f32x8::load_array_ref(simd, &block[axis].0);
         [c - high, c - low]
@@ -160,20 +243,20 @@ fn near<S: Simd>(simd: S, rays: &[Rays8], block: &[Row; BLOCK]) -> u32 {
     // What rounding can do here and in the kernel is far less than that.
     let far = x[0].abs().max(x[1].abs()) + y[0].abs().max(y[1].abs()) + z[0].abs().max(z[1].abs());
     let reach = f32x8::load_array_ref(simd, &block[3].0) * 1.001 + far * 1e-5;
-    used & !(off.simd_gt(reach * reach).to_bitmask() as u32)
+    Some(used & !(off.simd_gt(reach * reach).to_bitmask() as u32))
 }
 
 /// The bounds of origins and directions; `None` without rays.
 #[inline(always)]
-fn bounds<S: Simd>(simd: S, rays: &[Rays8]) -> Option<[[f32; 2]; 6]> {
+fn bounds<S: Simd>(simd: S, frame: &Frame, rays: &[Rays8]) -> Option<[[f32; 2]; 6]> {
     let most = f32x8::splat(simd, f32::INFINITY);
     let (mut low, mut high) = ([most; 6], [-most; 6]);
     let mut any = 0;
-    for Rays8 { origin: [ox, oy, oz], dir: [dx, dy, dz], there, .. } in rays {
-        any |= there;
-        let there = mask32x8::from_bitmask(simd, (*there).into());
+    for rays in rays {
+        any |= rays.there;
+        let there = mask32x8::from_bitmask(simd, rays.there.into());
+        let Loaded { origin: [ox, oy, oz], dir: [dx, dy, dz], .. } = frame.load(simd, rays);
         for (i, column) in [ox, oy, oz, dx, dy, dz].into_iter().enumerate() {
-            let column = f32x8::load_array_ref(simd, column);
             // In this order a NaN, which no ray should hold, changes nothing.
             low[i] = there.select(column, most).min(low[i]);
             high[i] = there.select(column, -most).max(high[i]);

@@ -10,16 +10,18 @@ use crate::{
     build::{BuildError, BuildOptions},
     frame::{Frame, Way},
     level::Token,
-    local, reference,
-    traverse::{self, Meter, Planes},
+    local,
+    primitives::sphere::BLOCK,
+    reference,
+    traverse::{self, Meter},
 };
 
 /// All primitives written one by one.
 #[derive(Debug)]
 pub(super) struct Loose {
     tree: Tree,
-    /// The batches that are planes.
-    planes: Vec<usize>,
+    /// The planes, each with the part that it is.
+    planes: Vec<(Plane, u32)>,
     /// The part that each batch is.
     parts: Vec<u32>,
     /// Where the tree stands.
@@ -35,8 +37,11 @@ impl Loose {
         center: DVec3,
         options: BuildOptions,
     ) -> Result<Self, BuildError> {
-        let planes = (0..batches.len()).filter(|&i| matches!(batches[i], Primitives::Plane(_)));
-        let planes = planes.collect();
+        let plane = |(batch, &part): (&Primitives, &u32)| match batch {
+            Primitives::Plane(plane) => Some((*plane, part)),
+            _ => None,
+        };
+        let planes = batches.iter().zip(&parts).filter_map(plane).collect();
         let tree = Tree::of(batches, options)?;
         let (frame, whole) = (Frame::about(center, tree.bounds()), Frame::about(center, None));
         Ok(Self { tree, planes, parts, frame, whole })
@@ -46,8 +51,9 @@ impl Loose {
         &self.tree
     }
 
-    pub(super) fn is_empty(&self) -> bool {
-        self.parts.is_empty()
+    /// The planes, each with its part.
+    pub(super) fn planes(&self) -> &[(Plane, u32)] {
+        &self.planes
     }
 
     pub(super) fn has_planes(&self) -> bool {
@@ -64,8 +70,18 @@ impl Loose {
         &self.frame
     }
 
-    pub(super) fn outside(&self) -> Planes<'_> {
-        Planes { geometry: self.tree.batches(), which: &self.planes, first: self.tree.first() }
+    /// Part and number of each sphere, where the tree is a single leaf of them.
+    pub(super) fn names(&self, token: Token) -> Option<[[u32; 2]; 8]> {
+        let block = self.tree.rays(token).single_leaf()?;
+        let mut names = [[u32::MAX; 2]; 8];
+        for (number, name) in block[BLOCK - 1].0.iter().zip(&mut names) {
+            let number = number.to_bits();
+            if number != u32::MAX {
+                let batch = self.batch(0, number);
+                *name = [self.part(batch), number - self.numbers(batch).start];
+            }
+        }
+        Some(names)
     }
 
     /// A batch, and where it stands.
@@ -97,19 +113,12 @@ impl Loose {
         self.parts[batch]
     }
 
-    fn each_plane(&self) -> impl Iterator<Item = (&Plane, u32)> {
-        self.planes.iter().filter_map(|&batch| match &self.tree.batches()[batch] {
-            Primitives::Plane(plane) => Some((plane, self.parts[batch])),
-            _ => None,
-        })
-    }
-
     fn offer_planes(&self, ray: &Ray, best: &mut Best, meter: &mut impl Meter) {
         if self.planes.is_empty() {
             return;
         }
         let (local, _) = self.whole.ray(ray);
-        for (plane, part) in self.each_plane() {
+        for &(plane, part) in &self.planes {
             meter.primitive();
             if let Some(t) = plane.intersect(&local) {
                 best.offer(t, part, local::Hit { prim: 0, ..local::Hit::NONE });
@@ -152,7 +161,7 @@ impl Loose {
     pub(super) fn any(&self, token: Token, ray: &Ray) -> bool {
         if self.has_planes() {
             let (local, _) = self.whole.ray(ray);
-            if self.each_plane().any(|(plane, _)| plane.intersect(&local).is_some()) {
+            if self.planes.iter().any(|(plane, _)| plane.intersect(&local).is_some()) {
                 return true;
             }
         }

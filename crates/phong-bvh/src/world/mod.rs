@@ -1,6 +1,8 @@
 //! All that rays can meet: primitives that were written one by one, and instances of trees.
 
+mod approach;
 mod bundle;
+mod few;
 mod loose;
 mod upper;
 mod within;
@@ -14,11 +16,14 @@ use crate::{
     build::{BuildError, BuildOptions},
     frame::Frame,
     level::Token,
-    local, reference,
+    local,
+    primitives::sphere::BLOCK,
+    reference,
     surface::{self, Places, Surfaces},
     traverse::{self, Meter},
     tree,
 };
+use few::{Few, Spheres};
 use loose::Loose;
 use upper::Upper;
 
@@ -70,6 +75,10 @@ pub struct World {
     /// Over the instances, where there are many.
     upper: Option<Upper>,
     places: Vec<Place>,
+    /// The spheres that are asked together with the planes.
+    with_planes: WithPlanes,
+    /// Around everything but planes.
+    bounds: Option<[DVec3; 2]>,
     token: Token,
 }
 
@@ -80,6 +89,17 @@ enum Place {
     Loose(u32),
     /// The number of the instance.
     Instance(u32),
+}
+
+/// The spheres that are asked together with the planes.
+#[derive(Clone, Copy, Debug)]
+enum WithPlanes {
+    /// None.
+    Nothing,
+    /// Those written one by one, which are a single leaf. Part and number of each.
+    Loose([[u32; 2]; 8]),
+    /// Those of the instance of this number, which stand about the same origin.
+    Instance(usize),
 }
 
 /// A placed tree.
@@ -162,7 +182,18 @@ impl World {
         let upper = (instances.len() > FEW)
             .then(|| Upper::build(&instances, center, options))
             .transpose()?;
-        Ok(Self { loose, instances, upper, places, token })
+        let bounds = approach::bounds(&loose, &instances);
+        let with_planes = if let Some(names) = loose.names(token) {
+            WithPlanes::Loose(names)
+        } else if loose.has_tree() || upper.is_some() {
+            WithPlanes::Nothing
+        } else {
+            let together = |instance: &Instance| {
+                instance.few(token).is_some() && instance.frame.starts_at(loose.frame())
+            };
+            instances.iter().position(together).map_or(WithPlanes::Nothing, WithPlanes::Instance)
+        };
+        Ok(Self { loose, instances, upper, places, with_planes, bounds, token })
     }
 
     /// A world of primitives written one by one, about the origin.
@@ -342,6 +373,16 @@ impl Instance {
     /// The box of its tree; none: there is nothing in it.
     fn bounds(&self) -> Option<Aabb> {
         self.tree.bounds()
+    }
+
+    /// Its spheres, where they are all that it holds, and fit one leaf.
+    fn few(&self, token: Token) -> Option<Few<'_>> {
+        if !self.frame.is_upright() {
+            return None;
+        }
+        let block = self.rays(token).single_leaf()?;
+        let names = block[BLOCK - 1].0.map(|number| [self.part, number.to_bits()]);
+        Some(Few { frame: &self.frame, planes: &[], spheres: Some(Spheres { block, names }) })
     }
 
     /// Offers its closest hit.

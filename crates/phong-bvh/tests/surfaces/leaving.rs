@@ -55,7 +55,7 @@ impl Landing {
         self.bvh.surface_eights(&rays, &hits, &mut eight);
         for axis in 0..3 {
             let want = (p[axis], p_error[axis], ng[axis]);
-            let [Surfaces8 { p, p_error, ng }] = &eight;
+            let [Surfaces8 { p, p_error, ng, .. }] = &eight;
             let found = (p[axis][5], p_error[axis][5], ng[axis][5]);
             prop_assert_eq!(found, want, "eight are not as one");
         }

@@ -130,13 +130,11 @@ impl Kernel for Add<'_> {
             plus(simd, &mut sums.weight, weight);
             // Of what is black everywhere nothing is added.
             sums.brought = sums.brought.or(sample.brought);
-            for term in Term::ALL {
-                if sample.brought.has(term) {
-                    for channel in 0..3 {
-                        let value = wide(simd, &sample.terms[term][channel]);
-                        plus(simd, &mut sums.terms[term][channel], times(weight, value));
-                    }
-                }
+            for term in sample.brought.iter() {
+                let (sums, values) = (&mut sums.terms[term], &sample.terms[term]);
+                plus(simd, &mut sums[0], times(weight, wide(simd, &values[0])));
+                plus(simd, &mut sums[1], times(weight, wide(simd, &values[1])));
+                plus(simd, &mut sums[2], times(weight, wide(simd, &values[2])));
             }
         }
     }
@@ -184,11 +182,9 @@ impl Kernel for Resolve<'_> {
             (l / low).narrow(h / high)
         };
         let mut out = Terms8::NONE;
-        for term in Term::ALL {
-            if brought.has(term) {
-                for (sum, channel) in terms[term].iter().zip(&mut out[term]) {
-                    *channel = resolved(sum).into();
-                }
+        for term in brought.iter() {
+            for (sum, channel) in terms[term].iter().zip(&mut out[term]) {
+                *channel = resolved(sum).into();
             }
         }
         let mut share: [f32; 8] = resolved(alpha).into();

@@ -1,6 +1,6 @@
 //! What belongs to the primitives of a tree's batch besides their shape.
 
-use glam::{DMat3, Mat3, Vec2, Vec3};
+use glam::{DMat3, DVec3, Mat3, Vec2, Vec3};
 use phong_bvh::Hit;
 use phong_scene::{NO_INDEX, Rgb, Shared};
 
@@ -20,6 +20,10 @@ pub(crate) struct Batch {
     pub(super) to_world: Option<Box<ToWorld>>,
     /// The spheres that are turned, in order of their number, and the rotation of each.
     pub(super) rotations: Vec<(u32, DMat3)>,
+    /// The middle of what has a tree of its own because it is far away, about which its numbers are.
+    pub(super) apart: Option<DVec3>,
+    /// Of a triangle among solids its number in the mesh, and its corners.
+    pub(super) face: Option<(u32, [u32; 3])>,
 }
 
 /// What turns vectors of a mesh with normals into those of the world.
@@ -68,6 +72,8 @@ impl Batch {
             end_colors: Shared::default(),
             to_world: None,
             rotations: Vec::new(),
+            apart: None,
+            face: None,
         }
     }
 
@@ -132,6 +138,12 @@ impl Batch {
         let bare = |mesh: &MeshAttributes| mesh.normals.is_empty() && mesh.colors.is_empty();
         let colors = self.colors.is_empty() && self.end_colors.is_empty();
         colors && self.mesh.as_ref().is_none_or(|mesh| bare(mesh))
+    }
+
+    /// Whether it has what triangles of a mesh may have.
+    #[inline]
+    pub(crate) fn is_mesh(&self) -> bool {
+        self.mesh.is_some()
     }
 
     /// The interpolated shading normal; `None` where the mesh has none. Normals of any length count as

@@ -4,7 +4,7 @@ use phong_bvh::{Ray, Rays8};
 use phong_scene::Rgb;
 
 use crate::sampling::{Sampler, Samplers8};
-use crate::terms::{Term, TermSet, Terms8};
+use crate::terms::{TermSet, Terms8};
 
 /// A ray from the camera.
 #[derive(Clone, Copy, Debug)]
@@ -102,10 +102,8 @@ impl Radiance8 {
     /// Nothing again, from rays of which these met a surface.
     #[inline(always)]
     pub(super) fn begin(&mut self, met: u32) {
-        for term in Term::ALL {
-            if self.brought.has(term) {
-                self.terms[term] = [[0.0; 8]; 3];
-            }
+        for term in self.brought.iter() {
+            self.terms[term] = [[0.0; 8]; 3];
         }
         (self.brought, self.met, self.clear) = (TermSet::NONE, met, 0);
     }

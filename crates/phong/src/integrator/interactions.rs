@@ -257,7 +257,8 @@ mod tests {
             |i: usize, k: usize| Dir3::new(Vec3::new(x(i, k), x(i, k + 1), x(i, k + 2))).unwrap();
         let mut above = 0;
         for round in 0..40 {
-            let (mut surface, mut shading) = (Surfaces8::default(), Shading8::NONE);
+            let mut surface = Surfaces8 { coarse: true, ..Surfaces8::default() };
+            let mut shading = Shading8::NONE;
             let (mut rays, mut l) = (Rays8::NONE, [[0.0; 8]; 3]);
             for lane in 0..8 {
                 let i = 8 * round + lane;
@@ -278,7 +279,8 @@ mod tests {
             let (n, ng) = (load3(simd, &shading.n), load3(simd, &surface.ng));
             let front = facing(ng, to_eye(simd, &rays));
             let mask = (is_above(l8, n) & is_above(l8, front)).to_bitmask();
-            let origins = offset_origins(simd, &surface, l8);
+            let mut origins = [[0.0; 8]; 3];
+            offset_origins(simd, &surface, l8, &mut origins);
             let interactions = Interactions {
                 hits: vec![Hits8::NONE],
                 surfaces: vec![surface],

@@ -93,7 +93,8 @@ impl Kernel for Scatter<'_> {
                 let black =
                     weight[0].simd_eq(zero) & weight[1].simd_eq(zero) & weight[2].simd_eq(zero);
                 to.there |= same & !(black.to_bitmask() as u32);
-                let origins = offset_origins(simd, surface, dir);
+                let mut origins = [[0.0; 8]; 3];
+                offset_origins(simd, surface, dir, &mut origins);
                 for (to, from) in to.origin.iter_mut().zip(origins) {
                     for (lane, (to, from)) in to.iter_mut().zip(from).enumerate() {
                         *to = if same >> lane & 1 != 0 { from } else { *to };

@@ -56,7 +56,7 @@ pub(super) fn aim<S: Simd>(
     to.t_max = end.simd_gt(zero).select(end, zero).into();
     // Of a smooth surface what looks below the face has to meet it.
     let side = if shading.smooth == 0 { l } else { select3(smooth, front, l) };
-    to.origin = offset_origins(simd, surface, side);
+    offset_origins(simd, surface, side, &mut to.origin);
     for lane in lanes(shading.smooth) {
         for axis in 0..3 {
             to.origin[axis][lane] += f64::from(shading.lift[axis][lane]);

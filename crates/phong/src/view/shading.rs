@@ -104,6 +104,15 @@ impl View {
                 lanes.select(u32x8::splat(simd, number), old).store_array(material);
                 continue;
             }
+            if let (Some(number), false) = (batch.only_material(), batch.is_mesh()) {
+                let material_color = self.materials[number as usize].color;
+                for lane in lanes(same) {
+                    material[lane] = number;
+                    let own = batch.color(hits.prim[lane], None, &hits.get(lane));
+                    set(color, lane, own.unwrap_or(material_color).to_array());
+                }
+                continue;
+            }
             for lane in lanes(same) {
                 let (number, own, normal) = self.attributes(&hits.get(lane));
                 material[lane] = number;
