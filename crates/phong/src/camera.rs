@@ -67,13 +67,18 @@ impl Camera {
     /// circle of a fisheye.
     #[inline]
     pub fn ray(&self, place: DVec2, size: [u32; 2], lens: [f32; 2]) -> Option<Ray> {
+        let [origin, dir] = self.line(place, size, lens)?;
+        Some(Ray::new(origin, dir.as_vec3()))
+    }
+
+    /// The origin and the unit direction of [`Camera::ray`], neither of them rounded to f32.
+    pub(crate) fn line(&self, place: DVec2, size: [u32; 2], lens: [f32; 2]) -> Option<[DVec3; 2]> {
         let (width, height) = (f64::from(size[0]), f64::from(size[1]));
         let dir = match self.kind {
             CameraKind::Perspective { .. } | CameraKind::Orthographic { .. } => {
                 let lens = self.has_lens().then(|| concentric_disc(lens.map(f64::from)));
                 let [origin, dir] = self.projective(place.to_array(), size, lens);
-                let dir = DVec3::from_array(dir).as_vec3();
-                return Some(Ray::new(DVec3::from_array(origin), dir));
+                return Some([origin, dir].map(DVec3::from_array));
             }
             CameraKind::Fisheye { .. } => {
                 let [x, y] = on_screen(place.to_array(), width, height);
@@ -83,7 +88,23 @@ impl Camera {
             }
             CameraKind::Panorama => self.panorama(place.x / width - 0.5, 0.5 - place.y / height),
         };
-        Some(Ray::new(self.eye, dir.normalize_or(self.forward).as_vec3()))
+        Some([self.eye, dir.normalize_or(self.forward)])
+    }
+
+    /// Whether all its rays have one direction.
+    pub(crate) fn is_parallel(&self) -> bool {
+        matches!(self.kind, CameraKind::Orthographic { .. })
+    }
+
+    /// Where it stands, in the world.
+    pub(crate) fn eye(&self) -> DVec3 {
+        self.eye
+    }
+
+    /// How many pixels lie side by side at distance 1 over a distance of 1, or anywhere of a camera whose
+    /// rays are parallel, in a picture of `height` pixels. None of those that look around.
+    pub(crate) fn pixels_across(&self, height: u32) -> Option<f64> {
+        self.is_projective().then(|| f64::from(height) / (2.0 * self.half))
     }
 
     /// Whether [`Camera::projective_rays`] draws its rays.

@@ -1,6 +1,7 @@
 //! A geometry and its look together: all that a picture needs.
 
 mod coincident;
+mod far;
 mod fixture;
 mod shading;
 mod varied;
@@ -20,6 +21,7 @@ use crate::material::Material;
 use crate::math::Dir3;
 use crate::texture::Texture;
 pub(crate) use coincident::Coincidences;
+pub use far::StartedRay;
 pub(crate) use fixture::Fixture;
 use shading::Shading;
 pub(crate) use shading::Shading8;

@@ -137,7 +137,7 @@ impl Loose {
     /// Gives `add` the part of every plane hit, and where.
     pub(super) fn each_plane_hit(&self, ray: &Ray, mut add: impl FnMut(u32, f32)) {
         let (local, _) = self.whole.ray(ray);
-        for (plane, part) in self.each_plane() {
+        for &(plane, part) in &self.planes {
             if let Some(t) = plane.intersect(&local) {
                 add(part, t);
             }

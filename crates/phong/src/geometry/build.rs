@@ -3,15 +3,15 @@
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec2, DVec3, Mat3};
-use phong_bvh::{BuildError, BuildOptions, Part, Plane, Primitives, Sphere};
-use phong_scene::{Bounds, Cylinders, Mesh, Points, Shape, cofactor, even_scale};
+use phong_bvh::{BuildError, BuildOptions, Part, Plane, Primitives, Sphere, Tree};
+use phong_scene::{Cylinders, Mesh, Points, Shape, cofactor, even_scale};
 
 use super::ObjectRecord;
 use super::batch::{Batch, MaterialNumbers, MeshAttributes, Objects, ToWorld};
 use super::flatten::Placed;
+use super::scale::{FEW_TRIANGLES, Scale};
 use super::solid::{self, canonical};
 use super::trees::{Arrays, Trees};
-use crate::math::wide;
 
 /// A whole scene's parts.
 pub(super) struct Built {
@@ -24,31 +24,12 @@ pub(super) struct Built {
     pub(super) trees: Trees,
 }
 
-/// The middle of all that has no tree of its own, rounded to a power of two about as large as they
-/// reach, so that scenes written around the origin stay as they were written, and the rest lose no
-/// digits.
-pub(super) fn center(placed: &[Placed<'_>]) -> DVec3 {
-    let bounds = placed.iter().filter(|placed| !has_tree(&placed.object.shape));
-    let bounds = bounds.map(|placed| placed.object.shape.bounds(placed.to_world));
-    let bounds = bounds.fold(Bounds::EMPTY, Bounds::union);
-    let size = bounds.size().max_element();
-    if bounds.is_empty() || size == 0.0 {
-        return if bounds.is_empty() { DVec3::ZERO } else { bounds.center() };
-    }
-    let step = wide::power_of_two_above(size);
-    (bounds.center() / step).round() * step
-}
-
-/// Whether an object has a tree of its own, which its instances share.
-fn has_tree(shape: &Shape) -> bool {
-    matches!(shape, Shape::Mesh(_) | Shape::Points(_) | Shape::Cylinders(_))
-}
-
-/// Makes parts of all objects. What is written one by one goes into the world moved by `−center`;
-/// meshes and clouds become instances of trees, which are taken from `earlier` where they are there.
+/// Makes parts of all objects. What is written one by one goes into the world moved by minus the centre of
+/// `scale`; meshes and clouds become instances of trees, which are taken from `earlier` where they are there.
+/// What is too large for f32 next to the others is met in f64, and what is too far away has a tree of its own.
 pub(super) fn build(
     placed: Vec<Placed<'_>>,
-    center: DVec3,
+    scale: Scale,
     earlier: &Trees,
     options: BuildOptions,
 ) -> Result<Built, BuildError> {
@@ -59,7 +40,7 @@ pub(super) fn build(
         trees: Trees::default(),
         own_spaces: Vec::new(),
     };
-    let to_center = DAffine3::from_translation(-center);
+    let to_center = DAffine3::from_translation(-scale.center);
     for Placed { object, name, to_world } in placed {
         let number = out.objects.len() as u32;
         let material = object.material.0;
@@ -68,6 +49,13 @@ pub(super) fn build(
             out.own_spaces.push((number, to_world.inverse()));
         }
         let (arrays, origin, batch) = match &object.shape {
+            Shape::Mesh(mesh)
+                if mesh.indices.len() <= FEW_TRIANGLES
+                    && scale.is_large(object.shape.bounds(to_world)) =>
+            {
+                out.facets(mesh, to_center, to_world, number, material);
+                continue;
+            }
             Shape::Mesh(mesh) => {
                 let arrays = Arrays::Triangles(mesh.positions.clone(), mesh.indices.clone());
                 (arrays, mesh.origin, of_mesh(mesh, to_world.matrix3, number, material))
@@ -85,7 +73,17 @@ pub(super) fn build(
                 (Arrays::Cylinders(segments.clone(), *caps), *origin, batch)
             }
             shape => {
-                out.single(shape, to_center * to_world, number, material);
+                let bounds = shape.bounds(to_world);
+                let large = !bounds.is_empty() && scale.is_large(bounds);
+                if !bounds.is_empty() && !large && scale.is_astray(bounds) {
+                    let middle = bounds.center();
+                    let from = out.parts.len();
+                    let to_middle = DAffine3::from_translation(-middle);
+                    out.single(shape, to_middle * to_world, false, number, material);
+                    out.place_apart(from, middle, options)?;
+                } else {
+                    out.single(shape, to_center * to_world, large, number, material);
+                }
                 continue;
             }
         };
@@ -128,12 +126,62 @@ impl Built {
         self.push(Part::Own(primitives), batch);
     }
 
-    /// An object that is one primitive, or a box's worth of them.
-    fn single(&mut self, shape: &Shape, to_world: DAffine3, object: u32, material: u32) {
+    /// Gives the part made last a tree of its own at `middle`, about which its numbers are.
+    fn place_apart(
+        &mut self,
+        number: usize,
+        middle: DVec3,
+        options: BuildOptions,
+    ) -> Result<(), BuildError> {
+        let Some(part) = self.parts.get_mut(number) else { return Ok(()) };
+        if let Part::Own(primitives) = part {
+            let tree = Arc::new(Tree::build(primitives.clone(), options)?);
+            *part = Part::Instance { tree, to_world: DAffine3::from_translation(middle) };
+            self.batches[number].apart = Some(middle);
+        }
+        Ok(())
+    }
+
+    /// A mesh of few triangles that are to be met in f64, as a primitive each.
+    fn facets(
+        &mut self,
+        mesh: &Mesh,
+        to_center: DAffine3,
+        to_world: DAffine3,
+        object: u32,
+        material: u32,
+    ) {
+        let to_center = to_center * to_world * DAffine3::from_translation(mesh.origin);
+        let mirrored = to_world.matrix3.determinant() < 0.0;
+        for (number, corners) in mesh.indices.iter().enumerate() {
+            let at = |i: u32| to_center.transform_point3(mesh.positions[i as usize].as_dvec3());
+            let Some(facet) = solid::facet(corners.map(at), mirrored) else { continue };
+            let material = mesh.face_materials.get(number).copied().unwrap_or(material);
+            let mut batch = of_mesh(mesh, to_world.matrix3, object, material);
+            batch.materials = MaterialNumbers::One(material);
+            batch.face = Some((number as u32, *corners));
+            if let Some(attributes) = &mut batch.mesh {
+                let of_face = |all: &[[u32; 3]]| all.get(number).map_or(vec![], |&own| vec![own]);
+                attributes.normal_indices = of_face(&attributes.normal_indices).into();
+                attributes.uv_indices = of_face(&attributes.uv_indices).into();
+            }
+            self.push_own(Primitives::Solid(facet), batch);
+        }
+    }
+
+    /// An object that is one primitive; `large`: it is to be met in f64.
+    fn single(
+        &mut self,
+        shape: &Shape,
+        to_world: DAffine3,
+        large: bool,
+        object: u32,
+        material: u32,
+    ) {
         let batch = Batch::new(Objects::OneEach(object), material);
         match *shape {
             Shape::Sphere { center, radius } => {
-                let Some(scale) = even_scale(to_world.matrix3) else {
+                let Some(scale) = even_scale(to_world.matrix3).filter(|_| !large) else {
                     let solid = solid::sphere(center, radius, to_world);
                     return self.push_own(Primitives::Solid(solid), batch);
                 };
@@ -162,6 +210,14 @@ impl Built {
                 };
                 let batch = Batch { mesh: Some(Box::new(attributes)), ..batch };
                 let mirrored = to_world.matrix3.determinant() < 0.0;
+                if large {
+                    let corners = points.map(|p| to_world.transform_point3(p));
+                    if let Some(facet) = solid::facet(corners, mirrored) {
+                        let face = Some((0, [0, 1, 2]));
+                        self.push_own(Primitives::Solid(facet), Batch { face, ..batch });
+                    }
+                    return;
+                }
                 let indices = vec![if mirrored { [0, 2, 1] } else { [0, 1, 2] }];
                 self.push_own(Primitives::triangles(positions, indices), batch);
             }

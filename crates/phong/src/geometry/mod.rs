@@ -9,6 +9,7 @@ mod batch;
 mod build;
 mod estimate;
 mod flatten;
+mod scale;
 mod solid;
 mod trees;
 
@@ -18,6 +19,7 @@ use phong_scene::{Diagnostic, Place, Scene, Shape};
 use thiserror::Error;
 
 pub(crate) use batch::Batch;
+use scale::Scale;
 use trees::Trees;
 
 /// What rays meet: immutable, and shared freely between threads and pictures.
@@ -178,8 +180,9 @@ impl Geometry {
         }
         let build = options.build.unwrap_or_default();
         let placed = flatten::flatten(scene);
-        let center = build::center(&placed);
-        let built = build::build(placed, center, earlier, build)?;
+        let scale = Scale::of(&placed);
+        let center = scale.center;
+        let built = build::build(placed, scale, earlier, build)?;
         let build::Built { parts, batches, objects, own_spaces, trees } = built;
         let materials = batches.iter().filter_map(Batch::highest_material).max();
         let materials = materials.map_or(0, |highest| highest.saturating_add(1));
@@ -217,7 +220,8 @@ impl Geometry {
     /// The number of the primitive hit within its object, from 0: a mesh's face, a point of a cloud.
     /// `None` for objects that are one primitive.
     pub fn element(&self, hit: &Hit) -> Option<u32> {
-        self.batch(hit.part).is_bulk().then_some(hit.prim)
+        let batch = self.batch(hit.part);
+        batch.is_bulk().then(|| batch.face.map_or(hit.prim, |(number, _)| number))
     }
 
     /// The number of the object hit, from 0.
@@ -250,7 +254,8 @@ impl Geometry {
             (batch.rotation(local), self.world.primitives(hit.part))
         {
             // The tree holds the sphere unturned, so it is the ray that is turned back about it.
-            let center = spheres[local as usize].center.as_dvec3() + self.center;
+            let about = batch.apart.unwrap_or(self.center);
+            let center = spheres[local as usize].center.as_dvec3() + about;
             let back = rotation.transpose();
             let origin = center + back * (ray.origin - center);
             let dir = back * ray.dir.as_dvec3();
@@ -286,6 +291,7 @@ impl Geometry {
     pub(crate) fn corners(&self, part: u32, local: u32) -> Option<[u32; 3]> {
         match self.world.primitives(part) {
             Primitives::Triangles { indices, .. } => Some(indices[local as usize]),
+            Primitives::Solid(_) => self.batch(part).face.map(|(_, corners)| corners),
             _ => None,
         }
     }

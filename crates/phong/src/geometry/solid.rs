@@ -55,3 +55,12 @@ pub(super) fn sphere(center: DVec3, radius: f64, to_world: DAffine3) -> Solid {
     let own = DAffine3 { matrix3: DMat3::from_diagonal(DVec3::splat(radius)), translation: center };
     Solid { shape: Canonical::Sphere, to_world: to_world * own }
 }
+
+/// A triangle among solids; `None` if it has no area. Under a mirror image its front is what was its back.
+pub(super) fn facet([a, b, c]: [DVec3; 3], mirrored: bool) -> Option<Solid> {
+    let (ab, ac) = (b - a, c - a);
+    let normal = ab.cross(ac).try_normalize()?;
+    let normal = if mirrored { -normal } else { normal };
+    let to_world = DAffine3 { matrix3: DMat3::from_cols(ab, ac, normal), translation: a };
+    Some(Solid { shape: Canonical::Triangle, to_world })
+}

@@ -59,8 +59,9 @@ impl Samples {
         self.bundle.clear();
         self.weights.clear();
         let soft = integrator.scene.has_soft_lights();
-        if integrator.scene.camera().is_projective() {
-            let (camera, to) = (integrator.scene.camera(), self);
+        let (camera, is_far) = (integrator.scene.camera(), integrator.scene.is_far(options.size()));
+        if camera.is_projective() && !is_far {
+            let to = self;
             let bvh = integrator.scene.world();
             bvh.run(ProjectiveRays { camera, options, filter, pixels, indices, soft, to });
             return;
@@ -119,8 +120,8 @@ pub(crate) fn camera_ray(
     let camera = integrator.scene.camera();
     let lens = if camera.has_lens() { sampler.pair(Use::Lens) } else { [0.5; 2] };
     let height = height(place.y, options.size());
-    let ray = camera.ray(place, options.size(), lens);
-    let ray = ray.map(|ray| CameraRay { ray, sampler, height });
+    let ray = integrator.scene.camera_ray(place, options.size(), lens);
+    let ray = ray.map(|started| CameraRay { ray: started.ray, sampler, height });
     Drawn { place, weight: drawn.weight, ray }
 }
 

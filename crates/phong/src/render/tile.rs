@@ -237,7 +237,8 @@ impl<'a> TileRenderer<'a> {
         let scene = self.integrator.scene;
         let size = self.options.size();
         let centre = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
-        let ray = scene.camera().ray(centre, size, [0.5; 2]);
+        let started = scene.camera_ray(centre, size, [0.5; 2]);
+        let ray = started.map(|started| started.ray);
         let (hit, cost) = ray.map_or((Hit::NONE, 0), |ray| {
             let (hit, cost) = scene.world().intersect_counted(&ray);
             (hit, cost.nodes)
@@ -256,7 +257,10 @@ impl<'a> TileRenderer<'a> {
                 (Aov::Cost, _) => values[place] = cost as f32,
                 (Aov::Depth, None) => values[place] = f32::INFINITY,
                 (_, None) => {}
-                (Aov::Depth, Some(at)) => values[place] = at.hit.t,
+                (Aov::Depth, Some(at)) => {
+                    let start = started.map_or(0.0, |started| started.start);
+                    values[place] = (start + f64::from(at.hit.t)) as f32;
+                }
                 (Aov::Normal, Some(at)) => put(values, place, at.n.to_array()),
                 (Aov::Position, Some(at)) => {
                     put(values, place, at.p.as_vec3().to_array());

@@ -43,7 +43,8 @@ impl Coincidences {
         let (mut flats, mut curves, mut meshes) = (Vec::new(), Vec::new(), Vec::new());
         for part in 0..geometry.world().parts() as u32 {
             let (batch, primitives) = (geometry.batch(part), geometry.world().primitives(part));
-            if batch.is_bulk() {
+            // A large mesh's triangles are solids, and judged as such.
+            if batch.is_bulk() && !matches!(primitives, Primitives::Solid(_)) {
                 if !matches!(primitives, Primitives::Triangles { .. }) {
                     continue;
                 }
@@ -271,7 +272,7 @@ impl Shape {
             Canonical::Sphere | Canonical::Torus { .. } => {
                 Self { flats: Vec::new(), curve: curve(Some(axis)), closed: true }
             }
-            Canonical::Disc => Self {
+            Canonical::Disc | Canonical::Triangle => Self {
                 flats: Flat::new(normals.z_axis, middle).into_iter().collect(),
                 curve: None,
                 closed: false,
