@@ -215,7 +215,7 @@ proptest! {
             if is_convex(&placed.solid) {
                 landing.never_meets_itself(dir, &[true])?;
             }
-            if placed.solid.shape == Canonical::Disc {
+            if matches!(placed.solid.shape, Canonical::Disc | Canonical::Triangle) {
                 landing.never_meets_itself(dir, &[false])?;
             }
         }

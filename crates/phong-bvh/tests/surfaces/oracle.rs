@@ -31,6 +31,7 @@ impl Placed {
         let (low, high) = match self.solid.shape {
             Canonical::Sphere | Canonical::Box => (DVec3::NEG_ONE, DVec3::ONE),
             Canonical::Disc => (DVec3::new(-1.0, -1.0, 0.0), DVec3::new(1.0, 1.0, 0.0)),
+            Canonical::Triangle => (DVec3::ZERO, DVec3::new(1.0, 1.0, 0.0)),
             Canonical::Cylinder { .. } => (DVec3::new(-1.0, -1.0, 0.0), DVec3::ONE),
             Canonical::Cone { radius, radius_to, .. } => {
                 let r = radius.max(radius_to);
@@ -52,7 +53,7 @@ impl Placed {
         let ends = (-p.z).max(p.z - 1.0);
         match self.solid.shape {
             Canonical::Sphere => (p.x * p.x + p.y * p.y + p.z * p.z).sqrt() - 1.0,
-            Canonical::Disc => p.z,
+            Canonical::Disc | Canonical::Triangle => p.z,
             Canonical::Box => p.x.abs().max(p.y.abs()).max(p.z.abs()) - 1.0,
             Canonical::Cylinder { capped: true } => (rho - 1.0).max(ends),
             Canonical::Cylinder { capped: false } => rho - 1.0,
@@ -68,6 +69,7 @@ impl Placed {
     pub(crate) fn belongs(&self, p: DVec3) -> f64 {
         match self.solid.shape {
             Canonical::Disc => 1.0 - (p.x * p.x + p.y * p.y).sqrt(),
+            Canonical::Triangle => p.x.min(p.y).min(1.0 - p.x - p.y),
             Canonical::Cylinder { capped: false } | Canonical::Cone { capped: false, .. } => {
                 p.z.min(1.0 - p.z)
             }
@@ -138,6 +140,7 @@ pub(crate) fn shapes() -> impl Strategy<Value = Canonical> {
     prop_oneof![
         Just(Canonical::Sphere),
         Just(Canonical::Disc),
+        Just(Canonical::Triangle),
         Just(Canonical::Box),
         any::<bool>().prop_map(|capped| Canonical::Cylinder { capped }),
         (radii(), 0.01..3.0_f64, any::<bool>(), any::<bool>()).prop_map(|(r, s, swap, capped)| {
