@@ -116,7 +116,7 @@ fn is_convex(primitives: &Primitives) -> bool {
         Primitives::Solid(solid) => match solid.shape {
             Canonical::Sphere | Canonical::Box => true,
             Canonical::Cylinder { capped } | Canonical::Cone { capped, .. } => capped,
-            Canonical::Disc | Canonical::Torus { .. } => false,
+            Canonical::Disc | Canonical::Triangle | Canonical::Torus { .. } => false,
         },
         Primitives::Triangles { .. } | Primitives::Plane(_) | Primitives::Cylinders { .. } => false,
     }
