@@ -3,6 +3,7 @@
 //! Readers ask the same judges of single things while they know the place of each key.
 
 mod bulk;
+mod coplanar;
 pub(crate) mod fault;
 mod groups;
 pub(crate) mod material;
@@ -51,6 +52,7 @@ impl Scene {
         if !judge.said.iter().any(Diagnostic::is_error) {
             let bounds = std::mem::take(&mut judge.bounds);
             suspicion::check(self, &bounds, &mut |warning| judge.say(warning));
+            coplanar::check(self, &mut |warning| judge.say(warning));
         }
         judge.finish()
     }
