@@ -27,6 +27,9 @@ pub struct SurfaceInteraction {
     pub e: Dir3,
     /// The diffuse colour here: the geometry's own, else the material's. Linear.
     pub color: Rgb,
+    /// The index of refraction of the far side relative to this one, where glasses meet or fill one
+    /// another; `None`: it is the material's own.
+    pub eta: Option<f32>,
 }
 
 impl SurfaceInteraction {

@@ -247,6 +247,6 @@ impl View {
         let (ng, e) = (Dir3::from_unit(ng), -Dir3::from_unit(ray.dir));
         let Shading { n, material, color } = self.shading(hit, ng, e);
         let color = color.unwrap_or_else(|| self.color_at(material, ray, hit, p));
-        SurfaceInteraction { hit: *hit, material, p, p_error, ng, n, e, color }
+        SurfaceInteraction { hit: *hit, material, p, p_error, ng, n, e, color, eta: None }
     }
 }

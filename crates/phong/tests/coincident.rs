@@ -2,7 +2,7 @@
 #![expect(clippy::unwrap_used, reason = "in a test, what is not there is a failure")]
 
 use phong::aov::Aov;
-use phong::explain::explain;
+use phong::explain::{End, explain};
 use phong::film::{Film, LayerKind};
 use phong::render::{Cancel, RenderOptions, render};
 use phong::view::View;
@@ -251,4 +251,23 @@ fn a_pane_through_which_nothing_is_bent_is_still_drawn() {
     let pane = glass_box([-1.0, 0.0, -0.5], [1.0, 1.0, 0.5], "film");
     let [with, without] = [drawn(&text(&[FLOOR, &pane])), drawn(&text(&[FLOOR]))];
     assert!(values(&with) != values(&without));
+}
+
+#[test]
+fn explain_tells_the_index_where_two_glasses_meet() {
+    let left = glass_box([-1.0, 0.1, -0.5], [0.1, 1.1, 0.5], "glass");
+    let right = glass_box([0.1, 0.1, -0.5], [1.0, 1.1, 0.5], "water");
+    let scene = scene(&text(&[&left, &right]));
+    let options = RenderOptions::of(&scene.image).unwrap().with_depth(3).unwrap();
+    let told = explain(&View::of(&scene).unwrap(), &options, [24, 20]).unwrap();
+    let mut rays: Vec<_> = told.samples.into_iter().filter_map(|sample| sample.ray).collect();
+    let mut etas = Vec::new();
+    while let Some(ray) = rays.pop() {
+        let End::Surface(surface) = ray.end else { continue };
+        etas.extend(surface.eta);
+        let onward = [surface.reflection, surface.transmission].into_iter().flatten();
+        rays.extend(onward.filter_map(|onward| onward.ray));
+    }
+    let has = |want: f32| etas.iter().any(|eta| (eta - want).abs() < 1e-6);
+    assert!(has(1.5 / 1.33) || has(1.33 / 1.5), "{etas:?}");
 }

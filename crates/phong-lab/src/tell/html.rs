@@ -131,6 +131,7 @@ impl Shared<'_> {
             "m": s.material_number,
             "t": number(s.t),
             "out": s.from_outside,
+            "eta": s.eta.map(number),
             "p": list(&s.p.as_vec3().to_array()),
             "ng": dir(s.ng),
             "n": dir(s.n),

@@ -89,6 +89,7 @@ fn hit(s: &Surface) -> Value {
         "ng": dir(s.ng),
         "uv": list(&s.uv),
         "from_outside": s.from_outside,
+        "eta": s.eta.map(number),
         "color": rgb(s.color),
     })
 }

@@ -122,6 +122,9 @@ impl Page {
             s.t
         ));
         self.line(format_args!("material {}: {}", s.material.name, described(&s.material)));
+        if let Some(eta) = s.eta {
+            self.line(format_args!("glass    meets glass: the index beyond is {eta} of that here"));
+        }
         for told in &s.textures {
             let TextureTold { parameter, texture, space, place, value } = told;
             let space = spaced(*space);

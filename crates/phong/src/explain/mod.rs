@@ -104,6 +104,9 @@ pub struct Surface {
     pub uv: [f32; 2],
     /// Whether the ray comes from outside.
     pub from_outside: bool,
+    /// The index of refraction of the far side relative to this one, where glasses meet or fill one
+    /// another; `None`: it is the material's own.
+    pub eta: Option<f32>,
     /// The surface's colour here: the geometry's own, else the material's.
     pub color: Rgb,
     /// `C_a`: the ambient light times the material's ambient colour.

@@ -111,6 +111,7 @@ impl Witness for Recorder<'_> {
             e: at.e,
             uv: coordinates.uv.to_array(),
             from_outside: at.from_outside(),
+            eta: at.eta,
             color: at.color,
             c_a,
             ambient: terms.ambient,

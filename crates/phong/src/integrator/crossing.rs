@@ -390,3 +390,45 @@ impl Group {
         self.members.iter().map(apart).fold(Vec3::ZERO, Vec3::max)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn glass(object: u32, priority: u32, ior: f32) -> Glass {
+        Glass { object, priority, ior }
+    }
+
+    #[test]
+    fn the_index_within_glasses_is_that_of_the_highest_priority() {
+        let mut media = Media::default();
+        assert_eq!((media.index(), media.highest()), (1.0, None));
+        media.enter(glass(1, 0, 1.25));
+        media.enter(glass(2, 3, 1.5));
+        assert_eq!((media.index(), media.highest()), (1.5, Some(3)));
+        media.leave(2);
+        assert_eq!((media.index(), media.highest()), (1.25, Some(0)));
+    }
+
+    #[test]
+    fn an_index_is_relative_to_what_is_around_it_at_one_priority() {
+        let mut media = Media::default();
+        media.enter(glass(1, 2, 1.5));
+        media.enter(glass(2, 2, 0.5));
+        assert_eq!(media.index(), 0.75);
+        media.leave(1);
+        assert_eq!((media.index(), media.has(1), media.has(2)), (0.5, false, true));
+    }
+
+    #[test]
+    fn more_glasses_than_are_known_are_left_as_they_were_entered() {
+        let mut media = Media::default();
+        for object in 0..2 * MOST_MEDIA as u32 {
+            media.enter(glass(object, 0, 1.5));
+        }
+        for object in 0..2 * MOST_MEDIA as u32 {
+            media.leave(object);
+        }
+        assert!(media.is_empty());
+    }
+}

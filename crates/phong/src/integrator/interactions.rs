@@ -124,6 +124,7 @@ impl Interactions {
             n: direction(&shading.n, lane),
             e: -direction(&rays[i].dir, lane),
             color: Rgb::from(get(&shading.color, lane)),
+            eta: self.etas.get(i).map(|etas| etas[lane]).filter(|eta| !eta.is_nan()),
         }
     }
 }
