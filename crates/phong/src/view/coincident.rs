@@ -15,7 +15,7 @@ use crate::material::Material;
 const NEAR: f64 = 1e-5;
 
 /// With so many flat faces about as far from the middle of all, no pair is looked at: all may coincide.
-const MOST_NEIGHBOURS: usize = 64;
+const MOST_NEIGHBOURS: usize = 256;
 
 /// What of a view's objects needs more than the closest hit.
 #[derive(Clone, Debug, Default)]
@@ -176,23 +176,32 @@ struct Flat {
     normal: DVec3,
     /// Distance of the plane from there.
     offset: f64,
+    /// The middle of the face.
+    middle: DVec3,
+    /// How far it reaches from there along each axis.
+    reach: DVec3,
     /// The size of coordinates there.
     size: f64,
 }
 
 impl Flat {
-    fn new(normal: DVec3, point: DVec3) -> Option<Self> {
+    fn new(normal: DVec3, middle: DVec3, reach: DVec3) -> Option<Self> {
         let normal = normal.try_normalize()?;
         // Of the two normals of a plane the one whose first number that is not about 0 is positive.
         let first = normal.to_array().into_iter().find(|x| x.abs() > 1e-3)?;
         let normal = if first < 0.0 { -normal } else { normal };
-        Some(Self { normal, offset: normal.dot(point), size: 1.0 + point.abs().max_element() })
+        let (offset, size) = (normal.dot(middle), 1.0 + middle.abs().max_element());
+        Some(Self { normal, offset, middle, reach, size })
     }
 
     fn coincides(&self, other: &Self) -> bool {
         let near = NEAR * self.size.max(other.size);
         (self.offset - other.offset).abs() <= near
             && self.normal.dot(other.normal).abs() > 1.0 - NEAR
+            && (self.middle - other.middle)
+                .abs()
+                .cmple(self.reach + other.reach + DVec3::splat(near))
+                .all()
     }
 }
 
@@ -234,8 +243,8 @@ struct Shape {
 
 impl Shape {
     fn of(primitives: &Primitives, local: usize) -> Self {
-        let flat = |normal, point| Self {
-            flats: Flat::new(normal, point).into_iter().collect(),
+        let flat = |normal, middle, reach| Self {
+            flats: Flat::new(normal, middle, reach).into_iter().collect(),
             curve: None,
             closed: false,
         };
@@ -246,10 +255,13 @@ impl Shape {
                 let curve = Some(Curve { middle, axis: None, size, key: size });
                 Self { flats: Vec::new(), curve, closed: true }
             }
-            Primitives::Plane(plane) => Self { closed: true, ..flat(plane.normal, plane.point) },
+            Primitives::Plane(plane) => {
+                Self { closed: true, ..flat(plane.normal, plane.point, DVec3::INFINITY) }
+            }
             Primitives::Triangles { positions, indices } => {
                 let [a, b, c] = indices[local].map(|i| positions[i as usize].as_dvec3());
-                flat((b - a).cross(c - a), a)
+                let reach = (b - a).abs().max((c - a).abs());
+                flat((b - a).cross(c - a), a, reach)
             }
             Primitives::Solid(solid) => Self::of_solid(solid),
             Primitives::Cylinders { .. } => Self { flats: Vec::new(), curve: None, closed: true },
@@ -261,11 +273,12 @@ impl Shape {
         let normals: DMat3 = cofactor(matrix);
         let size = matrix.x_axis.length().max(matrix.y_axis.length()).max(matrix.z_axis.length());
         let axis = matrix.z_axis.normalize_or(DVec3::Z);
+        let across = matrix.x_axis.abs() + matrix.y_axis.abs();
         // All that have an axis are compared: there are few of them in a scene.
         let curve = |axis| Some(Curve { middle, axis, size, key: 0.0 });
         let caps = |closed: bool| {
             let ends = [middle, middle + matrix.z_axis];
-            let caps = ends.into_iter().filter_map(|end| Flat::new(normals.z_axis, end));
+            let caps = ends.into_iter().filter_map(|end| Flat::new(normals.z_axis, end, across));
             Self { flats: caps.filter(|_| closed).collect(), curve: curve(Some(axis)), closed }
         };
         match *shape {
@@ -273,13 +286,15 @@ impl Shape {
                 Self { flats: Vec::new(), curve: curve(Some(axis)), closed: true }
             }
             Canonical::Disc | Canonical::Triangle => Self {
-                flats: Flat::new(normals.z_axis, middle).into_iter().collect(),
+                flats: Flat::new(normals.z_axis, middle, across).into_iter().collect(),
                 curve: None,
                 closed: false,
             },
             Canonical::Box => {
                 let face = |side: f64, axis: usize| {
-                    Flat::new(normals.col(axis), middle + side * matrix.col(axis))
+                    let across: DVec3 =
+                        (0..3).filter(|&k| k != axis).map(|k| matrix.col(k).abs()).sum();
+                    Flat::new(normals.col(axis), middle + side * matrix.col(axis), across)
                 };
                 let flats = [-1.0, 1.0].into_iter();
                 let flats = flats.flat_map(|side| (0..3).filter_map(move |axis| face(side, axis)));
