@@ -194,6 +194,9 @@ fn compare(m: &ConstantMaterial, back: &ConstantMaterial, differences: &mut Vec<
     if sees && (m.ior != back.ior || m.fresnel != back.fresnel) {
         lost("the index of refraction, or whether Fresnel's factor counts");
     }
+    if m.priority > 0 {
+        lost("the priority among surfaces in one place");
+    }
 }
 
 fn near(a: Rgb, b: Rgb) -> bool {
