@@ -68,10 +68,30 @@ fn a_document_a_drawing_and_a_page_stand_by_themselves() {
     assert!(then.err.contains("p.html: 40 × 30 pixels explained in"), "{}", then.err);
     let html = text(folder.bytes("p.html"));
     assert!(html.trim_end().ends_with("</html>"));
+    assert!(html.contains("Quiz on this pixel") && html.contains("<summary>answer</summary>"));
+    assert!(html.len() < 40 * 30 * 30 + 60_000, "{}: 2 MB for 320 × 180", html.len());
     for outside in ["http://", "https://", "src=\"/", "href=\"/"] {
         let own = html.replace("http://www.w3.org/", "");
         assert!(!own.contains(outside), "the page is offline, but has {outside}");
     }
+}
+
+#[test]
+fn numbers_have_as_many_digits_as_are_asked_for() {
+    let folder = balls();
+    let told = text(folder.done("explain a.toml 20 15 --samples 1 --digits 3").out);
+    let digits = |word: &str| word.trim_start_matches(['0', '.']).replace('.', "").len();
+    let numbers = told.split([' ', '(', ')', ',', '^', '\n']).filter(|word| word.contains('.'));
+    let numbers = numbers.filter(|word| word.parse::<f64>().is_ok() && !word.contains('e'));
+    let long: Vec<_> = numbers.filter(|word| digits(word.trim_start_matches('-')) > 3).collect();
+    // Where the sample lies, and the curve, are told with digits of their own.
+    assert!(long.iter().all(|word| word.len() == 8 || word.ends_with(".5")), "{long:?}");
+    for words in ["from the eye, o = (0, 1, 5)", "at (3, 4, 5)", "(a.toml:12:1)", "= -d"] {
+        assert!(told.contains(words), "`{words}` is not in:\n{told}");
+    }
+    let latex = text(folder.done("explain a.toml 20 15 --samples 1 --latex --digits 3").out);
+    assert!(latex.contains("\\paragraph{Reflection}"), "{latex}");
+    folder.when("explain a.toml 20 15 --digits 0").is_refused(&["--digits", "from 1 to 17"]);
 }
 
 #[test]

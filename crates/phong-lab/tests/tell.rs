@@ -7,7 +7,7 @@ use phong::explain::explain;
 use phong::render::RenderOptions;
 use phong::terms::TermSet;
 use phong::view::View;
-use phong_lab::tell;
+use phong_lab::tell::{self, Telling};
 use phong_scene::{AmbientRule, Folder, Limits, Material};
 
 fn compiled(file: &str) -> (View, RenderOptions) {
@@ -41,10 +41,15 @@ fn numbers_in_json_are_the_very_bits() {
 fn an_explanation_in_words_puts_the_numbers_into_the_equation() {
     let (scene, options) = compiled("two-balls.toml");
     let told = explain(&scene, &options.with_samples(1).unwrap(), [9, 6]).unwrap();
-    let text = tell::text(&told, None, true);
+    let text = tell::text(&told, &all());
     for wanted in ["pixel (9, 6) of 20 × 12", "N·L = ", "diffuse  = k_d (N·L) C_d\n", "bytes"] {
         assert!(text.contains(wanted), "{wanted:?} is not in\n{text}");
     }
+}
+
+/// Everything that is told of every sample.
+fn all() -> Telling {
+    Telling { full: true, ..Telling::default() }
 }
 
 /// Whether the factors of a line `… = a × b × (c, d, e)` multiply out to the colour `(f, g, h)`
@@ -98,7 +103,7 @@ fn what_is_written_as_a_product_multiplies_out_whatever_the_model_and_dialect() 
         let options = options.with_samples(1).unwrap();
         for [x, y] in (0..12).flat_map(|y| (0..20).map(move |x| [x, y])) {
             let told = explain(&scene, &options, [x, y]).unwrap();
-            let (text, latex) = (tell::text(&told, None, true), tell::latex(&told, 0));
+            let (text, latex) = (tell::text(&told, &all()), tell::latex(&told, &all()));
             let lines: Vec<&str> = text.lines().collect();
             for three in lines.windows(3) {
                 let [head, above, below] = three else { continue };
@@ -116,6 +121,8 @@ fn what_is_written_as_a_product_multiplies_out_whatever_the_model_and_dialect() 
                     seen.extend(text.contains(word).then(|| word.to_owned()));
                 }
             }
+            // A term's factors stand on one line, what they come to on the next.
+            let latex = latex.replace("\\\\\n&= ", " = ");
             for line in latex.lines().filter(|line| line.contains("C_") && line.contains(" &= ")) {
                 let line = line.replace(" \\cdot 10^", "@").replace("\\\\", "");
                 let (_, sides) = line.split_once(" &= ").unwrap();

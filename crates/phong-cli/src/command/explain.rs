@@ -9,8 +9,8 @@ use phong::finish::{Finishing, finish};
 use phong::image::{self, Content, Encoding, Format};
 use phong::render::{Cancel, RenderOptions, render};
 use phong::view::View;
-use phong_lab::tell;
 use phong_lab::tell::html::{MAX_PIXELS, page};
+use phong_lab::tell::{self, Telling};
 
 use crate::args::{self, ImageArgs, InputArgs, ViewArgs};
 use crate::compile::compile;
@@ -22,6 +22,7 @@ const EXAMPLES: &str = "\
 Examples:
   phong explain scene.toml 480 270                 the equation with the pixel's numbers put in
   phong explain scene.toml 480 270 --samples 1     the ray through the pixel's centre alone
+  phong explain scene.toml 480 270 --digits 4      rounded, to check with a pocket calculator
   phong explain scene.toml 480 270 --json | jq .linear
   phong explain scene.toml 480 270 --svg vectors.svg
   phong explain scene.toml --html page.html        every pixel, on one offline page to click in
@@ -69,6 +70,11 @@ pub(crate) struct Args {
     /// Which sample to tell in full, from 1 [default: the first; text tells all of up to 2]
     #[arg(long, value_name = "N", value_parser = args::whole(1, u32::MAX), allow_hyphen_values = true)]
     pub(crate) sample: Option<u32>,
+
+    /// Significant digits of every number in text and LaTeX [default: all; LaTeX: 5]
+    #[arg(long, value_name = "N", value_parser = args::whole(1_u32, 17), allow_hyphen_values = true)]
+    #[arg(conflicts_with = "json")]
+    pub(crate) digits: Option<u32>,
 
     /// Tell mirror and glass rays too that bring less than half a level
     #[arg(long)]
@@ -127,14 +133,16 @@ fn chosen(args: &Args) -> usize {
 }
 
 fn tell(args: &Args, told: &Explanation) -> Result<(), Failure> {
+    let digits = args.digits.map(|digits| digits as usize);
+    let telling = |sample| Telling { sample, full: args.full, digits };
     if args.json {
         return report::json(&tell::json(told));
     }
     if args.latex {
-        return report::data(tell::latex(told, chosen(args)).as_bytes());
+        return report::data(tell::latex(told, &telling(Some(chosen(args)))).as_bytes());
     }
     let all = told.samples.len() <= 2 && args.sample.is_none();
-    let mut text = tell::text(told, (!all).then(|| chosen(args)), args.full);
+    let mut text = tell::text(told, &telling((!all).then(|| chosen(args))));
     if !all && args.sample.is_none() {
         text.push_str(
             "\n(told in full: sample 1; --sample N tells another, --samples 1 the centre)\n",

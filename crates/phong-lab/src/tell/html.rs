@@ -1,29 +1,30 @@
 //! One offline page: the picture, and behind every pixel its explanation.
 //!
-//! Each row of pixels is a JSON array, deflated and in base 64; the page unpacks the row that is
-//! asked for. What belongs to many pixels (objects, lights, materials) is written once. The page
-//! computes nothing that it states: it only lays out the numbers.
+//! Bands of rows are packed, deflated and in base 64; the page unpacks the band that is asked for. What
+//! belongs to many pixels (objects, lights, materials) is written once. The page computes nothing
+//! that it states: it only lays out the numbers, which it has to four digits.
 
-use std::io::Write as _;
-
-use flate2::Compression;
-use flate2::write::ZlibEncoder;
+use glam::DVec3;
 use phong::explain::{End, Explanation, Lit, Onward, RayTold, Surface, explain};
 use phong::render::{Cancel, Cancelled, RenderOptions};
 use phong::terms::Term;
 use phong::view::View;
-use phong_scene::{AmbientRule, ConstantMaterial, Model, Rgb};
+use phong_scene::{AmbientRule, ConstantMaterial, LightKind, Model, Rgb};
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
 use super::json::{dir, list, number, rgb};
+use super::packed::pack;
 use super::product::{self, Number, Product};
 use super::text::{NOTICED, cut, described, hidden, named};
-use crate::markup::{base64, data_url, escaped};
+use crate::markup::{data_url, escaped};
 
 const PAGE: &str = include_str!("page.html");
 
-/// The most pixels a page may have: some 20 MB, which a browser still opens at once.
+/// Rows that are packed together.
+const BAND: u32 = 12;
+
+/// The most pixels a page may have: a few MB, which a browser still opens at once.
 pub const MAX_PIXELS: u32 = 65_536;
 
 /// Every pixel of a picture of at most [`MAX_PIXELS`] explained in one HTML file. `png` is the
@@ -53,9 +54,14 @@ pub fn page(
         let pixels = (0..width).filter_map(|x| explain(scene, options, [x, y]).ok());
         let row: Vec<Value> = pixels.map(|told| shared.pixel(&told)).collect();
         watch(1);
-        Ok(deflated(&Value::Array(row).to_string()))
+        Ok(row)
     };
-    let rows = (0..height).into_par_iter().map(row).collect::<Result<Vec<String>, Cancelled>>()?;
+    let band = |band: u32| {
+        let rows = (band * BAND..height.min((band + 1) * BAND)).map(row);
+        Ok(pack(rows.collect::<Result<_, Cancelled>>()?))
+    };
+    let bands = (0..height.div_ceil(BAND)).into_par_iter().map(band);
+    let bands = bands.collect::<Result<Vec<String>, Cancelled>>()?;
     let samples = options.samples();
     let note = format!(
         "{width} × {height}, {samples} {}.",
@@ -67,7 +73,8 @@ pub fn page(
         ("{{note}}", note),
         ("{{size}}", json!(options.size()).to_string()),
         ("{{shared}}", in_script(&shared.json().to_string())),
-        ("{{rows}}", json!(rows).to_string()),
+        ("{{bands}}", json!(bands).to_string()),
+        ("{{band}}", BAND.to_string()),
         ("{{picture}}", data_url("image/png", png)),
     ] {
         out = out.replace(slot, &text);
@@ -92,8 +99,9 @@ impl Shared<'_> {
             "lights": scene
                 .written_lights()
                 .iter()
-                .map(|l| json!([l.name, l.place.to_string()]))
+                .map(|l| json!([l.name, l.place.to_string(), where_from(&l.kind)]))
                 .collect::<Vec<_>>(),
+            "eye": scene.look().camera.eye.to_array(),
             // Where textures vary one, each surface brings its own.
             "materials": scene
                 .written_materials()
@@ -133,7 +141,8 @@ impl Shared<'_> {
             "out": s.from_outside,
             "eta": s.eta.map(number),
             "p": list(&s.p.as_vec3().to_array()),
-            "ng": dir(s.ng),
+            // Mostly the shading normal itself.
+            "ng": if s.ng == s.n { Value::Null } else { dir(s.ng) },
             "n": dir(s.n),
             "e": dir(s.e),
             "own": product::own_terms(s)
@@ -169,6 +178,19 @@ impl Shared<'_> {
             None => out["cut"] = json!(format!("{}: black", cut(onward.cut))),
         }
         out
+    }
+}
+
+/// Where a light is, or which way it shines.
+fn where_from(kind: &LightKind) -> String {
+    let triple = |v: DVec3| format!("({}, {}, {})", v.x, v.y, v.z);
+    match kind {
+        LightKind::Distant { direction, .. } => {
+            format!("distant, shines along {}", triple(*direction))
+        }
+        LightKind::Point { position, .. } | LightKind::Spot { position, .. } => {
+            format!("at {}", triple(*position))
+        }
     }
 }
 
@@ -211,6 +233,9 @@ fn light(s: &Surface, lit: &Lit) -> Value {
         put("cs", rgb(lit.c_s));
         put("d", rgb(lit.diffuse));
         put("s", rgb(lit.specular));
+        if let Some(power) = product::power(s, lit) {
+            put("pw", number(power));
+        }
         // Of the models that are π f (N·L), the page knows no more.
         match s.material.model {
             Model::OrenNayar { .. } => {
@@ -246,14 +271,6 @@ fn material(m: &ConstantMaterial) -> Value {
         "cosine": m.times_cosine,
         "per_light": m.ambient_rule == AmbientRule::PerLight,
     })
-}
-
-/// Text, deflated with zlib's frame, in base 64.
-fn deflated(text: &str) -> String {
-    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::best());
-    // Writing to a Vec cannot fail.
-    let bytes = encoder.write_all(text.as_bytes()).and_then(|()| encoder.finish());
-    base64(&bytes.unwrap_or_default())
 }
 
 /// JSON that stands in a script element: nothing in it may end the element.

@@ -1,7 +1,7 @@
 //! An explanation for programs.
 
 use phong::explain::{
-    Blocker, End, Explanation, Lit, Onward, RayTold, Sample, Surface, TextureTold,
+    Blocker, End, Explanation, LightFrom, Lit, Onward, RayTold, Sample, Surface, TextureTold,
 };
 use phong::math::Dir3;
 use phong::terms::Terms;
@@ -17,6 +17,7 @@ pub fn json(told: &Explanation) -> Value {
     let mut out = json!({
         "pixel": told.pixel,
         "size": told.size,
+        "eye": told.eye.to_array(),
         "samples": told.samples.iter().map(sample).collect::<Vec<_>>(),
         "terms": terms(told.terms),
         "linear": rgb(told.linear),
@@ -70,7 +71,7 @@ fn ray_into(out: &mut Map<String, Value>, told: &RayTold) {
             put("c_e", rgb(s.c_e()));
             put("material", material(&s.material));
             put("textures", s.textures.iter().map(texture).collect());
-            put("lights", s.lights.iter().map(light).collect());
+            put("lights", s.lights.iter().map(|lit| light(s, lit)).collect());
             put("reflection", s.reflection.as_ref().map_or(Value::Null, onward));
             put("transmission", s.transmission.as_ref().map_or(Value::Null, onward));
         }
@@ -121,10 +122,19 @@ fn texture(told: &TextureTold) -> Value {
     })
 }
 
-fn light(lit: &Lit) -> Value {
+fn light(s: &Surface, lit: &Lit) -> Value {
+    let power = super::product::power(s, lit);
     json!({
         "name": lit.name,
         "at": at(&lit.at),
+        "position": match lit.from {
+            LightFrom::Point(p) => json!(p.to_array()),
+            LightFrom::Direction(_) => Value::Null,
+        },
+        "direction": match lit.from {
+            LightFrom::Point(_) => Value::Null,
+            LightFrom::Direction(d) => json!(d.to_array()),
+        },
         "l": lit.l.map_or(Value::Null, dir),
         "r": lit.r.map_or(Value::Null, dir),
         "h": lit.h.map_or(Value::Null, dir),
@@ -138,6 +148,7 @@ fn light(lit: &Lit) -> Value {
         "color": rgb(lit.color),
         "c_d": rgb(lit.c_d),
         "c_s": rgb(lit.c_s),
+        "power": power.map_or(Value::Null, number),
         "ambient": rgb(lit.ambient),
         "diffuse": rgb(lit.diffuse),
         "specular": rgb(lit.specular),

@@ -1,187 +1,261 @@
 //! An explanation for a page of mathematics.
 
-use std::fmt::Write;
+use std::fmt::{self, Write};
 
-use phong::explain::{End, Explanation, Lit, RayTold, Surface};
+use glam::DVec3;
+use phong::explain::{End, Explanation, LightFrom, Lit, Onward, RayTold, Surface};
 use phong::math::Dir3;
 use phong_scene::{Model, Rgb};
 
+use super::Telling;
 use super::product::{self, Number, Power, Product};
-use super::text::{hidden, named};
+use super::text::{NOTICED, cut, hidden, named};
 
-/// What all the rest stands in.
-const HEAD: &str = "\\documentclass{article}\n\\usepackage{amsmath}\n\\usepackage[T1]{fontenc}\n\
-                    \\begin{document}\n";
+/// What all the rest stands in: narrow margins, and equations that may go on over the page's end.
+const HEAD: &str = "\\documentclass[10pt]{article}\n\\usepackage[a4paper,margin=20mm]{geometry}\n\
+                    \\usepackage{amsmath}\n\\usepackage[T1]{fontenc}\n\
+                    \\usepackage[utf8]{inputenc}\n\\allowdisplaybreaks\n\\begin{document}\n";
 
-/// A whole LaTeX document (amsmath): the sum with the numbers of sample `sample` (from 0) put
-/// in, five significant digits each.
-pub fn latex(told: &Explanation, sample: usize) -> String {
-    let mut out = HEAD.to_owned();
+/// Digits of a number where nothing else is asked for.
+const DIGITS: usize = 5;
+
+/// A whole LaTeX document (amsmath): the sum with the numbers of one sample put in, and of what its
+/// mirror and glass rays met, each on its own.
+pub fn latex(told: &Explanation, telling: &Telling) -> String {
+    let sample = telling.sample.unwrap_or(0);
+    let mut out = Document {
+        text: HEAD.to_owned(),
+        digits: telling.digits.unwrap_or(DIGITS).max(1),
+        full: telling.full,
+        weight: 1.0,
+    };
     let ([x, y], [width, height]) = (told.pixel, told.size);
-    // Writing to a String cannot fail.
-    let _ = writeln!(
-        out,
+    out.line(format_args!(
         "\\section*{{Pixel $({x}, {y})$ of ${width} \\times {height}$, sample {} of {}}}",
         sample + 1,
         told.samples.len()
-    );
+    ));
     match told.samples.get(sample).and_then(|sample| sample.ray.as_ref()) {
-        Some(ray) => of_ray(&mut out, ray),
-        None => out.push_str("The sample lies outside the image circle: it is black.\n"),
+        Some(ray) => out.ray(ray),
+        None => out.line(format_args!("The sample lies outside the image circle: it is black.")),
     }
     let [r, g, b] = told.encoded(0.0).bytes;
-    let _ = writeln!(
-        out,
-        "\\[ \\text{{pixel}} = {} \\;\\to\\; \\text{{sRGB bytes }} ({r}, {g}, {b}) \\]",
-        color(told.linear)
-    );
-    out.push_str("\\end{document}\n");
-    out
+    let linear = out.color(told.linear);
+    out.line(format_args!(
+        "\\[ \\text{{pixel}} = {linear} \\;\\to\\; \\text{{sRGB bytes }} ({r}, {g}, {b}) \\]"
+    ));
+    out.line(format_args!("\\end{{document}}"));
+    out.text
 }
 
-fn of_ray(out: &mut String, ray: &RayTold) {
-    match &ray.end {
-        End::Background(background) => {
-            let _ = writeln!(out, "The ray meets nothing and sees ${}$.", color(*background));
-        }
-        End::Surface(s) => surface(out, s),
-    }
+/// The text so far, and how it goes on.
+struct Document {
+    text: String,
+    /// Significant digits.
+    digits: usize,
+    /// Whether everything is told, however little it brings.
+    full: bool,
+    /// What the ray being told weighs in the sample.
+    weight: f32,
 }
 
-fn surface(out: &mut String, s: &Surface) {
-    let _ = writeln!(
-        out,
-        "The ray meets {} at $t = {}$.\n\\begin{{align*}}",
-        escaped(&named(&s.object, s.element)),
-        n(s.t)
-    );
-    let _ = writeln!(out, "N &= {} & E &= {} \\\\", dir(s.n), dir(s.e));
-    for (_, term) in product::own_terms(s) {
-        product(out, &term);
+impl Document {
+    fn line(&mut self, line: fmt::Arguments<'_>) {
+        // Writing to a String cannot fail.
+        let _ = writeln!(self.text, "{line}");
     }
-    end(out);
-    for lit in &s.lights {
-        light(out, s, lit);
-    }
-    for (name, onward) in [("reflection", &s.reflection), ("transmission", &s.transmission)] {
-        let Some(onward) = onward else { continue };
-        let _ = writeln!(
-            out,
-            "\\[ \\text{{{name}}} = {} \\cdot {} = {} \\]",
-            color(onward.weight),
-            color(onward.light),
-            color(onward.weight * onward.light)
-        );
-    }
-    let _ = writeln!(out, "\\begin{{align*}}");
-    for (term, value) in s.terms.iter().filter(|(_, value)| !value.is_black()) {
-        let _ = writeln!(out, "\\text{{{}}} &= {} \\\\", term.name(), color(value));
-    }
-    let _ = writeln!(out, "\\text{{sum}} &= {}\n\\end{{align*}}", color(s.terms.total()));
-}
 
-fn light(out: &mut String, s: &Surface, lit: &Lit) {
-    let _ = writeln!(out, "\\paragraph{{{}}}", escaped(&lit.name));
-    let m = &s.material;
-    let ambient = product::ambient_of_light(s, lit);
-    if let Some(why) = hidden(lit) {
-        let why = why.replace("N·L ≤ 0", "$N \\cdot L \\le 0$");
-        let what = if ambient.is_some() { "nothing but ambient light" } else { "nothing" };
-        let _ = writeln!(out, "{why}: it adds {what}.");
-        if let Some(ambient) = ambient {
-            out.push_str("\\begin{align*}\n");
-            product(out, &ambient);
-            end(out);
-        }
-        return;
-    }
-    let _ = writeln!(out, "\\begin{{align*}}");
-    if let Some(l) = lit.l {
-        let _ = writeln!(out, "L &= {} & N \\cdot L &= {} \\\\", dir(l), n(lit.n_dot_l));
-    }
-    if let (Model::Phong, Some(r)) = (m.model, lit.r) {
-        let _ = writeln!(
-            out,
-            "R &= 2(L \\cdot N)N - L = {} & R \\cdot E &= {} \\\\",
-            dir(r),
-            n(lit.r_dot_e)
-        );
-    } else if let Some(h) = lit.h {
-        let _ = writeln!(
-            out,
-            "H &= \\frac{{L + E}}{{\\lVert L + E \\rVert}} = {} & N \\cdot H &= {} \\\\",
-            dir(h),
-            n(lit.n_dot_h)
-        );
-    }
-    let terms = [ambient, Some(product::diffuse(s, lit)), product::specular(s, lit)];
-    for term in terms.into_iter().flatten() {
-        product(out, &term);
-    }
-    end(out);
-}
-
-/// Ends lines of equations; a break behind the last would be one line more.
-fn end(out: &mut String) {
-    let kept = out.trim_end_matches(" \\\\\n").len();
-    out.truncate(kept);
-    out.push_str("\n\\end{align*}\n");
-}
-
-/// A term: a line for its power, and one for the whole, which multiplies out.
-fn product(out: &mut String, product: &Product) {
-    for factor in &product.factors {
-        if let (Some(Power { cosine, exponent }), Number::One(value)) =
-            (factor.power, factor.number)
-        {
-            let base = if cosine < 0.0 { format!("\\max(0, {})", n(cosine)) } else { n(cosine) };
-            let (exponent, value) = (n(exponent), n(value));
-            let _ = writeln!(out, "{} &= {base}^{{{exponent}}} = {value} \\\\", factor.latex);
+    fn ray(&mut self, ray: &RayTold) {
+        let (from, towards) = (self.point(ray.origin), self.dir(ray.dir));
+        let road = format!("The ray from $o = {from}$ towards $d = {towards}$");
+        match &ray.end {
+            End::Background(background) => {
+                let seen = self.color(*background);
+                self.line(format_args!("{road} meets nothing and sees ${seen}$."));
+            }
+            End::Surface(s) => {
+                let object = escaped(&named(&s.object, s.element));
+                let t = self.n(s.t);
+                self.line(format_args!("{road} meets {object} at $t = {t}$."));
+                self.surface(s);
+            }
         }
     }
-    let letters: Vec<&str> = product.factors.iter().map(|factor| factor.latex).collect();
-    let numbers = product.factors.iter().map(|factor| match factor.number {
-        Number::One(value) => n(value),
-        Number::Color(value) => color(value),
-    });
-    let numbers: Vec<String> = numbers.collect();
-    let _ = writeln!(
-        out,
-        "{} &= {} = {} \\\\",
-        letters.join("\\, "),
-        numbers.join(" \\cdot "),
-        color(product.value)
-    );
-}
 
-fn dir(d: Dir3) -> String {
-    tuple(d.to_array())
-}
-
-fn color(c: Rgb) -> String {
-    tuple(c.to_array())
-}
-
-fn tuple([a, b, c]: [f32; 3]) -> String {
-    format!("({}, {}, {})", n(a), n(b), n(c))
-}
-
-/// Five significant digits, as a power of ten where plain digits would be many.
-fn n(v: f32) -> String {
-    if v == 0.0 || !v.is_finite() {
-        return if v == 0.0 { "0".to_owned() } else { "\\infty".to_owned() };
+    fn surface(&mut self, s: &Surface) {
+        self.line(format_args!("\\begin{{align*}}"));
+        let (p, n, e) = (self.point(s.p), self.dir(s.n), self.dir(s.e));
+        self.line(format_args!("p &= o + t d = {p} \\\\"));
+        self.line(format_args!("N &= {n} & E &= -d = {e} \\\\"));
+        for (_, term) in product::own_terms(s) {
+            self.product(&term);
+        }
+        self.end();
+        for lit in &s.lights {
+            self.light(s, lit);
+        }
+        let branches = [("Reflection", &s.reflection), ("Transmission", &s.transmission)];
+        for (name, onward) in branches {
+            if let Some(onward) = onward {
+                self.onward(name, onward);
+            }
+        }
+        self.line(format_args!("\\begin{{align*}}"));
+        for (term, value) in s.terms.iter().filter(|(_, value)| !value.is_black()) {
+            let value = self.color(value);
+            self.line(format_args!("\\text{{{}}} &= {value} \\\\", term.name()));
+        }
+        let sum = self.color(s.terms.total());
+        self.line(format_args!("\\text{{sum}} &= {sum}\n\\end{{align*}}"));
     }
-    let scientific = format!("{v:.4e}");
-    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
-    match exponent.parse::<i32>() {
-        Ok(exponent) if !(-4..5).contains(&exponent) => {
-            format!("{} \\cdot 10^{{{exponent}}}", trimmed(mantissa))
+
+    /// A mirror or glass ray: what it met, set in from the left, and what it brings.
+    fn onward(&mut self, name: &str, onward: &Onward) {
+        self.line(format_args!("\\paragraph{{{name}}}"));
+        let outer = self.weight;
+        self.weight *= onward.weight.max_channel();
+        match &onward.ray {
+            Some(_) if !self.full && self.weight * onward.light.max_channel() < NOTICED => {
+                self.line(format_args!("It brings less than half a level of 255."));
+            }
+            Some(ray) => {
+                self.line(format_args!("\\begin{{quote}}"));
+                self.ray(ray);
+                self.line(format_args!("\\end{{quote}}"));
+            }
+            None => {
+                let why = escaped(&cut(onward.cut));
+                self.line(format_args!("No ray is sent: {why}."));
+            }
         }
-        Ok(exponent) => {
-            let decimals = usize::try_from(4 - exponent).unwrap_or(0);
-            trimmed(&format!("{v:.decimals$}")).to_owned()
+        self.weight = outer;
+        let brought = onward.weight * onward.light;
+        let (weight, light, brought) =
+            (self.color(onward.weight), self.color(onward.light), self.color(brought));
+        self.line(format_args!(
+            "\\begin{{align*}}\n\\text{{{}}} &= \\text{{weight}} \\cdot \\text{{light}} = {weight} \\cdot \
+             {light} \\\\\n&= {brought}\n\\end{{align*}}",
+            name.to_lowercase()
+        ));
+    }
+
+    fn light(&mut self, s: &Surface, lit: &Lit) {
+        let from = match lit.from {
+            LightFrom::Point(p) => format!("at ${}$", self.point(p)),
+            LightFrom::Direction(d) => format!("far away, shining along ${}$", self.point(d)),
+        };
+        self.line(format_args!("\\paragraph{{{}}} {from}.", escaped(&lit.name)));
+        let m = &s.material;
+        let ambient = product::ambient_of_light(s, lit);
+        if let Some(why) = hidden(lit) {
+            let why = why.replace("N·L ≤ 0", "$N \\cdot L \\le 0$");
+            let what = if ambient.is_some() { "nothing but ambient light" } else { "nothing" };
+            self.line(format_args!("{why}: it adds {what}."));
+            if let Some(ambient) = ambient {
+                self.line(format_args!("\\begin{{align*}}"));
+                self.product(&ambient);
+                self.end();
+            }
+            return;
         }
-        Err(_) => format!("\\text{{{v}}}"),
+        self.line(format_args!("\\begin{{align*}}"));
+        if let Some(l) = lit.l {
+            self.line(format_args!(
+                "L &= {} & N \\cdot L &= {} \\\\",
+                self.dir(l),
+                self.n(lit.n_dot_l)
+            ));
+        }
+        if let (Model::Phong, Some(r)) = (m.model, lit.r) {
+            self.line(format_args!(
+                "R &= 2(L \\cdot N)N - L = {} & R \\cdot E &= {} \\\\",
+                self.dir(r),
+                self.n(lit.r_dot_e)
+            ));
+        } else if let Some(h) = lit.h {
+            self.line(format_args!(
+                "H &= \\frac{{L + E}}{{\\lVert L + E \\rVert}} = {} & N \\cdot H &= {} \\\\",
+                self.dir(h),
+                self.n(lit.n_dot_h)
+            ));
+        }
+        let terms = [ambient, Some(product::diffuse(s, lit)), product::specular(s, lit)];
+        for term in terms.into_iter().flatten() {
+            self.product(&term);
+        }
+        self.end();
+    }
+
+    /// Ends lines of equations; a break behind the last would be one line more.
+    fn end(&mut self) {
+        let kept = self.text.trim_end_matches(" \\\\\n").len();
+        self.text.truncate(kept);
+        self.text.push_str("\n\\end{align*}\n");
+    }
+
+    /// A term: a line for its power, and one for the whole, which multiplies out.
+    fn product(&mut self, product: &Product) {
+        for factor in &product.factors {
+            if let (Some(Power { cosine, exponent }), Number::One(value)) =
+                (factor.power, factor.number)
+            {
+                let base = if cosine < 0.0 {
+                    format!("\\max(0, {})", self.n(cosine))
+                } else {
+                    self.n(cosine)
+                };
+                let (exponent, value) = (self.n(exponent), self.n(value));
+                self.line(format_args!("{} &= {base}^{{{exponent}}} = {value} \\\\", factor.latex));
+            }
+        }
+        let letters: Vec<&str> = product.factors.iter().map(|factor| factor.latex).collect();
+        let numbers = product.factors.iter().map(|factor| match factor.number {
+            Number::One(value) => self.n(value),
+            Number::Color(value) => self.color(value),
+        });
+        let numbers: Vec<String> = numbers.collect();
+        self.line(format_args!(
+            "{} &= {} \\\\\n&= {} \\\\",
+            letters.join("\\, "),
+            numbers.join(" \\cdot "),
+            self.color(product.value)
+        ));
+    }
+
+    fn dir(&self, d: Dir3) -> String {
+        self.tuple(d.to_array())
+    }
+
+    fn color(&self, c: Rgb) -> String {
+        self.tuple(c.to_array())
+    }
+
+    fn tuple(&self, [a, b, c]: [f32; 3]) -> String {
+        format!("({}, {}, {})", self.n(a), self.n(b), self.n(c))
+    }
+
+    /// A number, as a power of ten where plain digits would be many.
+    fn n(&self, v: f32) -> String {
+        if v == 0.0 || !v.is_finite() {
+            return if v == 0.0 { "0".to_owned() } else { "\\infty".to_owned() };
+        }
+        let scientific = format!("{v:.*e}", self.digits - 1);
+        let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+        match exponent.parse::<i32>() {
+            Ok(exponent) if !(-4..self.digits.max(5) as i32).contains(&exponent) => {
+                format!("{} \\cdot 10^{{{exponent}}}", trimmed(mantissa))
+            }
+            Ok(exponent) => {
+                let decimals = usize::try_from(self.digits as i32 - 1 - exponent).unwrap_or(0);
+                trimmed(&format!("{v:.decimals$}")).to_owned()
+            }
+            Err(_) => format!("\\text{{{v}}}"),
+        }
+    }
+
+    /// A point in the world.
+    fn point(&self, p: DVec3) -> String {
+        self.tuple(p.as_vec3().to_array())
     }
 }
 
@@ -225,7 +299,9 @@ mod tests {
             (32.0, "32"),
             (f32::INFINITY, "\\infty"),
         ] {
-            assert_eq!(n(v), want);
+            let text = String::new();
+            let five = Document { text, digits: 5, full: false, weight: 1.0 };
+            assert_eq!(five.n(v), want);
         }
     }
 

@@ -7,6 +7,7 @@ pub mod html;
 mod json;
 mod latex;
 mod numbers;
+mod packed;
 mod product;
 mod svg;
 mod text;
@@ -15,3 +16,15 @@ pub use json::json;
 pub use latex::latex;
 pub use svg::svg;
 pub use text::text;
+
+/// How an explanation is told.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Telling {
+    /// Which sample is told in full, from 0. `None`: all of them; where only one can be told, the
+    /// first.
+    pub sample: Option<usize>,
+    /// Whether mirror and glass rays are told that bring less than half a level of 255.
+    pub full: bool,
+    /// Significant digits of every number. `None`: all there are; in LaTeX five.
+    pub digits: Option<usize>,
+}

@@ -1,55 +1,51 @@
-//! Numbers as an explanation writes them: all their digits, in columns.
-
-use std::fmt::{self, Display, Formatter};
+//! Numbers as an explanation writes them: all their digits or some, in columns.
 
 use glam::DVec3;
 use phong::math::Dir3;
 use phong_scene::Rgb;
 
-/// A number with all its digits, in powers of ten where they would begin with many zeros.
-pub(super) struct Digits(pub(super) f32);
-
-impl Display for Digits {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let v = self.0;
-        if v == 0.0 || (1e-4..1e9).contains(&v.abs()) {
-            write!(f, "{v}")
-        } else {
-            write!(f, "{v:e}")
-        }
-    }
+/// How numbers are written: with all their digits, or rounded to so many significant ones.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Numbers {
+    /// Significant digits; `None`: all that an f32 has.
+    pub(super) digits: Option<usize>,
 }
 
-/// A colour with all its digits.
-pub(super) struct Color(pub(super) Rgb);
-
-impl Display for Color {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let [r, g, b] = self.0.to_array();
-        write!(f, "({}, {}, {})", Digits(r), Digits(g), Digits(b))
+impl Numbers {
+    /// A number, in powers of ten where it would begin with many zeros.
+    pub(super) fn one(self, v: f32) -> String {
+        let v = self.rounded(f64::from(v)).map_or(v, |rounded| rounded as f32);
+        if v == 0.0 || (1e-4..1e9).contains(&v.abs()) { v.to_string() } else { format!("{v:e}") }
     }
-}
 
-/// A direction with all its digits.
-pub(super) struct Direction(pub(super) Dir3);
-
-impl Display for Direction {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let [x, y, z] = self.0.to_array();
-        write!(f, "({}, {}, {})", Digits(x), Digits(y), Digits(z))
+    pub(super) fn color(self, color: Rgb) -> String {
+        self.triple(color.to_array())
     }
-}
 
-/// A point in the world; f32s, moved in f64 only where the scene was far from the origin.
-pub(super) struct Position(pub(super) DVec3);
+    pub(super) fn direction(self, dir: Dir3) -> String {
+        self.triple(dir.to_array())
+    }
 
-impl Display for Position {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let number = |v: f64| {
-            if f64::from(v as f32) == v { (v as f32).to_string() } else { v.to_string() }
+    fn triple(self, triple: [f32; 3]) -> String {
+        let [a, b, c] = triple.map(|v| self.one(v));
+        format!("({a}, {b}, {c})")
+    }
+
+    /// A point in the world; f32s, moved in f64 only where the scene was far from the origin.
+    pub(super) fn position(self, p: DVec3) -> String {
+        let number = |v: f64| match self.rounded(v) {
+            Some(rounded) => rounded.to_string(),
+            None if f64::from(v as f32) == v => (v as f32).to_string(),
+            None => v.to_string(),
         };
-        let DVec3 { x, y, z } = self.0;
-        write!(f, "({}, {}, {})", number(x), number(y), number(z))
+        let [x, y, z] = p.to_array().map(number);
+        format!("({x}, {y}, {z})")
+    }
+
+    /// The nearest number of so many digits; `None`: all digits are wanted.
+    fn rounded(self, v: f64) -> Option<f64> {
+        let digits = self.digits?.max(1);
+        format!("{v:.*e}", digits - 1).parse().ok()
     }
 }
 
@@ -89,7 +85,15 @@ mod tests {
 
     #[test]
     fn no_digit_of_a_number_is_lost_and_few_are_zeros() {
-        let written = [0.1, 1e-5, 0.0, 1e9, -0.000_25].map(|v| Digits(v).to_string());
+        let written = [0.1, 1e-5, 0.0, 1e9, -0.000_25].map(|v| Numbers::default().one(v));
         assert_eq!(written, ["0.1", "1e-5", "0", "1e9", "-0.00025"]);
+    }
+
+    #[test]
+    fn numbers_are_rounded_to_significant_digits() {
+        let three = Numbers { digits: Some(3) };
+        let written = [0.123_456, 1.5e-9, 0.0, 98_765.0, -0.5].map(|v| three.one(v));
+        assert_eq!(written, ["0.123", "1.5e-9", "0", "98800", "-0.5"]);
+        assert_eq!(three.position(DVec3::new(1.234_5, -2.0, 1e-7)), "(1.23, -2, 0.0000001)");
     }
 }

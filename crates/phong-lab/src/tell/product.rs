@@ -144,6 +144,16 @@ fn highlight(m: &ConstantMaterial, lit: &Lit) -> Factor {
     }
 }
 
+/// The value of the lobe's power, `(R·E)^α` or `(N·H)^α`; `None` for models without one, and of a
+/// light that adds nothing.
+pub(super) fn power(s: &Surface, lit: &Lit) -> Option<f32> {
+    let lobes = matches!(s.material.model, Model::Phong | Model::BlinnPhong | Model::BlinnFast);
+    match highlight(&s.material, lit).number {
+        Number::One(value) if lobes && lit.visible => Some(value),
+        _ => None,
+    }
+}
+
 /// What a normalised lobe is multiplied by; `None` where it is not normalised.
 pub(super) fn normalization(m: &ConstantMaterial) -> Option<f32> {
     m.normalize.then(|| match m.model {

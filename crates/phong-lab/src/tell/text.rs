@@ -2,14 +2,16 @@
 
 use std::fmt::{self, Write};
 
+use glam::DVec3;
 use phong::explain::{
-    Encoded, End, Explanation, Lit, Onward, RayTold, Sample, Surface, TextureTold,
+    Encoded, End, Explanation, LightFrom, Lit, Onward, RayTold, Sample, Surface, TextureTold,
 };
 use phong::terms::Terms;
 use phong::witness::CutReason;
 use phong_scene::{AmbientRule, ConstantMaterial, Model, TextureSpace, Viewer};
 
-use super::numbers::{Color, Digits, Direction, Position, columns};
+use super::Telling;
+use super::numbers::{Numbers, columns};
 use super::product::{self, Factor, Number, Power, Product};
 
 /// Half a level of 255, where the curve is steepest.
@@ -23,17 +25,18 @@ pub(super) fn cut(reason: Option<CutReason>) -> String {
     }
 }
 
-/// The explanation in lines of text. Of several samples all are listed and `sample` (from 0)
-/// is told in full; `None`: each is. Mirror and glass rays that bring the sample less than
-/// half a level of 255 are only summed up, unless `full`.
-pub fn text(told: &Explanation, sample: Option<usize>, full: bool) -> String {
-    let mut out = Page { full, weight: 1.0, ..Page::default() };
+/// The explanation in lines of text. Of several samples all are listed. Mirror and glass rays that
+/// bring a sample less than half a level of 255 are only summed up, unless all is to be told.
+pub fn text(told: &Explanation, telling: &Telling) -> String {
+    let Telling { sample, full, digits } = *telling;
+    let numbers = Numbers { digits };
+    let mut out = Page { full, numbers, eye: told.eye, weight: 1.0, ..Page::default() };
     let ([x, y], [width, height]) = (told.pixel, told.size);
     out.line(format_args!("pixel ({x}, {y}) of {width} × {height}"));
     if told.samples.len() > 1 {
         out.blank();
         for (i, sample) in told.samples.iter().enumerate() {
-            out.line(format_args!("{}", listed(i, sample)));
+            out.line(format_args!("{}", listed(i, sample, numbers)));
         }
     }
     for (i, one) in told.samples.iter().enumerate() {
@@ -48,14 +51,14 @@ pub fn text(told: &Explanation, sample: Option<usize>, full: bool) -> String {
 }
 
 /// One line about a sample.
-fn listed(i: usize, sample: &Sample) -> String {
+fn listed(i: usize, sample: &Sample, numbers: Numbers) -> String {
     let [x, y] = sample.place;
     let met = match sample.ray.as_ref().map(|ray| &ray.end) {
         None => "outside the image circle".to_owned(),
         Some(End::Background(_)) => "background".to_owned(),
         Some(End::Surface(surface)) => named(&surface.object, surface.element),
     };
-    format!("sample {:<4} at ({x}, {y})  {met}  {}", i + 1, Color(sample.terms.total()))
+    format!("sample {:<4} at ({x}, {y})  {met}  {}", i + 1, numbers.color(sample.terms.total()))
 }
 
 /// An object's name, with the face or point of it.
@@ -73,6 +76,9 @@ struct Page {
     indent: usize,
     /// Whether everything is told, however little it brings.
     full: bool,
+    numbers: Numbers,
+    /// The camera's eye.
+    eye: DVec3,
     /// What the ray being told weighs in the sample.
     weight: f32,
 }
@@ -101,13 +107,17 @@ impl Page {
 
     fn ray(&mut self, ray: &RayTold) {
         self.line(format_args!(
-            "ray      from {} towards {}",
-            Position(ray.origin),
-            Direction(ray.dir)
+            "ray      from {}o = {} towards d = {}",
+            if ray.origin == self.eye { "the eye, " } else { "" },
+            self.numbers.position(ray.origin),
+            self.numbers.direction(ray.dir)
         ));
         match &ray.end {
             End::Background(background) => {
-                self.line(format_args!("hit      nothing: background {}", Color(*background)));
+                self.line(format_args!(
+                    "hit      nothing: background {}",
+                    self.numbers.color(*background)
+                ));
             }
             End::Surface(surface) => self.surface(surface),
         }
@@ -119,10 +129,16 @@ impl Page {
             "hit      {} ({}), at t = {}, from {side}",
             named(&s.object, s.element),
             s.at,
-            s.t
+            self.numbers.one(s.t)
         ));
-        self.line(format_args!("material {}: {}", s.material.name, described(&s.material)));
+        let m = &s.material;
+        let place = match m.place.file.is_empty() {
+            true => " (the default material)".to_owned(),
+            false => format!(" ({})", m.place),
+        };
+        self.line(format_args!("material {}{place}: {}", m.name, described(m)));
         if let Some(eta) = s.eta {
+            let eta = self.numbers.one(eta);
             self.line(format_args!("glass    meets glass: the index beyond is {eta} of that here"));
         }
         for told in &s.textures {
@@ -130,17 +146,18 @@ impl Page {
             let space = spaced(*space);
             self.line(format_args!(
                 "texture  {parameter}: {texture} at {} in {space} is {}",
-                Position(*place),
-                Color(*value)
+                self.numbers.position(*place),
+                self.numbers.color(*value)
             ));
         }
-        self.line(format_args!("uv       ({}, {})", s.uv[0], s.uv[1]));
+        let [u, v] = s.uv.map(|v| self.numbers.one(v));
+        self.line(format_args!("uv       ({u}, {v})"));
         self.table(&[
-            ("colour  ", Color(s.color).to_string()),
-            ("p       ", Position(s.p).to_string()),
-            ("n_g     ", Direction(s.ng).to_string()),
-            ("N       ", Direction(s.n).to_string()),
-            ("E       ", Direction(s.e).to_string()),
+            ("colour  ", self.numbers.color(s.color)),
+            ("p       ", self.numbers.position(s.p) + "   = o + t d"),
+            ("n_g     ", self.numbers.direction(s.ng)),
+            ("N       ", self.numbers.direction(s.n)),
+            ("E       ", self.numbers.direction(s.e) + "   = -d"),
         ]);
         self.blank();
         if s.material.ambient_rule == AmbientRule::PerLight {
@@ -164,11 +181,16 @@ impl Page {
     }
 
     fn light(&mut self, s: &Surface, lit: &Lit) {
-        if lit.distance.is_finite() {
-            self.line(format_args!("{} ({}), {} away", lit.name, lit.at, lit.distance));
-        } else {
-            self.line(format_args!("{} ({}), distant", lit.name, lit.at));
-        }
+        let from = match lit.from {
+            LightFrom::Point(p) => {
+                let (p, distance) = (self.numbers.position(p), self.numbers.one(lit.distance));
+                format!("at {p}, {distance} away from p")
+            }
+            LightFrom::Direction(d) => {
+                format!("distant, shines along {}", self.numbers.position(d))
+            }
+        };
+        self.line(format_args!("{} ({}), {from}", lit.name, lit.at));
         self.indent += 2;
         self.vectors(lit);
         if let Some(ambient) = product::ambient_of_light(s, lit) {
@@ -177,6 +199,8 @@ impl Page {
         if let Some(why) = hidden(lit) {
             self.line(format_args!("{why}: diffuse and specular are 0"));
         } else {
+            let (light, color) = (self.numbers.color(lit.color), self.numbers.color(s.color));
+            self.line(format_args!("C_d      = light × colour = {light} × {color}"));
             self.product("diffuse", s, &product::diffuse(s, lit));
             if let Some(specular) = product::specular(s, lit) {
                 self.product("specular", s, &specular);
@@ -190,8 +214,9 @@ impl Page {
         let mut rows = vec![("L", l, "N·L", lit.n_dot_l)];
         rows.extend(lit.r.map(|r| ("R", r, "R·E", lit.r_dot_e)));
         rows.extend(lit.h.map(|h| ("H", h, "N·H", lit.n_dot_h)));
-        let written: Vec<String> = rows.iter().map(|row| Direction(row.1).to_string()).collect();
+        let written: Vec<String> = rows.iter().map(|row| self.numbers.direction(row.1)).collect();
         for ((name, _, product, cosine), vector) in rows.iter().zip(columns(&written)) {
+            let cosine = self.numbers.one(*cosine);
             self.line(format_args!("{name}        = {vector}   {product} = {cosine}"));
         }
         match (&lit.blocker, lit.tested) {
@@ -199,7 +224,7 @@ impl Page {
                 "shadow   : {} ({}) stands between, {} away",
                 named(&b.object, b.element),
                 b.at,
-                b.t
+                self.numbers.one(b.t)
             )),
             (None, true) => self.line(format_args!("shadow   : nothing stands between")),
             (None, false) if lit.visible => self.line(format_args!("shadow   : not looked for")),
@@ -208,8 +233,9 @@ impl Page {
     }
 
     fn onward(&mut self, name: &str, onward: &Onward) {
-        let fresnel = onward.fresnel.map(|f| format!(", F = {f}")).unwrap_or_default();
-        self.line(format_args!("{name}, weight {}{fresnel}", Color(onward.weight)));
+        let fresnel =
+            onward.fresnel.map(|f| format!(", F = {}", self.numbers.one(f))).unwrap_or_default();
+        self.line(format_args!("{name}, weight {}{fresnel}", self.numbers.color(onward.weight)));
         self.indent += 2;
         let outer = self.weight;
         self.weight *= onward.weight.max_channel();
@@ -219,7 +245,7 @@ impl Page {
             }
             Some(ray) => self.ray(ray),
             None => {
-                let (why, most) = (cut(onward.cut), Color(onward.path_weight));
+                let (why, most) = (cut(onward.cut), self.numbers.color(onward.path_weight));
                 self.line(format_args!("{why}: black; light of 1 there would have added {most}"));
             }
         }
@@ -228,14 +254,18 @@ impl Page {
         self.equation(
             &format!("{name:<12} = weight × light"),
             &[
-                format!("{} × {}", Color(onward.weight), Color(onward.light)),
-                Color(onward.weight * onward.light).to_string(),
+                format!(
+                    "{} × {}",
+                    self.numbers.color(onward.weight),
+                    self.numbers.color(onward.light)
+                ),
+                self.numbers.color(onward.weight * onward.light),
             ],
         );
     }
 
     fn product(&mut self, name: &str, s: &Surface, term: &Product) {
-        let (letters, steps) = product(name, &s.material, term);
+        let (letters, steps) = product(name, &s.material, term, self.numbers);
         self.equation(&letters, &steps);
     }
 
@@ -259,7 +289,7 @@ impl Page {
         let shown = terms.iter().filter(|(_, value)| !value.is_black());
         let mut rows: Vec<_> = shown.map(|(term, value)| (term.name(), value)).collect();
         rows.push(("sum", terms.total()));
-        let written: Vec<String> = rows.iter().map(|row| Color(row.1).to_string()).collect();
+        let written: Vec<String> = rows.iter().map(|row| self.numbers.color(row.1)).collect();
         for ((name, _), triple) in rows.iter().zip(columns(&written)) {
             self.line(format_args!("{name:<12} {}", triple.trim_end()));
         }
@@ -279,7 +309,7 @@ impl Page {
             self.line(format_args!("{:<12} {}", "alpha", e.alpha));
         }
         let Encoded { clamped, curve, bytes: [r, g, b] } = e.encoded(0.0);
-        self.line(format_args!("{:<12} {}", "clamped", Color(clamped)));
+        self.line(format_args!("{:<12} {}", "clamped", self.numbers.color(clamped)));
         let [x, y, z] = curve;
         self.line(format_args!("{:<12} ({x:.6}, {y:.6}, {z:.6})", "sRGB"));
         self.line(format_args!("{:<12} ({r}, {g}, {b})  #{r:02x}{g:02x}{b:02x}", "bytes"));
@@ -305,20 +335,27 @@ pub(super) fn hidden(lit: &Lit) -> Option<&'static str> {
 }
 
 /// A term in letters, and step by step in numbers.
-fn product(name: &str, m: &ConstantMaterial, product: &Product) -> (String, Vec<String>) {
+fn product(
+    name: &str,
+    m: &ConstantMaterial,
+    product: &Product,
+    numbers: Numbers,
+) -> (String, Vec<String>) {
     let letters: Vec<&str> = product.factors.iter().map(|factor| &*factor.words).collect();
     let mut letters = format!("{name:<8} = {}", letters.join(" "));
     if name == "specular" && m.model == Model::BlinnFast {
         let _ = write!(letters, ", x = N·H, α = {}", m.shininess);
     }
     let number = |factor: &Factor| match factor.number {
-        Number::One(number) => Digits(number).to_string(),
-        Number::Color(color) => Color(color).to_string(),
+        Number::One(number) => numbers.one(number),
+        Number::Color(color) => numbers.color(color),
     };
     let raised = |factor: &Factor| match factor.power {
         None => number(factor),
-        Some(Power { cosine, exponent }) if cosine < 0.0 => format!("max(0, {cosine})^{exponent}"),
-        Some(Power { cosine, exponent }) => format!("{cosine}^{exponent}"),
+        Some(Power { cosine, exponent }) if cosine < 0.0 => {
+            format!("max(0, {})^{exponent}", numbers.one(cosine))
+        }
+        Some(Power { cosine, exponent }) => format!("{}^{exponent}", numbers.one(cosine)),
     };
     let line = |of: &dyn Fn(&Factor) -> String| {
         product.factors.iter().map(of).collect::<Vec<String>>().join(" × ")
@@ -327,7 +364,7 @@ fn product(name: &str, m: &ConstantMaterial, product: &Product) -> (String, Vec<
     if product.factors.iter().any(|factor| factor.power.is_some()) {
         steps.push(line(&number));
     }
-    steps.push(Color(product.value).to_string());
+    steps.push(numbers.color(product.value));
     (letters, steps)
 }
 

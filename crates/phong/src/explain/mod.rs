@@ -28,6 +28,8 @@ pub struct Explanation {
     pub pixel: [u32; 2],
     /// Width and height of the picture.
     pub size: [u32; 2],
+    /// The camera's eye, in the world.
+    pub eye: DVec3,
     /// Its samples, in the order they are summed.
     pub samples: Vec<Sample>,
     /// The terms as the film has them.
@@ -145,6 +147,8 @@ pub struct Lit {
     pub name: String,
     /// Where it was written.
     pub at: Place,
+    /// Where its light comes from.
+    pub from: LightFrom,
     /// L, to the light; `None` if the point is where the light is.
     pub l: Option<Dir3>,
     /// R, L mirrored at N.
@@ -183,6 +187,15 @@ pub struct Lit {
     pub diffuse: Rgb,
     /// What it adds to the specular term.
     pub specular: Rgb,
+}
+
+/// Where a light's light comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LightFrom {
+    /// A point in the world; of a soft light the one that was sampled.
+    Point(DVec3),
+    /// Far away: the way the light travels, as it was written, of any length.
+    Direction(DVec3),
 }
 
 /// What stands between a point and a light.
@@ -259,7 +272,9 @@ pub fn explain(
     }
     let (terms, alpha) = sums[0].resolve(scene.world(), options.samples(), options.background());
     let (terms, alpha) = (terms.get(0), alpha[0]);
-    Ok(Explanation { pixel, size: options.size(), samples, terms, linear: terms.total(), alpha })
+    let eye = scene.look().camera.eye;
+    let (size, linear) = (options.size(), terms.total());
+    Ok(Explanation { pixel, size, eye, samples, terms, linear, alpha })
 }
 
 /// Traces sample `index` (from 0) of a pixel, and tells `witness` of every step: of the ray's own

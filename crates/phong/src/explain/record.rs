@@ -1,9 +1,9 @@
 //! Writes down what the integrator tells.
 
 use phong_bvh::Ray;
-use phong_scene::{Rgb, TextureRef};
+use phong_scene::{LightKind, Rgb, TextureRef};
 
-use super::{Blocker, End, Lit, Onward, RayTold, Surface, TextureTold};
+use super::{Blocker, End, LightFrom, Lit, Onward, RayTold, Surface, TextureTold};
 use crate::interaction::SurfaceInteraction;
 use crate::material::Material;
 use crate::math::Dir3;
@@ -147,9 +147,21 @@ impl Witness for Recorder<'_> {
             }
             _ => Terms::default(),
         };
+        let from = match written.kind {
+            LightKind::Distant { direction, .. } => LightFrom::Direction(direction),
+            LightKind::Point { position, radius, .. }
+            | LightKind::Spot { position, radius, .. } => {
+                let sampled = light
+                    .sample
+                    .filter(|_| radius > 0.0)
+                    .map(|sample| at.p + f64::from(sample.distance) * sample.l.to_vec().as_dvec3());
+                LightFrom::Point(sampled.unwrap_or(position))
+            }
+        };
         let lit = Lit {
             name: written.name.clone(),
             at: written.place.clone(),
+            from,
             l,
             r,
             h,
