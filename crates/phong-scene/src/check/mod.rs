@@ -4,6 +4,7 @@
 
 mod bulk;
 mod coplanar;
+mod detail;
 pub(crate) mod fault;
 mod groups;
 pub(crate) mod material;
@@ -53,6 +54,7 @@ impl Scene {
             let bounds = std::mem::take(&mut judge.bounds);
             suspicion::check(self, &bounds, &mut |warning| judge.say(warning));
             coplanar::check(self, &mut |warning| judge.say(warning));
+            detail::check(self, &mut |warning| judge.say(warning));
         }
         judge.finish()
     }
