@@ -65,6 +65,8 @@ pub struct LightContribution {
     /// The ray that asked whether it is seen, from just above the surface to just before the light; `None`
     /// if none was needed.
     pub shadow: Option<Ray>,
+    /// Whether that ray starts above the face, where the smooth surface is that a mesh's normals stand for.
+    pub lifted: bool,
     /// Whether it is seen: above the horizon and nothing between.
     pub visible: bool,
     /// What it adds.

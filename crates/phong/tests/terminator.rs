@@ -171,3 +171,21 @@ fn a_transform_that_leaves_the_shape_leaves_the_border_of_light() {
         flat.iter().filter(|(_, at, _)| at.lights[0].n_dot_l > 0.02 && !at.lights[0].visible);
     assert_eq!(dark.count(), 0);
 }
+
+#[test]
+fn explain_tells_where_the_light_is_looked_for_from() {
+    let scene = scene("");
+    let mut above = 0;
+    for terminator in [true, false] {
+        for (pixel, at, _) in surfaces(&scene, &options(&scene).with_terminator(terminator)) {
+            let light = &at.lights[0];
+            assert_eq!(light.lifted.is_some(), terminator && light.tested, "{pixel:?}");
+            let Some(start) = light.lifted else { continue };
+            // The ball's chords are up to a tenth of its radius below it.
+            let up = (start - at.p).dot(at.ng.to_vec().as_dvec3());
+            assert!(up > 0.0 && up < 0.2 && start.length() < 1.1, "{pixel:?}: {start}");
+            above += u32::from(up > 0.01);
+        }
+    }
+    assert!(above > 50, "{above}");
+}

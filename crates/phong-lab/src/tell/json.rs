@@ -143,6 +143,7 @@ fn light(s: &Surface, lit: &Lit) -> Value {
         "r_dot_e": number(lit.r_dot_e),
         "n_dot_h": number(lit.n_dot_h),
         "visible": lit.visible,
+        "lifted": lit.lifted.map_or(Value::Null, |start| json!(start.to_array())),
         "why_not": hidden(lit),
         "blocker": lit.blocker.as_ref().map_or(Value::Null, blocker),
         "color": rgb(lit.color),

@@ -230,6 +230,10 @@ impl Page {
             (None, false) if lit.visible => self.line(format_args!("shadow   : not looked for")),
             (None, false) => {}
         }
+        if let Some(start) = lit.lifted {
+            let start = self.numbers.position(start);
+            self.line(format_args!("           looked for from {start}, above the face"));
+        }
     }
 
     fn onward(&mut self, name: &str, onward: &Onward) {

@@ -174,6 +174,9 @@ pub struct Lit {
     pub above: bool,
     /// Whether a ray was sent to look for it.
     pub tested: bool,
+    /// Where that ray starts, if it is sent from above the face of a smooth mesh; `None`: just off the
+    /// point.
+    pub lifted: Option<DVec3>,
     /// Whether it is seen.
     pub visible: bool,
     /// The nearest thing between, if there is one.

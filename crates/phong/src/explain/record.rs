@@ -174,6 +174,7 @@ impl Witness for Recorder<'_> {
             c_s: light.incident.map_or(Rgb::BLACK, |incident| incident.c_s),
             above: light.above,
             tested: light.shadow.is_some(),
+            lifted: light.shadow.filter(|_| light.lifted).map(|shadow| shadow.origin),
             visible: light.visible,
             blocker,
             white,

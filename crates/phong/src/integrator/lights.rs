@@ -142,6 +142,7 @@ impl Integrator<'_> {
                     incident: sample.map(|sample| material.incident(at.n, at.color, &sample)),
                     above: has(samples.above),
                     shadow: has(shadow_rays.there).then(|| shadow_rays.get(lane)),
+                    lifted: has(shadow_rays.there & interactions.shading[i].smooth),
                     visible: has(samples.visible),
                     terms: Terms { diffuse, specular, ..Terms::default() },
                 });
