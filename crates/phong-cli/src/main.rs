@@ -22,6 +22,14 @@ use std::process::ExitCode;
 use clap::Parser;
 
 fn main() -> ExitCode {
+    if cfg!(debug_assertions) {
+        return run();
+    }
+    // Where memory runs out the runtime says so in one line, and users need no stack behind it.
+    temp_env::with_var("RUST_BACKTRACE", Some("0"), run)
+}
+
+fn run() -> ExitCode {
     interrupt::expect();
     let done = match command::Cli::try_parse() {
         Ok(cli) => command::run(cli).map(|()| 0),

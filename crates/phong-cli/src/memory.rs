@@ -11,12 +11,15 @@ use std::sync::{Arc, LazyLock};
 use cap::Cap;
 use phong_lab::measure::memory::total;
 
+use crate::failure::Failure;
+use crate::report::readable;
+
 /// Counts every byte that is allocated.
 #[global_allocator]
 static HEAP: Cap<System> = Cap::new(System, usize::MAX);
 
 /// Bytes that the program takes for itself, whatever it is to do: no limit is below.
-const OWN: u64 = 16 << 20;
+const OWN: u64 = 8 << 20;
 
 /// The limit, in bytes; 0: not known yet.
 static LIMIT: AtomicU64 = AtomicU64::new(0);
@@ -31,9 +34,20 @@ pub(crate) fn keep_within(said: Option<u64>) {
     SAID.store(said.is_some(), Ordering::Relaxed);
     #[cfg(unix)]
     end_in_order();
-    let heap = usize::try_from(limit.saturating_add(OWN)).unwrap_or(usize::MAX);
     // An error would say that more is in use already, which is less than the program's own.
-    let _ = HEAP.set_limit(heap);
+    let _ = bound(limit);
+}
+
+/// Leaves what is allocated from now on so many bytes less, which a film takes: it is memory from the
+/// system, and not counted.
+pub(crate) fn set_aside(bytes: u64) -> Result<(), Failure> {
+    let limit = limit();
+    bound(limit.saturating_sub(bytes)).map_err(|()| over(bytes + HEAP.allocated() as u64, limit))
+}
+
+/// Bounds what is allocated.
+fn bound(bytes: u64) -> Result<(), ()> {
+    HEAP.set_limit(usize::try_from(bytes.saturating_add(OWN)).unwrap_or(usize::MAX))
 }
 
 /// Where memory is not granted the runtime says so, and aborts: with our exit codes instead.
@@ -54,7 +68,18 @@ pub(crate) fn limit() -> u64 {
     }
 }
 
-/// Whether the command line set the limit.
-pub(crate) fn is_said() -> bool {
-    SAID.load(Ordering::Relaxed)
+/// Says if so many bytes are more than the program may take.
+pub(crate) fn want(bytes: u64) -> Result<(), Failure> {
+    if bytes > limit() { Err(over(bytes, limit())) } else { Ok(()) }
+}
+
+/// More memory is needed than the limit allows.
+pub(crate) fn over(needed: u64, limit: u64) -> Failure {
+    let (needed, limit) = (readable(needed), readable(limit));
+    let message = format!("this needs about {needed} of memory, over the limit of {limit}");
+    Failure::usage(message).with_help(if SAID.load(Ordering::Relaxed) {
+        "allow more with --max-memory, or render a smaller picture"
+    } else {
+        "there is no more in this machine; render a smaller picture, or a --crop of it"
+    })
 }

@@ -9,7 +9,7 @@ use phong::image::{self, Bits, Content, Encoding, Format};
 use phong::part::{self, Settings};
 use phong::render::{Passes, RenderOptions};
 use phong::terms::TermSet;
-use phong_scene::Image;
+use phong_scene::{Diagnostic, Image};
 
 use crate::args::{self, EncodingArgs, ImageArgs, OutputFormat, RenderArgs, ViewArgs};
 use crate::failure::Failure;
@@ -103,6 +103,15 @@ fn write_files(
     files.iter_mut().try_for_each(|(content, output)| {
         output.write(|mut out| image::write(&picture, *content, format, encoding, &mut out))
     })
+}
+
+/// What there is to say of pixels that are no finite colour; `None`: there are none.
+pub(crate) fn not_finite(film: &Film) -> Option<Diagnostic> {
+    let count = film.not_finite();
+    let pixels = if count == 1 { "1 pixel is" } else { &format!("{count} pixels are") };
+    let message = format!("{pixels} infinite or NaN: products of numbers beyond what an f32 holds");
+    let help = "look for a light, a colour or a factor that is far too large";
+    (count > 0).then(|| Diagnostic::warning(message, None).with_help(help))
 }
 
 /// What `render` is to do, as far as it is known before the input is read.

@@ -13,6 +13,9 @@ use crate::failure::Failure;
 /// thousand times, and nobody reads that.
 const MOST_DRAWN: usize = 60 << 10;
 
+/// Characters of a message that are drawn: one alone must not be too long, either.
+const LONGEST: usize = 4096;
+
 /// Draws diagnostics on standard error, with carets, and a count after them if there are several.
 /// Where there are too many, errors are drawn before warnings, each in its order.
 pub(crate) fn diagnostics(all: &[Diagnostic]) {
@@ -41,7 +44,7 @@ fn drawn(all: &[Diagnostic]) -> String {
         let counts: Vec<_> = counts.into_iter().filter(|&(n, _)| n > 0).map(count).collect();
         let _ = write!(text, "{}", counts.join(", "));
         if untold > 0 {
-            let _ = write!(text, ", of which {untold} are not shown");
+            let _ = write!(text, "; not shown: {untold}");
         }
         text.push('\n');
     }
@@ -145,7 +148,9 @@ fn draw(renderer: &Renderer, diagnostic: &Diagnostic, text: &mut String) {
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
     };
-    let mut group = Group::with_title(level.primary_title(diagnostic.message.as_str()));
+    let message = &diagnostic.message;
+    let end = message.char_indices().nth(LONGEST).map_or(message.len(), |(i, _)| i);
+    let mut group = Group::with_title(level.primary_title(&message[..end]));
     if let Some(span) = &diagnostic.span {
         group = group.element(element(span, AnnotationKind::Primary, None));
     }
@@ -204,7 +209,7 @@ mod tests {
         let text = drawn(&all);
         assert!(text.len() < 64 << 10 && text.contains("error: wrong"), "{}", text.len());
         let drawn = text.matches("warning: odd").count();
-        let end = format!("1 error, 9999 warnings, of which {} are not shown\n", 9_999 - drawn);
+        let end = format!("1 error, 9999 warnings; not shown: {}\n", 9_999 - drawn);
         assert!(drawn > 100 && text.ends_with(&end), "{end}");
     }
 

@@ -152,3 +152,70 @@ fn in_a_jail_nothing_outside_the_folder_is_read_by_any_name() {
     folder.when("check out.toml --jail nowhere").is_refused(&["--jail nowhere", "no such file"]);
     assert!(!folder.names().contains(&"a.html".to_owned()));
 }
+
+#[test]
+fn a_picture_of_numbers_beyond_what_can_be_held_comes_with_a_word() {
+    let bright = BALLS.replace("kind = \"point\"", "kind = \"point\"\ncolor = [1e18, 1e18, 1e18]");
+    let bright = bright
+        .replace("reflection = 0.5", "reflection = 0.5\nk_d = 1e18\ncolor = [1e18, 1e18, 1e18]");
+    let folder = given(&[("a.toml", &bright)]);
+    let then = folder.when("render a.toml --json");
+    if then.code == Some(0) {
+        assert!(then.err.contains("infinite or NaN"), "{}", then.err);
+        assert!(then.json()["warnings"].to_string().contains("infinite or NaN"));
+        folder.done("render a.toml --tile 0/1 -o a.part");
+        assert!(folder.done("merge a.part -o b.png").err.contains("infinite or NaN"));
+    } else {
+        then.is_refused(&["a.toml"]);
+    }
+}
+
+/// A text of many lines, one for each number.
+fn lines(n: u32, line: impl Fn(u32) -> String) -> String {
+    (0..n).map(line).collect()
+}
+
+/// Each of these would take minutes if the time grew by the square.
+#[test]
+fn no_kind_of_input_takes_time_by_the_square_of_its_size() {
+    const N: u32 = 40_000;
+    let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    let comb = lines(N, |i| format!("v {} {} 0\n", i, 10 * (i % 2)));
+    let corners = lines(N + 2, |i| format!(" {}", i + 1));
+    let inputs = [
+        ("comb.obj", format!("{comb}v {N} -1 0\nv 0 -1 0\nf{corners}\n"), 0),
+        ("line.obj", format!("{}f{corners}\n", lines(N + 2, |i| format!("v {i} 0 0\n"))), 0),
+        ("points.obj", lines(N, |_| "v 1 2 3\n".to_owned()), 0),
+        (
+            "materials.obj",
+            format!("mtllib a.mtl\n{triangle}{}", lines(N, |i| format!("usemtl {i}\nf 1 2 3\n"))),
+            0,
+        ),
+        ("a.mtl", lines(N, |i| format!("newmtl {i}\nnewmtl twice\n")), 2),
+        (
+            "libraries.obj",
+            format!("mtllib{}\n{triangle}f 1 2 3\n", lines(N, |i| format!(" {i}.mtl"))),
+            0,
+        ),
+        (
+            "cycle.toml",
+            BALLS.to_owned()
+                + &lines(N, |i| format!("[[groups.{i}.instance]]\ngroup = \"{}\"\n", (i + 1) % N)),
+            2,
+        ),
+        (
+            "names.toml",
+            BALLS.to_owned() + &lines(N, |i| format!("[[plane]]\nmaterial = \"{i}\"\n")),
+            2,
+        ),
+    ];
+    let folder = given(&[]);
+    for (name, text, _) in &inputs {
+        fs::write(folder.path(name), text).unwrap();
+    }
+    for (name, _, code) in inputs {
+        let then = folder.when(&format!("check {name}"));
+        assert_eq!(then.code, Some(code), "{name}: {}", then.err);
+        assert!(then.err.len() < 64 << 10, "{name}: {}", then.err.len());
+    }
+}

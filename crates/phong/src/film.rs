@@ -226,6 +226,23 @@ impl Film {
         self.done.iter().all(|&done| done)
     }
 
+    /// Pixels that are infinite or NaN in the picture or in a term: numbers in a scene may each be in
+    /// range, and their product too large for an f32.
+    pub fn not_finite(&self) -> usize {
+        let colors = |layer: &&Layer| matches!(layer.kind, LayerKind::Picture | LayerKind::Term(_));
+        let colors: Vec<_> = self.layers.iter().filter(colors).collect();
+        let sound = |layer: &Layer| layer.values.iter().all(|value| value.is_finite());
+        if colors.iter().all(|layer| sound(layer)) {
+            return 0;
+        }
+        let pixels = self.window.pixels() as usize;
+        let is_bad = |&pixel: &usize| {
+            let values = colors.iter().flat_map(|layer| &layer.values[3 * pixel..3 * pixel + 3]);
+            values.into_iter().any(|value| !value.is_finite())
+        };
+        (0..pixels).filter(is_bad).count()
+    }
+
     /// Samples that each pixel of a tile has of so many asked for.
     pub fn samples_of(&self, index: usize, of: u32) -> u32 {
         if self.done[index] { of } else { self.sums.get(&index).map_or(0, |sums| sums.samples()) }

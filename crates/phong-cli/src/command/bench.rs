@@ -17,6 +17,9 @@ Examples:
   phong bench dragon.ply
   phong bench scene.toml --json";
 
+/// Bytes that the rays of a pixel take, at least.
+const RAYS: u64 = 60;
+
 /// Rays per second by kind, time by stage, bytes per primitive
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
@@ -31,7 +34,8 @@ pub(crate) fn run(Args { question: args }: &Args) -> Result<(), Failure> {
     let read = started.elapsed().as_secs_f64();
     let size = input.scene.image.size;
     let started = Instant::now();
-    let scene = compile(&input.scene, &args.input, 0)?;
+    let pixels = u64::from(size[0]) * u64::from(size[1]);
+    let scene = compile(&input.scene, &args.input, pixels.saturating_mul(RAYS))?;
     let build = started.elapsed().as_secs_f64();
     let held = Holdings::of(scene.geometry());
     let (primitives, per_primitive) = (held.primitives(), held.bytes_per_primitive());

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use super::compare;
 use crate::args::InputArgs;
 use crate::failure::Failure;
-use crate::{input, report};
+use crate::{input, memory, report};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -20,6 +20,9 @@ Examples:
 Give the scene the size of the pictures; one sample a pixel, through its centre, is expected, but
 pixels at edges are left out, so smoothed edges do no harm. Exit code 0: every picture passes; 1:
 one does not; 2: one cannot be graded, which takes no verdict from the others.";
+
+/// Bytes that a pixel takes while it is graded, at least (measured: 300).
+const PIXEL: u64 = 200;
 
 /// Hold somebody else's rendering against ours, term by term: names the term that is wrong
 #[derive(Debug, clap::Args)]
@@ -88,6 +91,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 
 fn one(scene: &Scene, path: &Path) -> Result<Grade, Failure> {
     let picture = compare::read(path)?;
+    let pixels = u64::from(picture.size[0]) * u64::from(picture.size[1]);
+    memory::want(pixels.saturating_mul(PIXEL))?;
     grade(scene, &picture).map_err(|error| {
         let failure = Failure::usage(format!("{}: {error}", path.display()));
         match error {

@@ -10,7 +10,8 @@ use crate::failure::Failure;
 use crate::input::open_file;
 use crate::memory;
 use crate::output::keep_inputs_safe;
-use crate::plan::Outputs;
+use crate::plan::{Outputs, not_finite};
+use crate::report;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -50,6 +51,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         joined.map_err(|error| Failure::usage(error.to_string()))?;
     }
     let (film, mut settings) = join.finish().map_err(|error| Failure::usage(error.to_string()))?;
+    memory::set_aside(settings.film_bytes())?;
+    if let Some(unsound) = not_finite(&film) {
+        report::diagnostics(&[unsound]);
+    }
     let EncodingArgs { linear, bits, exposure, output_format } = &args.encoding;
     let encoding = &mut settings.encoding;
     encoding.linear |= linear;

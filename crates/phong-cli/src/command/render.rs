@@ -16,8 +16,9 @@ use crate::compile::compile;
 use crate::failure::Failure;
 use crate::input;
 use crate::interrupt;
+use crate::memory;
 use crate::output::keep_inputs_safe;
-use crate::plan::Plan;
+use crate::plan::{Plan, not_finite};
 use crate::progress::{Meter, rate, short};
 use crate::report;
 
@@ -40,6 +41,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
     meter.stage("building");
     let settings = Settings::of(fingerprint(&input.scene), &options, plan.encoding);
     let scene = compile(&input.scene, &args.input, options.film_bytes())?;
+    memory::set_aside(settings.film_bytes())?;
     clock.lap("build");
 
     let beside = || Checkpoint::beside(&plan.output, settings.clone(), &options, quiet);
@@ -70,6 +72,11 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
     }
     clock.lap("trace");
 
+    let unsound = not_finite(&film);
+    if let (Some(unsound), false) = (&unsound, quiet) {
+        report::diagnostics(std::slice::from_ref(unsound));
+    }
+    input.warnings.extend(unsound);
     outputs.write(&film, &settings)?;
     outputs.commit()?;
     if let Some(checkpoint) = checkpoint {

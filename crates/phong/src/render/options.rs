@@ -347,6 +347,8 @@ impl RenderOptions {
         let values: usize = self.layers().iter().map(|kind| kind.channels()).sum();
         let film = self.window.pixels().saturating_mul(4 * values as u64);
         let between = match self.passes {
+            // The only sample is the last.
+            Passes::CoarseToFine if self.samples == 1 => 0,
             Passes::One => 0,
             Passes::CoarseToFine => {
                 let across = self.window.width().div_ceil(self.tile);

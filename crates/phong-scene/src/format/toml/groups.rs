@@ -7,6 +7,9 @@ use crate::check::MOST_OBJECTS;
 use crate::limits::Limits;
 use crate::wording::list;
 
+/// Most groups that a message names.
+const MOST_NAMED: usize = 8;
+
 /// An instance: the number of its group, and where its name stands.
 type Edge = (usize, Spot);
 
@@ -54,6 +57,10 @@ pub(super) fn order(
                     let round = path[from..].iter().map(|&(g, _)| groups.items[g].0.as_str());
                     let message = match path.len() - from {
                         1 => "the group holds itself".to_owned(),
+                        many if many > MOST_NAMED => {
+                            let first = list(round.take(MOST_NAMED), ",");
+                            format!("{many} groups hold one another: {first}, …")
+                        }
                         _ => format!("groups hold one another: {}", list(round, "and")),
                     };
                     notes.error(spot, message);
