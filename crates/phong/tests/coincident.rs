@@ -43,9 +43,31 @@ fn glass_box(min: [f64; 3], max: [f64; 3], material: &str) -> String {
 const CUBE: &str = "v -1 0 -0.5\nv 1 0 -0.5\nv 1 1 -0.5\nv -1 1 -0.5\nv -1 0 0.5\nv 1 0 0.5\nv 1 1 0.5\n\
     v -1 1 0.5\nf 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6\n";
 
+/// Two such cubes side by side in one mesh.
+fn two_cubes() -> String {
+    let mut text = String::new();
+    for (shift, first) in [(-1.0, 0), (1.0, 8)] {
+        for line in CUBE.lines() {
+            let mut words = line.split(' ');
+            let kind = words.next().unwrap();
+            let numbers: Vec<f64> = words.map(|word| word.parse().unwrap()).collect();
+            text += &match kind {
+                "v" => format!("v {} {} {}\n", numbers[0] + shift, numbers[1], numbers[2]),
+                _ => {
+                    let corner = |i: usize| numbers[i] as u32 + first;
+                    format!("f {} {} {} {}\n", corner(0), corner(1), corner(2), corner(3))
+                }
+            };
+        }
+    }
+    text
+}
+
 fn scene(text: &str) -> Scene {
-    let source =
-        Memory::new().with("scene.toml", text.as_bytes()).with("cube.obj", CUBE.as_bytes());
+    let source = Memory::new()
+        .with("scene.toml", text.as_bytes())
+        .with("cube.obj", CUBE.as_bytes())
+        .with("cubes.obj", two_cubes().into_bytes());
     let reading = phong_scene::read("scene.toml", None, &source, &Limits::default());
     reading.scene.unwrap_or_else(|| panic!("{:#?}", reading.diagnostics))
 }
@@ -141,6 +163,14 @@ fn touching_meshes_of_one_glass_are_one() {
     let right = format!("{cube}translate = [0.5, 0.1, 0]\n");
     let one = glass_box([-1.0, 0.1, -0.5], [1.0, 1.1, 0.5], "glass");
     assert_same(&in_any_order(&left, &right), &drawn(&text(&[&one])));
+}
+
+#[test]
+fn touching_blocks_in_one_mesh_are_one() {
+    let blocks = "[[mesh]]\nfile = \"cubes.obj\"\nmaterial = \"glass\"\nsmooth = false\n\
+                  scale = [0.5, 1, 1]\ntranslate = [0, 0.1, 0]\n";
+    let one = glass_box([-1.0, 0.1, -0.5], [1.0, 1.1, 0.5], "glass");
+    assert_same(&drawn(&text(&[blocks])), &drawn(&text(&[&one])));
 }
 
 #[test]

@@ -330,7 +330,10 @@ impl Group {
         let opaque = self.members.iter().position(|member| member.ior.is_none());
         let glass = &self.members[..opaque.unwrap_or(self.members.len())];
         let (mut before, mut after, mut carried) = (media, media, media);
-        for member in glass {
+        // What is left first, for one mesh may hold both of two blocks that touch.
+        let (leaving, entering) =
+            (glass.iter().filter(|m| !m.entering), glass.iter().filter(|m| m.entering));
+        for member in leaving.chain(entering) {
             let Member { object, priority, ior: Some(ior), entering, .. } = *member else {
                 continue;
             };
