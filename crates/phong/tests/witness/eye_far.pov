@@ -1,11 +1,12 @@
 // The pair of eye_far.toml.
 #version 3.7;
 global_settings { assumed_gamma 1 adc_bailout 0 max_trace_level 30 }
+// From so far the rays are parallel to a millionth. Its own far eye loses what shadow rays start from.
 camera {
-  location <0, 600000, 800000>
-  up y
-  right -x*image_width/image_height // right-handed
-  direction z*0.5/tan(radians(0.00023084493820743447)/2)
+  orthographic
+  location <0, 12.699991039994355, 16.000006720000314>
+  up y*4.029002541106892
+  right -x*4.029002541106892*image_width/image_height // right-handed
   look_at <0, 0.7, 0>
 }
 background { rgb <0.05, 0.06, 0.08> }
