@@ -17,5 +17,5 @@ plane { y, 0 no_shadow texture { Floor } }
 #declare Yellow = texture { pigment { rgb <0.85, 0.7, 0.2> } finish { ambient 0.1 diffuse 0.6 phong 0.3 phong_size 20 } }
 sphere { <-1.1, 0.8, -1.2>, 0.8 texture { Red } no_shadow }
 sphere { <1.4, 0.9, -1>, 0.9 texture { Yellow } no_shadow }
-// One block, sunk into the floor: here faces in one place would be met by chance.
-box { <-1.2, -0.1, -0.63>, <0.9, 1.4, 0.5> texture { Glass } no_shadow interior { ior 1.5 } }
+// One block: two with a wall in one place would be met by chance.
+box { <-1.2, 0.2, -0.6>, <0.9, 1.6, 0.5> texture { Glass } no_shadow interior { ior 1.5 } }
