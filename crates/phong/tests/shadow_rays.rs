@@ -122,10 +122,9 @@ fn a_lamp_within_a_luminous_body_is_seen_from_outside_it() {
         format!("{ball}scale = [1, 1.1, 1]\ntranslate = [0, -0.3, 0]\n"),
         "[[box]]\nmin = [0.3, 2.8, -0.2]\nmax = [0.7, 3.2, 0.2]\nmaterial = \"lamp\"\n".to_owned(),
         format!("{ball}{}", ball.replace("0.3", "0.2")),
-        format!(
-            "[[instance]]\ngroup = \"g\"\ntranslate = [0.5, 3, 0]\n[groups.g]\n\
-             [[groups.g.sphere]]\ncenter = [0, 0, 0]\nradius = 0.3\nmaterial = \"lamp\"\n"
-        ),
+        "[[instance]]\ngroup = \"g\"\ntranslate = [0.5, 3, 0]\n[groups.g]\n\
+         [[groups.g.sphere]]\ncenter = [0, 0, 0]\nradius = 0.3\nmaterial = \"lamp\"\n"
+            .to_owned(),
     ];
     for body in bodies {
         let dark = seen(&lantern("", &body));

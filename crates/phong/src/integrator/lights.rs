@@ -214,7 +214,7 @@ impl Kernel for SampleLight<'_> {
             if casts {
                 // Smooth meshes have no horizon but N's: what else is below meets the mesh.
                 let smooth = mask32x8::from_bitmask(simd, shading.smooth.into());
-                above = above & (is_above(reach.l, front) | smooth);
+                above &= is_above(reach.l, front) | smooth;
             }
             // A spot sends nothing beyond its edge: no shadow ray is needed.
             let bright = (reach.share * brightest).simd_gt(f32x8::splat(simd, 0.0));

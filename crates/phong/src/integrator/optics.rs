@@ -284,7 +284,7 @@ mod tests {
                 let mirror = |n: DVec3| 2.0 * n.dot(e[i]) * n - e[i];
                 let onto = |dir: DVec3, side: DVec3| {
                     let along = dir.dot(side);
-                    if along > 0.0 { dir } else { (dir + (1e-4 - along) * side).normalize() }
+                    if along > 0.0 { dir } else { unit(dir + (1e-4 - along) * side) }
                 };
                 turned += u32::from(mirror(n[i]).dot(facing) <= 0.0);
                 let want = onto(mirror(n[i]), facing);

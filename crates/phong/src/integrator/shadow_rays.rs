@@ -32,7 +32,7 @@ pub(super) fn aim<S: Simd>(
     // A distant light is in the same direction from everywhere.
     let mut aimed = distance.simd_lt(f32x8::splat(simd, f32::INFINITY));
     if fixture.surfaces.is_empty() {
-        aimed = aimed & smooth;
+        aimed &= smooth;
     }
     let (mut dir, mut length) = (l, distance);
     if aimed.any_true() {
