@@ -116,6 +116,16 @@ impl Frame {
     /// One ray in this space.
     #[inline]
     pub(crate) fn ray(&self, ray: &Ray) -> (local::Ray, Way<f64>) {
+        if self.axes.is_none() {
+            // As below, where nothing turns the ray and nothing moves it along.
+            let origin = ray.origin - self.origin;
+            if (origin - self.middle).abs().max_element() <= FAR * self.size {
+                let &Ray { t_min, dir, t_max, .. } = ray;
+                let origin = origin.as_vec3();
+                let local = local::Ray { origin, t_min: t_min.max(0.0), dir, t_max };
+                return (local, Way { scale: 1.0, skip: 0.0 });
+            }
+        }
         let Entered { origin, dir, way } =
             self.enter(ray.origin.to_array(), ray.dir.as_dvec3().to_array());
         let narrow = |v: [f64; 3]| DVec3::from_array(v).as_vec3();
