@@ -153,7 +153,9 @@ impl<S: Simd> Best<S> {
                 (hits.u[lane], hits.v[lane]) = (0.0, 0.0);
             }
         }
-        self.t.store_array(&mut hits.t);
+        // Elsewhere `t` is how far the ray reaches.
+        let old = f32x8::load_array_ref(simd, &hits.t);
+        self.new.select(self.t, old).store_array(&mut hits.t);
         self.part.store_array(&mut hits.part);
         self.prim.store_array(&mut hits.prim);
         hits.met |= new;
