@@ -12,7 +12,8 @@ use clap::{Args, ValueEnum};
 
 pub(crate) use picture::{ImageArgs, RenderArgs};
 pub(crate) use values::{
-    Crop, PictureSize, Vec3Arg, input_help, size, vector, whole, written_format, written_help,
+    Crop, PictureSize, Vec3Arg, color, input_help, size, vector, whole, written_format,
+    written_help,
 };
 
 /// What no command goes beyond.
@@ -84,7 +85,7 @@ pub(crate) struct ViewArgs {
     #[arg(long, value_name = "DEGREES", value_parser = values::fov, allow_hyphen_values = true)]
     pub(crate) fov: Option<f64>,
 
-    /// Colour of a bare model: "#rrggbb", a CSS name, or r,g,b (linear)
+    /// Colour of a bare model: "#rrggbb", a CSS name (both sRGB, decoded), or r,g,b (linear)
     #[arg(long, value_name = "COLOR", value_parser = values::color, allow_hyphen_values = true)]
     pub(crate) color: Option<phong_scene::Rgb>,
 }

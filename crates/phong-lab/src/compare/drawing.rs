@@ -6,6 +6,7 @@ use phong::render::RenderOptions;
 use phong_scene::srgb_decode;
 
 use super::{Comparison, color};
+use crate::figures::{Lettering, lettering};
 
 /// Narrower drawings are enlarged, by whole pixels, so that the scale has room.
 const LEAST_WIDTH: usize = 240;
@@ -13,12 +14,10 @@ const LEAST_WIDTH: usize = 240;
 const MARGIN: usize = 8;
 /// Height of the scale's bar.
 const BAR: usize = 10;
-/// Pixels a dot of a letter.
-const DOT: usize = 2;
+/// Size of the letters, pixels.
+const LETTER: f64 = 13.0;
 /// Height of a line of letters.
-const LINE: usize = 5 * DOT;
-/// Width of a letter with the gap after it.
-const ADVANCE: usize = 4 * DOT;
+const LINE: usize = 17;
 /// Of a pixel that is finite in one picture only: green, which the map has not.
 const NOT_FINITE: [f32; 3] = [0.0, 1.0, 0.0];
 const PAPER: [f32; 3] = [1.0; 3];
@@ -56,7 +55,7 @@ pub fn draw(found: &Comparison, size: [u32; 2], pictures: Option<[&Picture; 2]>)
     let left = MARGIN + (panels - 1) * (width * zoom + MARGIN);
     canvas.picture([left, top], [width, height], zoom, differs);
     if panels > 1 {
-        canvas.text([left, MARGIN], "A-B");
+        canvas.text([left, MARGIN], "|A − B|");
     }
     canvas.scale([MARGIN, bar], across, &scale, found.not_finite > 0);
     canvas.film
@@ -165,9 +164,10 @@ impl Canvas {
         let [mut left, top] = at;
         let mut across = across;
         if not_finite {
-            let room = 3 * ADVANCE;
+            let words = lettering("not finite", LETTER);
+            let room = words.width;
             self.block([left, top], [room, BAR], NOT_FINITE);
-            self.text([left, top + BAR + 6], "NAN");
+            self.letters([left, top + BAR + 4], &words);
             left += room + 2 * MARGIN;
             across -= room + 2 * MARGIN;
         }
@@ -178,46 +178,30 @@ impl Canvas {
         for tick in 0..=scale.steps {
             let x = left + (across - 1) * tick as usize / scale.steps as usize;
             self.block([x, top + BAR], [1, 4], INK);
-            let label = scale.label(tick);
-            let width = label.len() * ADVANCE - DOT;
+            let label = lettering(&scale.label(tick), LETTER);
+            let width = label.width;
             // In the middle below its tick, but within the bar.
             let start = x.saturating_sub(width / 2).clamp(left, left + across - width.min(across));
-            self.text([start, top + BAR + 6], &label);
+            self.letters([start, top + BAR + 4], &label);
         }
     }
 
-    fn text(&mut self, [x, y]: [usize; 2], words: &str) {
-        for (k, letter) in words.chars().enumerate() {
-            for (row, dots) in glyph(letter).into_iter().enumerate() {
-                for column in (0..3).filter(|column| dots >> (2 - column) & 1 == 1) {
-                    let at = [x + k * ADVANCE + column * DOT, y + row * DOT];
-                    self.block(at, [DOT; 2], INK);
+    fn text(&mut self, at: [usize; 2], words: &str) {
+        self.letters(at, &lettering(words, LETTER));
+    }
+
+    /// Ink, as far as the letters cover each pixel; what would lie beyond the edge is left out.
+    fn letters(&mut self, [x, y]: [usize; 2], letters: &Lettering) {
+        let (width, height) = (self.film.width() as usize, self.film.height() as usize);
+        for (i, coverage) in letters.coverage.iter().enumerate() {
+            let (column, row) = (x + i % letters.width, y + i / letters.width);
+            if column < width && row < height && *coverage > 0.0 {
+                let at = 3 * (row * width + column);
+                for (value, ink) in self.film.layers[0].values[at..at + 3].iter_mut().zip(INK) {
+                    *value += coverage * (ink - *value);
                 }
             }
         }
-    }
-}
-
-/// Five rows of three dots.
-fn glyph(letter: char) -> [u8; 5] {
-    match letter {
-        '0' => [0b111, 0b101, 0b101, 0b101, 0b111],
-        '1' => [0b010, 0b110, 0b010, 0b010, 0b111],
-        '2' => [0b111, 0b001, 0b111, 0b100, 0b111],
-        '3' => [0b111, 0b001, 0b111, 0b001, 0b111],
-        '4' => [0b101, 0b101, 0b111, 0b001, 0b001],
-        '5' => [0b111, 0b100, 0b111, 0b001, 0b111],
-        '6' => [0b111, 0b100, 0b111, 0b101, 0b111],
-        '7' => [0b111, 0b001, 0b010, 0b010, 0b010],
-        '8' => [0b111, 0b101, 0b111, 0b101, 0b111],
-        '9' => [0b111, 0b101, 0b111, 0b001, 0b111],
-        '.' => [0b000, 0b000, 0b000, 0b000, 0b010],
-        '-' => [0b000, 0b000, 0b111, 0b000, 0b000],
-        'A' => [0b010, 0b101, 0b111, 0b101, 0b101],
-        'B' => [0b110, 0b101, 0b110, 0b101, 0b110],
-        'E' => [0b111, 0b100, 0b110, 0b100, 0b111],
-        'N' => [0b110, 0b101, 0b101, 0b101, 0b101],
-        _ => [0; 5],
     }
 }
 
@@ -249,13 +233,6 @@ mod tests {
     }
 
     #[test]
-    fn every_letter_that_is_written_can_be_drawn() {
-        for letter in "0123456789.-E NANA-B".chars().filter(|c| *c != ' ') {
-            assert_ne!(glyph(letter), [0; 5], "{letter}");
-        }
-    }
-
-    #[test]
     fn a_map_shows_each_pixel_by_its_own_difference() {
         let a = grey([120, 2], &[0.0; 240]);
         let mut values = [0.0; 240];
@@ -276,7 +253,7 @@ mod tests {
         let (a, b) = (grey([100, 50], &vec![0.25; 5000]), grey([100, 50], &vec![0.75; 5000]));
         let found = compare(&a, &b).unwrap();
         let film = draw(&found, [100, 50], Some([&a, &b]));
-        let row = 8 + 14 + 20;
+        let row = 8 + 21 + 20;
         let at = |x: u32| film.at(LayerKind::Picture, x, row).unwrap().to_vec();
         assert_eq!(at(58), [0.25; 3]);
         assert_eq!(at(166), [0.75; 3]);

@@ -13,11 +13,13 @@ use super::plot::{Plot, fixed, ticks};
 use super::shininess::half_width;
 use super::stage::{self, ball, distant, plastic};
 use super::symbols::unit;
-use super::{Finish, Number, Plate, style};
+use super::{Number, Plate, Setting, style};
 
 const TITLE: &str = "Phong and Blinn–Phong";
 const EQUATION: &str = "(*r*·*e*)^{*α*}   and   (*n*·*h*)^{*α′*}";
 
+/// The direction to the light of the pictures.
+const TO_LIGHT: DVec3 = DVec3::new(1.0, 0.55, 0.1);
 /// Phong's exponent in the picture.
 const ALPHA: f64 = 20.0;
 /// The angle of incidence of the plots, degrees.
@@ -25,14 +27,15 @@ const THETA: f64 = 45.0;
 /// Exponents for which the factor 4 is tried.
 const EXPONENTS: [f64; 3] = [5.0, 20.0, 200.0];
 
-pub(super) fn draw(finish: Finish) -> Plate {
-    let phong = width(Lobe::Phong, ALPHA, 0.0, within);
-    let same = width(Lobe::Blinn, ALPHA, 0.0, within);
+pub(super) fn draw(setting: Setting) -> Plate {
+    let (alpha, theta) = (setting.alpha_or(ALPHA), setting.theta_or(THETA));
+    let phong = width(Lobe::Phong, alpha, 0.0, within);
+    let same = width(Lobe::Blinn, alpha, 0.0, within);
     let mut numbers = vec![
-        Number::new("half width, Phong, α = 20", phong, "°"),
-        Number::new("half width, Blinn–Phong, α = 20", same, "°"),
+        Number::new(format!("half width, Phong, α = {alpha}"), phong, "°"),
+        Number::new(format!("half width, Blinn–Phong, α = {alpha}"), same, "°"),
         Number::new("their ratio, in the plane", same / phong, ""),
-        Number::new("the matching exponent for α = 20", matching(ALPHA), ""),
+        Number::new(format!("the matching exponent for α = {alpha}"), matching(alpha), ""),
     ];
     for alpha in EXPONENTS {
         let ratio = |exponent| {
@@ -42,10 +45,11 @@ pub(super) fn draw(finish: Finish) -> Plate {
         let name = format!("ratio with the matching exponent, α = {alpha}");
         numbers.push(Number::new(name, ratio(matching(alpha)), ""));
     }
-    for alpha in [ALPHA, 200.0] {
-        let ratio = width(Lobe::Blinn, matching(alpha), THETA, across)
-            / width(Lobe::Phong, alpha, THETA, across);
-        let name = format!("ratio across the plane, θ = 45°, matching exponent, α = {alpha}");
+    let second = if alpha == 200.0 { 20.0 } else { 200.0 };
+    for alpha in [alpha, second] {
+        let ratio = width(Lobe::Blinn, matching(alpha), theta, across)
+            / width(Lobe::Phong, alpha, theta, across);
+        let name = format!("ratio across the plane, θ = {theta}°, matching exponent, α = {alpha}");
         numbers.push(Number::new(name, ratio, ""));
     }
     Plate {
@@ -55,7 +59,7 @@ pub(super) fn draw(finish: Finish) -> Plate {
                   incidence; a matching exponent makes them equal there, but across the plane \
                   Blinn’s narrows with cos θ, so that no exponent makes the two models equal.",
         numbers,
-        drawing: drawing(finish),
+        drawing: drawing(setting),
     }
 }
 
@@ -108,32 +112,35 @@ fn width(lobe: Lobe, exponent: f64, theta: f64, eye: fn(f64, f64) -> Dir3) -> f6
 }
 
 /// The three lobes that are compared, with their colours and names.
-fn lobes() -> [(Lobe, f64, Ink, String); 3] {
-    let matched = matching(ALPHA);
+fn lobes(alpha: f64) -> [(Lobe, f64, Ink, String); 3] {
+    let matched = matching(alpha);
     [
-        (Lobe::Phong, ALPHA, style::MIRROR, format!("Phong, *α* = {ALPHA}")),
-        (Lobe::Blinn, ALPHA, style::HALF, format!("Blinn–Phong, *α′* = {ALPHA}")),
+        (Lobe::Phong, alpha, style::MIRROR, format!("Phong, *α* = {alpha}")),
+        (Lobe::Blinn, alpha, style::HALF, format!("Blinn–Phong, *α′* = {alpha}")),
         (Lobe::Blinn, matched, style::NORMAL, format!("Blinn–Phong, *α′* = {}", fixed(matched, 2))),
     ]
 }
 
-fn scene(lobe: Lobe, exponent: f64) -> Scene {
+fn scene(lobe: Lobe, exponent: f64, setting: Setting) -> Scene {
     let model = match lobe {
         Lobe::Phong => Model::Phong,
         Lobe::Blinn => Model::BlinnPhong,
     };
-    let material = ConstantMaterial { model, shininess: exponent as f32, k_s: 0.7, ..plastic() };
-    ball(material, vec![distant(DVec3::new(1.0, 0.55, 0.1), 1.0)], DVec3::Z)
+    let material =
+        ConstantMaterial { model, shininess: exponent as f32, k_s: 0.7, ..plastic(setting) };
+    ball(material, vec![distant(TO_LIGHT, 1.0)], DVec3::Z)
 }
 
-fn drawing(finish: Finish) -> Drawing {
+fn drawing(setting: Setting) -> Drawing {
     let mut drawing = Drawing::slide();
     drawing.header(TITLE, EQUATION);
+    let (alpha, theta) = (setting.alpha_or(ALPHA), setting.theta_or(THETA));
     let size = 176.0;
-    for (column, (lobe, exponent, ink, words)) in lobes().into_iter().enumerate() {
+    for (column, (lobe, exponent, ink, words)) in lobes(alpha).into_iter().enumerate() {
         let at = Point::new(86.0 + 306.0 * column as f64, 76.0);
-        let film = stage::shown(&scene(lobe, exponent), Point::splat(size), finish);
+        let film = stage::shown(&scene(lobe, exponent, setting), Point::splat(size), setting);
         drawing.image(at, Point::splat(size), stage::bitmap(&film, &[LayerKind::Picture]));
+        stage::light_from(&mut drawing, TO_LIGHT, DVec3::Z, at, size);
         let under = at + Point::new(0.5 * size, size + 22.0);
         drawing.text(under, Anchor::Middle, style::NOTE, ink, &words);
     }
@@ -147,9 +154,9 @@ fn drawing(finish: Finish) -> Drawing {
         plot.axes(&mut drawing, &x_ticks, &ticks(&[0.0, 0.5, 1.0], ""));
         plot.names(&mut drawing, "*φ*", "share of the peak", 40.0);
         let above = Point::new(left + 180.0, 318.0);
-        drawing.heading(above, &format!("{words}, *θ* = {THETA}°"));
-        for (lobe, exponent, ink, _) in lobes() {
-            let share = |phi: f64| specular(lobe, exponent, THETA, eye(THETA, phi));
+        drawing.heading(above, &format!("{words}, *θ* = {theta}°"));
+        for (lobe, exponent, ink, _) in lobes(alpha) {
+            let share = |phi: f64| specular(lobe, exponent, theta, eye(theta, phi));
             // Phong's curve is a broad band, to be seen where another lies on it.
             let stroke = match lobe {
                 Lobe::Phong => Stroke::new(ink.fade(0.35), 3.2 * style::CURVE),
@@ -168,7 +175,7 @@ mod tests {
     #[test]
     fn the_same_exponent_makes_blinn_twice_as_wide_and_four_times_it_nearly_equal() {
         let [phong, blinn, ratio, matched, by_4, exact, by_4_20, exact_20, by_4_200, exact_200, ..] =
-            draw(Finish::Draft).values::<12>();
+            draw(Setting::DRAFT).values::<12>();
         assert!((phong - wide::acos(wide::pow(2.0, -0.05)).to_degrees()).abs() < 2e-5, "{phong}");
         assert!((ratio - 2.0).abs() < 3e-6 && (blinn - 2.0 * phong).abs() < 4e-5, "{ratio}");
         assert!((matched - (80.0 + wide::ln(2.0))).abs() < 0.01, "{matched}");
@@ -182,7 +189,7 @@ mod tests {
 
     #[test]
     fn across_the_plane_the_matched_lobe_narrows_towards_the_cosine() {
-        let values = draw(Finish::Draft).values::<12>();
+        let values = draw(Setting::DRAFT).values::<12>();
         let [at_20, at_200] = [values[10], values[11]];
         let cosine = wide::cos(THETA.to_radians());
         assert!(cosine < at_200 && at_200 < at_20 && at_20 < cosine + 0.01, "{at_20} {at_200}");

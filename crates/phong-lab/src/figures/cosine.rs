@@ -6,7 +6,7 @@ use super::drawing::Drawing;
 use super::mark::{Anchor, Path, Point, Stroke, heading};
 use super::plot::{Plot, fixed, ticks};
 use super::symbols::{GLOW, unit};
-use super::{Finish, Number, Plate, style};
+use super::{Number, Plate, Setting, style};
 
 const TITLE: &str = "Lambert’s cosine law";
 const EQUATION: &str = "*k*_d (*l*·*n*) *C*_d";
@@ -16,9 +16,9 @@ const ANGLES: [f64; 3] = [0.0, 30.0, 60.0];
 /// The beam's width, units.
 const BEAM: f64 = 74.0;
 
-pub(super) fn draw(_: Finish) -> Plate {
+pub(super) fn draw(setting: Setting) -> Plate {
     let mut numbers = Vec::new();
-    for angle in ANGLES {
+    for angle in angles(setting) {
         let share = cosine(angle);
         numbers.push(Number::new(format!("l·n at {angle}°"), share, ""));
         numbers.push(Number::new(format!("beam's footprint at {angle}°"), 1.0 / share, "widths"));
@@ -29,7 +29,7 @@ pub(super) fn draw(_: Finish) -> Plate {
         caption: "A beam that meets the surface at the angle θ is spread over 1/cos θ of its \
                   width, so each point receives cos θ of the light.",
         numbers,
-        drawing: drawing(),
+        drawing: drawing(setting),
     }
 }
 
@@ -38,10 +38,15 @@ fn cosine(degrees: f64) -> f64 {
     f64::from(unit(90.0 + degrees).cos(Dir3::Y))
 }
 
-fn drawing() -> Drawing {
+/// The angles that are drawn: of one that is asked for, the half and the whole.
+fn angles(setting: Setting) -> [f64; 3] {
+    setting.theta.map_or(ANGLES, |theta| [0.0, 0.5 * theta, theta])
+}
+
+fn drawing(setting: Setting) -> Drawing {
     let mut drawing = Drawing::slide();
     drawing.header(TITLE, EQUATION);
-    for (angle, x) in ANGLES.into_iter().zip([112.0, 298.0, 486.0]) {
+    for (angle, x) in angles(setting).into_iter().zip([112.0, 298.0, 486.0]) {
         beam(&mut drawing, Point::new(x, 310.0), angle);
     }
     let corners = [Point::new(716.0, 112.0), Point::new(916.0, 386.0)];
@@ -50,7 +55,7 @@ fn drawing() -> Drawing {
     plot.axes(&mut drawing, &x_ticks, &ticks(&[0.0, 0.5, 1.0], ""));
     plot.names(&mut drawing, "angle of incidence *θ*", "light received", 42.0);
     plot.curve(&mut drawing, [0.0, 90.0], 90, cosine, Stroke::new(style::NORMAL, style::CURVE));
-    for angle in ANGLES {
+    for angle in angles(setting) {
         plot.dot(&mut drawing, angle, cosine(angle), style::MIRROR);
     }
     drawing.text(plot.at(58.0, 0.66), Anchor::Start, style::NOTE, style::NORMAL, "cos *θ*");
@@ -93,7 +98,7 @@ mod tests {
 
     #[test]
     fn the_footprint_of_a_beam_grows_as_its_light_thins() {
-        let numbers = draw(Finish::Draft).numbers;
+        let numbers = draw(Setting::DRAFT).numbers;
         let values: Vec<f64> = numbers.iter().map(|number| number.value).collect();
         let expected = [1.0, 1.0, 0.866_025_4, 1.154_700_5, 0.5, 2.0];
         for (value, expected) in values.iter().zip(expected) {

@@ -10,6 +10,8 @@ use super::{style, text};
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Drawing {
     pub(super) size: Point,
+    /// What the marks are painted on.
+    pub(super) paper: Ink,
     pub(super) marks: Vec<Mark>,
 }
 
@@ -21,7 +23,23 @@ impl Drawing {
 
     /// An empty canvas.
     pub(super) fn sized(width: f64, height: f64) -> Self {
-        Self { size: Point::new(width, height), marks: Vec::new() }
+        Self { size: Point::new(width, height), paper: style::PAPER, marks: Vec::new() }
+    }
+
+    /// The same drawing on dark paper; pictures stay as they are.
+    pub(super) fn on_dark(mut self) -> Self {
+        self.paper = style::on_dark(self.paper);
+        for mark in &mut self.marks {
+            match mark {
+                Mark::Shape { fill, stroke, .. } => {
+                    *fill = fill.map(style::on_dark);
+                    *stroke = stroke.map(|s| Stroke { ink: style::on_dark(s.ink), ..s });
+                }
+                Mark::Text(text) => text.ink = style::on_dark(text.ink),
+                Mark::Image { .. } => {}
+            }
+        }
+        self
     }
 
     pub(super) fn shape(&mut self, path: Path, fill: Option<Ink>, stroke: Option<Stroke>) {
@@ -92,6 +110,13 @@ impl Drawing {
     /// A line of text whose middle, both ways, is `at`.
     pub(super) fn label(&mut self, at: Point, size: f64, ink: Ink, markup: &str) {
         self.text(at + Point::new(0.0, 0.33 * size), Anchor::Middle, size, ink, markup);
+    }
+
+    /// A point of a picture, and its letter on a plate that any picture leaves readable.
+    pub(super) fn tag(&mut self, at: Point, aside: Point, markup: &str) {
+        self.circle(at, 4.0, Some(style::PAPER), Some(Stroke::new(style::TEXT, 2.0)));
+        self.circle(at + aside, 11.5, Some(style::PAPER.fade(0.92)), None);
+        self.label(at + aside + Point::new(0.0, -2.0), 18.0, style::TEXT, markup);
     }
 
     pub(super) fn image(&mut self, at: Point, size: Point, bitmap: Bitmap) {

@@ -11,14 +11,14 @@ use phong_scene::{
 use super::drawing::Drawing;
 use super::mark::Point;
 use super::stage::{self, distant, object};
-use super::{Finish, Number, Plate};
+use super::{Number, Plate, Setting};
 
 const TITLE: &str = "Phong at work";
 const EQUATION: &str = "*k*_a *C*_a + Σ (*k*_d (*l*·*n*) *C*_d + *k*_s (*r*·*e*)^{*α*} *C*_s)";
 /// A picture's size, units.
 const SIZE: Point = Point::new(430.0, 194.0);
 
-pub(super) fn draw(finish: Finish) -> Plate {
+pub(super) fn draw(setting: Setting) -> Plate {
     let mut numbers = Vec::new();
     for (words, scene) in scenes() {
         let spots = stage::spots(&stage::measured(&scene));
@@ -36,17 +36,17 @@ pub(super) fn draw(finish: Finish) -> Plate {
         caption: "Plastics whose highlights keep the light’s colour and metal that tints it; \
                   solids under two lights; mirror and glass rays added to the sum; and a molecule.",
         numbers,
-        drawing: drawing(finish),
+        drawing: drawing(setting),
     }
 }
 
-fn drawing(finish: Finish) -> Drawing {
+fn drawing(setting: Setting) -> Drawing {
     let mut drawing = Drawing::slide();
     drawing.header(TITLE, EQUATION);
     for (index, (words, scene)) in scenes().into_iter().enumerate() {
         let (column, row) = ((index % 2) as f64, (index / 2) as f64);
         let at = Point::new(40.0 + 450.0 * column, 70.0 + 234.0 * row);
-        let film = stage::shown(&scene, SIZE, finish);
+        let film = stage::shown(&scene, SIZE, setting);
         drawing.image(at, SIZE, stage::bitmap(&film, &[LayerKind::Picture]));
         drawing.note(at + Point::new(0.5 * SIZE.x, SIZE.y + 20.0), words);
     }
@@ -205,7 +205,7 @@ mod tests {
 
     #[test]
     fn the_pictures_are_the_sums_of_their_terms_mirror_and_glass_included() {
-        let numbers = draw(Finish::Draft).numbers;
+        let numbers = draw(Setting::DRAFT).numbers;
         for pair in numbers.chunks(2) {
             assert_eq!(pair[0].value, 0.0, "{pair:?}");
             assert_eq!(

@@ -8,23 +8,25 @@ use super::drawing::Drawing;
 use super::mark::{Anchor, Bitmap, Point, Stroke};
 use super::plot::fixed;
 use super::stage::{self, Spot, ball, distant, plastic};
-use super::{Finish, Number, Plate, style};
+use super::{Number, Plate, Setting, style};
 
 const TITLE: &str = "Specular coefficient and shininess";
 const EQUATION: &str = "*k*_s (*r*·*e*)^{*α*} *C*_s";
+/// The direction to the light.
+const TO_LIGHT: DVec3 = DVec3::new(0.8, 1.0, 1.4);
 const WEIGHTS: [f32; 3] = [0.25, 0.5, 0.75];
 const EXPONENTS: [f32; 3] = [3.0, 9.0, 200.0];
 
-pub(super) fn draw(finish: Finish) -> Plate {
+pub(super) fn draw(setting: Setting) -> Plate {
     let mut numbers = Vec::new();
     for k_s in WEIGHTS {
         for alpha in EXPONENTS {
-            let spots = stage::spots(&stage::measured(&scene(k_s, alpha)));
+            let spots = stage::spots(&stage::measured(&scene(k_s, alpha, setting)));
             numbers.push(Number::new(format!("peak, k_s {k_s}, α {alpha}"), peak(&spots), ""));
         }
     }
     let areas = EXPONENTS.map(|alpha| {
-        let spots = stage::spots(&stage::measured(&scene(WEIGHTS[2], alpha)));
+        let spots = stage::spots(&stage::measured(&scene(WEIGHTS[2], alpha, setting)));
         let half = 0.5 * peak(&spots);
         let above = spots.iter().filter(|spot| value(spot) > half).count();
         above as f64 / spots.len() as f64
@@ -38,13 +40,14 @@ pub(super) fn draw(finish: Finish) -> Plate {
         caption: "The coefficient scales the highlight and the exponent narrows it: the peak \
                   stays at k_s while the area above half of it shrinks.",
         numbers,
-        drawing: drawing(areas, finish),
+        drawing: drawing(areas, setting),
     }
 }
 
-fn scene(k_s: f32, alpha: f32) -> Scene {
-    let material = ConstantMaterial { k_a: 0.15, k_d: 0.6, k_s, shininess: alpha, ..plastic() };
-    ball(material, vec![distant(DVec3::new(0.8, 1.0, 1.4), 1.0)], DVec3::Z)
+fn scene(k_s: f32, alpha: f32, setting: Setting) -> Scene {
+    let material =
+        ConstantMaterial { k_a: 0.15, k_d: 0.6, k_s, shininess: alpha, ..plastic(setting) };
+    ball(material, vec![distant(TO_LIGHT, 1.0)], DVec3::Z)
 }
 
 fn value(spot: &Spot) -> f64 {
@@ -55,7 +58,7 @@ fn peak(spots: &[Spot]) -> f64 {
     spots.iter().map(value).fold(0.0, f64::max)
 }
 
-fn drawing(areas: [f64; 3], finish: Finish) -> Drawing {
+fn drawing(areas: [f64; 3], setting: Setting) -> Drawing {
     let mut drawing = Drawing::slide();
     drawing.header(TITLE, EQUATION);
     let (left, top, step, size) = (128.0, 104.0, 142.0, 132.0);
@@ -67,9 +70,12 @@ fn drawing(areas: [f64; 3], finish: Finish) -> Drawing {
         let words = format!("*k*_s = {k_s}");
         drawing.text(beside, Anchor::End, style::HEADING, style::TEXT, &words);
         for (column, alpha) in EXPONENTS.into_iter().enumerate() {
-            let film = stage::shown(&scene(k_s, alpha), Point::splat(size), finish);
+            let film = stage::shown(&scene(k_s, alpha, setting), Point::splat(size), setting);
             let at = corner(row, column);
             drawing.image(at, Point::splat(size), stage::bitmap(&film, &[LayerKind::Picture]));
+            if [row, column] == [0, 2] {
+                stage::light_from(&mut drawing, TO_LIGHT, DVec3::Z, at, size);
+            }
             if row == 0 {
                 let above = at + Point::new(0.5 * size, -10.0);
                 drawing.heading(above, &format!("*α* = {alpha}"));
@@ -82,7 +88,7 @@ fn drawing(areas: [f64; 3], finish: Finish) -> Drawing {
     for (line, alpha) in EXPONENTS.into_iter().enumerate() {
         let size = 104.0;
         let at = Point::new(middle - 120.0, 150.0 + 118.0 * line as f64);
-        let film = stage::shown(&scene(WEIGHTS[2], alpha), Point::splat(size), finish);
+        let film = stage::shown(&scene(WEIGHTS[2], alpha, setting), Point::splat(size), setting);
         let ring = Some(Stroke::new(style::SURFACE, style::LINE));
         let center = at + Point::splat(0.5 * size);
         drawing.circle(center, size / stage::VIEW, Some(style::BODY), ring);
@@ -115,8 +121,8 @@ mod tests {
     #[test]
     fn the_specular_image_is_its_coefficient_times_one_lobe() {
         for alpha in EXPONENTS {
-            let [quarter, half, most] =
-                WEIGHTS.map(|k_s| stage::spots(&stage::measured(&scene(k_s, alpha))));
+            let [quarter, half, most] = WEIGHTS
+                .map(|k_s| stage::spots(&stage::measured(&scene(k_s, alpha, Setting::DRAFT))));
             for ((quarter, half), most) in quarter.iter().zip(&half).zip(&most) {
                 // Doubling is exact down to where f32 loses bits.
                 assert!((value(half) - 2.0 * value(quarter)).abs() < f32::MIN_POSITIVE.into());
@@ -127,7 +133,7 @@ mod tests {
 
     #[test]
     fn the_area_above_half_the_peak_shrinks_as_the_exponent_grows() {
-        let numbers = draw(Finish::Draft).numbers;
+        let numbers = draw(Setting::DRAFT).numbers;
         let areas: Vec<f64> = numbers[9..].iter().map(|number| number.value).collect();
         assert!(areas[0] > areas[1] && areas[1] > areas[2] && areas[2] > 0.0, "{areas:?}");
         for (number, k_s) in numbers[..9].iter().zip([0.25, 0.25, 0.25, 0.5, 0.5, 0.5]) {

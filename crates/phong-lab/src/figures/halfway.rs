@@ -9,7 +9,7 @@ use super::drawing::Drawing;
 use super::mark::{Anchor, Ink, Path, Point, Stroke, heading};
 use super::plot::{Plot, fixed, ticks};
 use super::symbols::{drawn, surface, unit};
-use super::{Finish, Number, Plate, style};
+use super::{Number, Plate, Setting, style};
 
 const TITLE: &str = "The halfway vector";
 const EQUATION: &str = "*h* = (*l* + *e*) / ‖*l* + *e*‖,   cos *β* = *h*·*n*";
@@ -19,37 +19,46 @@ const THETA: f64 = 60.0;
 /// The angles φ whose β are told, degrees.
 const PHIS: [f64; 3] = [5.0, 20.0, 40.0];
 
-pub(super) fn draw(_: Finish) -> Plate {
+pub(super) fn draw(setting: Setting) -> Plate {
+    let theta = setting.theta_or(THETA);
     let mut numbers = Vec::new();
     for phi in PHIS {
-        let ratio = |e| beta(e) / phi;
-        numbers.push(Number::new(format!("β/φ in the plane, φ = {phi}°"), ratio(within(phi)), ""));
-        numbers.push(Number::new(format!("β/φ across it, φ = {phi}°"), ratio(across(phi)), ""));
+        let ratio = |e| beta(theta, e) / phi;
+        numbers.push(Number::new(
+            format!("β/φ in the plane, φ = {phi}°"),
+            ratio(within(theta, phi)),
+            "",
+        ));
+        numbers.push(Number::new(
+            format!("β/φ across it, φ = {phi}°"),
+            ratio(across(theta, phi)),
+            "",
+        ));
     }
-    numbers.push(Number::new("1/(2 cos θ)", 0.5 / wide::cos(THETA.to_radians()), ""));
+    numbers.push(Number::new("1/(2 cos θ)", 0.5 / wide::cos(theta.to_radians()), ""));
     Plate {
         title: TITLE,
         equation: EQUATION,
         caption: "If n = h, the reflection is brightest; β is exactly half of φ where n, l and e \
                   lie in one plane, and more elsewhere: about φ/(2 cos θ) across it.",
         numbers,
-        drawing: drawing(),
+        drawing: drawing(setting),
     }
 }
 
 /// The light, in the plane of x and the normal y.
-fn light() -> Dir3 {
-    unit(90.0 + THETA)
+fn light(theta: f64) -> Dir3 {
+    unit(90.0 + theta)
 }
 
 /// An eye `phi` degrees from the mirrored light, in the plane of incidence, towards the normal.
-fn within(phi: f64) -> Dir3 {
-    unit(90.0 - THETA + phi)
+fn within(theta: f64, phi: f64) -> Dir3 {
+    unit(90.0 - theta + phi)
 }
 
 /// An eye `phi` degrees from the mirrored light, straight across the plane of incidence.
-fn across(phi: f64) -> Dir3 {
-    let r = Dir3::Y.mirror(light()).to_vec();
+fn across(theta: f64, phi: f64) -> Dir3 {
+    let r = Dir3::Y.mirror(light(theta)).to_vec();
     let (sin, cos) = wide::sin_cos(phi.to_radians());
     Dir3::new(cos as f32 * r + sin as f32 * Vec3::Z).unwrap_or(Dir3::Z)
 }
@@ -57,25 +66,28 @@ fn across(phi: f64) -> Dir3 {
 /// The angle β between n and h, in degrees.
 ///
 /// By its tangent: near 0 the cosine loses it.
-fn beta(e: Dir3) -> f64 {
-    let h = light().halfway(e).map_or(DVec3::Y, |h| h.to_vec().as_dvec3());
+fn beta(theta: f64, e: Dir3) -> f64 {
+    let h = light(theta).halfway(e).map_or(DVec3::Y, |h| h.to_vec().as_dvec3());
     wide::atan2(h.cross(DVec3::Y).length(), h.y).to_degrees()
 }
 
-fn drawing() -> Drawing {
+fn drawing(setting: Setting) -> Drawing {
+    let theta = setting.theta_or(THETA);
     let mut drawing = Drawing::slide();
     drawing.header(TITLE, EQUATION);
-    flat(&mut drawing, Point::new(166.0, 372.0), 150.0);
-    solid(&mut drawing, Point::new(492.0, 340.0), 148.0);
+    // Drawn with less than the plot: at 60° the vectors crowd the ground.
+    let drawn_theta = setting.theta_or(48.0);
+    flat(&mut drawing, Point::new(166.0, 372.0), 150.0, drawn_theta);
+    solid(&mut drawing, Point::new(492.0, 340.0), 148.0, drawn_theta);
 
     let corners = [Point::new(724.0, 118.0), Point::new(916.0, 392.0)];
     let plot = Plot { corners, x: [0.0, 60.0], y: [0.0, 60.0] };
     let marks = ticks(&[0.0, 20.0, 40.0, 60.0], "°");
     plot.axes(&mut drawing, &marks, &marks);
     plot.names(&mut drawing, "*φ*", "*β*", 48.0);
-    let curve = |drawing: &mut Drawing, e: fn(f64) -> Dir3, ink: Ink| {
+    let curve = |drawing: &mut Drawing, e: fn(f64, f64) -> Dir3, ink: Ink| {
         let stroke = Stroke::new(ink, style::CURVE);
-        plot.curve(drawing, [0.0, 60.0], 60, |phi| beta(e(phi)), stroke);
+        plot.curve(drawing, [0.0, 60.0], 60, |phi| beta(theta, e(theta, phi)), stroke);
     };
     curve(&mut drawing, within, style::NORMAL);
     curve(&mut drawing, across, style::MIRROR);
@@ -89,14 +101,14 @@ fn drawing() -> Drawing {
     for (at, ink, words) in words {
         drawing.text(at, Anchor::End, style::TICK, ink, words);
     }
-    drawing.note(Point::new(820.0, 462.0), &format!("*θ* = {THETA}°"));
+    drawing.note(Point::new(820.0, 462.0), &format!("*θ* = {theta}°"));
     drawing
 }
 
 /// In the plane of incidence.
-fn flat(drawing: &mut Drawing, o: Point, length: f64) {
+fn flat(drawing: &mut Drawing, o: Point, length: f64, theta: f64) {
     surface(drawing, o, 128.0);
-    let (theta, at_e) = (48.0, 76.0);
+    let at_e = 90.0 - theta + 34.0;
     let (l, e) = (unit(90.0 + theta), unit(at_e));
     let tip = |v: Vec3, share: f64| o + share * length * drawn(v);
     let vector = |drawing: &mut Drawing, v: Vec3, ink: Ink, words: &str| {
@@ -105,6 +117,7 @@ fn flat(drawing: &mut Drawing, o: Point, length: f64) {
     let r = Dir3::Y.mirror(l);
     let h = l.halfway(e).map_or(Vec3::Y, Dir3::to_vec);
     let at_h = 0.5 * (90.0 + theta + at_e);
+    drawing.angle(o, 44.0, [90.0, 90.0 + theta], style::LIGHT, "*θ*");
     drawing.angle(o, 76.0, [90.0 - theta, at_e], style::TEXT, "*φ*");
     drawing.angle(o, 100.0, [90.0, at_h], style::HALF, "*β*");
     drawing.line(o, tip(r.to_vec(), 1.0), Stroke::new(style::MIRROR, 2.0).dashed());
@@ -117,11 +130,11 @@ fn flat(drawing: &mut Drawing, o: Point, length: f64) {
     drawing.label(tip(h, 1.36), style::LETTER, style::HALF, "*h*");
     let below = |dy: f64| o + Point::new(0.0, dy);
     drawing.heading(below(76.0), "in the plane of *n* and *l*");
-    drawing.note(below(100.0), "*β* = *φ*/2, exactly");
+    drawing.note(below(100.0), &format!("*θ* = {theta}°: *β* = *φ*/2, exactly"));
 }
 
 /// The same with the eye across the plane of incidence, seen aslant from above.
-fn solid(drawing: &mut Drawing, o: Point, length: f64) {
+fn solid(drawing: &mut Drawing, o: Point, length: f64, theta: f64) {
     // x comes forward to the right, y goes up, z back to the right.
     let place = |v: Vec3| {
         let v = v.as_dvec3();
@@ -132,7 +145,6 @@ fn solid(drawing: &mut Drawing, o: Point, length: f64) {
     let floor = [corner(-0.75, -0.75), corner(0.8, -0.75), corner(0.8, 0.75), corner(-0.75, 0.75)];
     let edge = Some(Stroke::new(style::SURFACE, style::LINE));
     drawing.shape(Path::polygon(floor), Some(style::BODY), edge);
-    let theta = 48.0;
     let l = unit(90.0 + theta);
     let r = Dir3::Y.mirror(l).to_vec();
     let (sin, cos) = wide::sin_cos(52.0_f64.to_radians());
@@ -159,6 +171,9 @@ fn solid(drawing: &mut Drawing, o: Point, length: f64) {
     // Between r and e there is no room for a letter.
     let below_e = place(0.55 * e.to_vec()) + Point::new(9.0, 13.0);
     drawing.label(below_e, 18.0, style::TEXT, "*φ*");
+    let middle = arc(drawing, l.to_vec(), Vec3::Y, 0.36, style::LIGHT);
+    let beyond_arc = middle + 13.0 * (middle - o).normalize_or_zero();
+    drawing.label(beyond_arc, 18.0, style::LIGHT, "*θ*");
     let middle = arc(drawing, Vec3::Y, h, 0.74, style::HALF);
     let above = middle + 14.0 * (middle - o).normalize_or_zero();
     drawing.label(above, 18.0, style::HALF, "*β*");
@@ -172,7 +187,7 @@ fn solid(drawing: &mut Drawing, o: Point, length: f64) {
     let below = |dy: f64| Point::new(o.x, o.y + dy);
     drawing.heading(below(108.0), "across it");
     let limit = fixed(0.5 / wide::cos(theta.to_radians()), 3);
-    drawing.note(below(132.0), &format!("*β* about {limit} *φ*"));
+    drawing.note(below(132.0), &format!("*θ* = {theta}°: *β* about {limit} *φ*"));
 }
 
 #[cfg(test)]
@@ -182,7 +197,7 @@ mod tests {
     #[test]
     fn beta_is_half_of_phi_in_the_plane_of_incidence_only() {
         let [in_5, across_5, in_20, across_20, in_40, across_40, limit] =
-            draw(Finish::Draft).values();
+            draw(Setting::DRAFT).values();
         for ratio in [in_5, in_20, in_40] {
             assert!((ratio - 0.5).abs() < 2e-6, "{ratio}");
         }

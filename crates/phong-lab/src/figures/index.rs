@@ -19,14 +19,22 @@ a { color: #0066a8; }
 .equation { font-size: 1.25rem; }
 ";
 
+const DARK: &str = "\
+body { color: #e4e8ec; background: #15181c; }
+svg { border-color: #3a424c; }
+nav, .files { color: #9aa5b1; }
+a { color: #5cb3f0; }
+";
+
 /// A self-contained HTML page: each figure with its equation, its sentence and its numbers.
 ///
 /// It links to `NAME.svg` and `NAME.png` beside it, and shows all there is without them.
 pub fn page(figures: &[Figure]) -> String {
+    let dark = if figures.iter().any(|figure| figure.dark) { DARK } else { "" };
     let mut out = format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width\">\n\
-         <title>The figures of the Phong reflection model</title>\n<style>\n{}{STYLE}</style>\n\
+         <title>The figures of the Phong reflection model</title>\n<style>\n{}{STYLE}{dark}</style>\n\
          </head>\n<body>\n<h1>The figures of the Phong reflection model</h1>\n\
          <p>Everything here was drawn, rendered and measured by <code>phong figure all</code>.</p>\n",
         svg::font_faces()
@@ -42,7 +50,7 @@ pub fn page(figures: &[Figure]) -> String {
 }
 
 fn section(out: &mut String, figure: &Figure) {
-    let Figure { name, plate } = figure;
+    let Figure { name, plate, .. } = figure;
     let _ = write!(
         out,
         "<section id=\"{name}\">\n<h2>{}</h2>\n<p class=\"equation\">{}</p>\n{}<p>{}</p>\n<table>\n",

@@ -5,17 +5,17 @@ mod experiment;
 use phong::math::{Dir3, wide};
 
 use super::drawing::Drawing;
-use super::mark::{Anchor, Ink, Path, Point, Stroke, heading};
+use super::mark::{Anchor, Path, Point, Stroke, heading};
 use super::plot::{Plot, fixed, ticks};
 use super::symbols::{drawn, surface, unit};
-use super::{Finish, Number, Plate, style};
+use super::{Number, Plate, Setting, style};
 use experiment::{BANDS, Experiment, RANGE, THETA, Tally, facet_slope, lobe};
 
 const TITLE: &str = "Microfacets";
 const EQUATION: &str = "*D*(*h*) / (4 *n*·*l*)";
 
-pub(super) fn draw(_: Finish) -> Plate {
-    let experiment = Experiment::new();
+pub(super) fn draw(setting: Setting) -> Plate {
+    let experiment = Experiment::new(setting.theta_or(THETA));
     let errors: Vec<(u32, f64)> =
         COUNTS.iter().map(|&count| (count, experiment.error(count))).collect();
     let many = experiment.tally(MANY, 0);
@@ -59,15 +59,15 @@ fn slope(points: &[(u32, f64)]) -> f64 {
 fn drawing(experiment: &Experiment, many: &Tally, errors: &[(u32, f64)]) -> Drawing {
     let mut drawing = Drawing::slide();
     drawing.header(TITLE, EQUATION);
-    afar(&mut drawing, Point::new(236.0, 262.0), 150.0);
-    mirrors(&mut drawing, Point::new(40.0, 448.0), 400.0);
+    afar(&mut drawing, Point::new(236.0, 262.0), 150.0, experiment.theta());
+    mirrors(&mut drawing, Point::new(40.0, 448.0), 400.0, experiment.theta());
     histogram(&mut drawing, experiment, many);
     convergence(&mut drawing, errors);
     drawing
 }
 
 /// A cut through a surface of tiny mirrors, and what each does with the same light.
-fn mirrors(drawing: &mut Drawing, left: Point, width: f64) {
+fn mirrors(drawing: &mut Drawing, left: Point, width: f64, theta: f64) {
     let count = 16;
     let step = width / f64::from(count);
     let mut profile = vec![left];
@@ -84,34 +84,56 @@ fn mirrors(drawing: &mut Drawing, left: Point, width: f64) {
     let mut body = profile.clone();
     body.extend([Point::new(left.x + width, bottom), Point::new(left.x, bottom)]);
     drawing.fill(Path::polygon(body), style::BODY);
-    let l = unit(90.0 + THETA);
-    for facet in profile.windows(2).skip(1).step_by(2) {
+    let l = unit(90.0 + theta);
+    // A ray that a neighbour stops is none of the lobe's: its facet is passed over.
+    let free = |from: Point, to: Point| {
+        profile.windows(2).all(|facet| !crosses([from, to], [facet[0], facet[1]]))
+    };
+    let mut wait = 1;
+    for facet in profile.windows(2) {
+        if wait > 0 {
+            wait -= 1;
+            continue;
+        }
         let along = (facet[1] - facet[0]).normalize_or_zero();
         let Some(m) = Dir3::new(glam::Vec3::new(along.y as f32, along.x as f32, 0.0)) else {
             continue;
         };
         let middle = 0.5 * (facet[0] + facet[1]);
-        drawing.arrow(middle + 62.0 * drawn(l.to_vec()), middle, style::LIGHT.fade(0.8), 1.3);
-        let out = m.mirror(l).to_vec();
-        drawing.arrow(middle, middle + 74.0 * drawn(out), style::MIRROR, 1.6);
+        let (towards, out) = (drawn(l.to_vec()), drawn(m.mirror(l).to_vec()));
+        let ends = [62.0 * towards, 74.0 * out].map(|end| middle + end);
+        // From just above the facet itself.
+        let starts = [0.5 * towards, 0.5 * out].map(|start| middle + start);
+        if out.y > -0.08 || !free(starts[0], ends[0]) || !free(starts[1], ends[1]) {
+            continue;
+        }
+        drawing.arrow(ends[0], middle, style::LIGHT.fade(0.8), 1.3);
+        drawing.arrow(middle, ends[1], style::MIRROR, 1.6);
+        wait = 1;
     }
     drawing.stroke(Path::polyline(profile), Stroke::new(style::SURFACE, 2.4));
     let under = left + Point::new(0.5 * width, 68.0);
     drawing.note(under, "close up: tiny mirrors, their slopes drawn from *D*");
 }
 
+/// Whether two straight lines between points cross.
+fn crosses([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
+    let side = |p: Point, q: Point, r: Point| (q - p).perp_dot(r - p);
+    side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0
+}
+
 /// The same surface from afar, with the lobe of its reflections.
-fn afar(drawing: &mut Drawing, o: Point, length: f64) {
+fn afar(drawing: &mut Drawing, o: Point, length: f64, theta: f64) {
     surface(drawing, o, 180.0);
-    let peak = (0..=180).map(|psi| lobe(f64::from(psi) - 90.0)).fold(0.0, f64::max);
-    let tip = |psi: f64| o + 1.1 * length * lobe(psi) / peak * heading(90.0 - psi);
-    let petal = Path::polygon((0..=90).map(|step| tip(2.0 * f64::from(step) - 90.0)));
+    let peak = (0..=180).map(|psi| lobe(theta, f64::from(psi) - 90.0)).fold(0.0, f64::max);
+    let tip = |psi: f64| o + 1.1 * length * lobe(theta, psi) / peak * heading(90.0 - psi);
+    let petal = Path::polygon((0..=720).map(|step| tip(0.25 * f64::from(step) - 90.0)));
     let edge = Some(Stroke::new(style::NORMAL, style::CURVE));
     drawing.shape(petal, Some(style::NORMAL.fade(0.15)), edge);
     let place = |degrees: f64| o + length * heading(degrees);
     drawing.vector(o, place(90.0), style::NORMAL, "*n*");
-    drawing.vector(o, place(90.0 + THETA), style::LIGHT, "*l*");
-    let r = place(90.0 - THETA);
+    drawing.vector(o, place(90.0 + theta), style::LIGHT, "*l*");
+    let r = place(90.0 - theta);
     drawing.line(o, r + 0.25 * (r - o), Stroke::new(style::MIRROR, 2.0).dashed());
     drawing.label(r + 0.35 * (r - o), style::LETTER, style::MIRROR, "*r*");
     drawing.note(o + Point::new(0.0, 46.0), "from afar: a surface with a lobe");
@@ -141,15 +163,14 @@ fn histogram(drawing: &mut Drawing, experiment: &Experiment, many: &Tally) {
         let bar = bar.map(|(x, y)| plot.at(psi(band + x), y.min(top)));
         drawing.fill(Path::polygon(bar), style::MIRROR.fade(0.35));
     }
-    let line = |drawing: &mut Drawing, values: &[f64], ink: Ink, dashed: bool| {
-        let points =
-            values.iter().enumerate().map(|(band, &y)| plot.at(psi(band as f64 + 0.5), y.min(top)));
-        let stroke = Stroke::new(ink, style::CURVE);
-        let stroke = if dashed { stroke.dashed() } else { stroke };
-        drawing.stroke(Path::polyline(points), stroke);
-    };
-    line(drawing, &experiment.lobe, style::NORMAL, false);
-    line(drawing, &many.plain, style::MUTED, true);
+    // Counts are steps, a band each; the lobe is a curve.
+    let steps =
+        many.plain.iter().enumerate().flat_map(|(band, &y)| {
+            [0.0, 1.0].map(|side| plot.at(psi(band as f64 + side), y.min(top)))
+        });
+    drawing.stroke(Path::polyline(steps), Stroke::new(style::MUTED, style::LINE));
+    let curve = Stroke::new(style::NORMAL, style::CURVE);
+    plot.curve(drawing, RANGE, 300, |psi| experiment.smooth(psi).min(top), curve);
     let words = [
         (style::NORMAL, "*D*(*h*) / (4 *n*·*l*)"),
         (style::MIRROR, "facets, by the light"),
@@ -191,7 +212,7 @@ mod tests {
 
     #[test]
     fn weighted_facets_converge_to_the_lobe_as_one_over_root_n_and_plain_ones_do_not() {
-        let [first, .., last, slope, weighted, plain] = draw(Finish::Draft).values::<7>();
+        let [first, .., last, slope, weighted, plain] = draw(Setting::DRAFT).values::<7>();
         assert!(last < 0.05 * first, "{first} {last}");
         assert!((slope + 0.5).abs() < 0.05, "{slope}");
         assert!(weighted < 0.01, "{weighted}");

@@ -1,6 +1,6 @@
 //! The lecture's figures: each drawn from the renderer's own functions, with the numbers it shows.
 //!
-//! A figure is a function of its finish alone: it renders, measures and draws the same bytes every
+//! A figure is a function of its setting alone: it renders, measures and draws the same bytes every
 //! time, on any number of threads.
 //! [`CATALOGUE`] lists them in the lecture's order.
 //!
@@ -24,11 +24,15 @@ mod index;
 mod mark;
 mod microfacets;
 mod normal;
+mod peak;
 mod plot;
 mod raster;
 mod reflection;
+mod scattering;
+mod shading;
 mod shininess;
 mod specular;
+mod speed;
 mod stage;
 mod style;
 mod svg;
@@ -38,7 +42,10 @@ mod text;
 mod vectors;
 
 use drawing::Drawing;
+use phong_scene::Rgb;
+
 pub use index::page;
+pub(crate) use raster::{Lettering, lettering};
 
 /// A figure that can be drawn.
 #[derive(Clone, Copy, Debug)]
@@ -47,54 +54,92 @@ pub struct Entry {
     pub name: &'static str,
     /// What it shows, in a line.
     pub line: &'static str,
-    draw: fn(Finish) -> Plate,
+    /// What can be set of it, beside dark paper, which all can have.
+    pub takes: &'static [Parameter],
+    draw: fn(Setting) -> Plate,
 }
 
 /// All figures, in the lecture's order.
-pub const CATALOGUE: [Entry; 14] = [
-    Entry { name: "normal", line: "the normal of a sphere, n = p − c", draw: normal::draw },
-    Entry {
-        name: "vectors",
-        line: "to the eye, and to distant and point lights",
-        draw: vectors::draw,
-    },
-    Entry { name: "ambient", line: "the ambient term: flat", draw: ambient::draw },
-    Entry {
-        name: "diffuse",
-        line: "the diffuse term: from light to dark, wherever the eye is",
-        draw: diffuse::draw,
-    },
-    Entry {
-        name: "cosine",
-        line: "Lambert’s law: why the diffuse term is a cosine",
-        draw: cosine::draw,
-    },
-    Entry {
-        name: "specular",
-        line: "the specular term: a highlight that moves with the eye",
-        draw: specular::draw,
-    },
-    Entry {
-        name: "reflection",
-        line: "the reflected vector, constructed, and the trap of its sign",
-        draw: reflection::draw,
-    },
-    Entry { name: "shininess", line: "cos(x)^i for i = 1, 2, 4, 8, 16, 32", draw: shininess::draw },
-    Entry { name: "grid", line: "specular coefficient against shininess", draw: grid::draw },
-    Entry { name: "halfway", line: "the halfway vector, and β against φ", draw: halfway::draw },
-    Entry {
-        name: "blinn",
-        line: "Phong and Blinn–Phong, in and across the plane of incidence",
-        draw: blinn::draw,
-    },
-    Entry { name: "terms", line: "ambient + diffuse + specular = Phong", draw: terms::draw },
-    Entry { name: "examples", line: "the model at work: four scenes", draw: examples::draw },
-    Entry {
-        name: "microfacets",
-        line: "tiny mirrors, and the lobe they add up to",
-        draw: microfacets::draw,
-    },
+pub const CATALOGUE: [Entry; 18] = [
+    entry("normal", "the normal of a sphere, n = p − c", &[Parameter::Color], normal::draw),
+    entry("vectors", "to the eye, and to distant and point lights", &[], vectors::draw),
+    entry("shading", "the three vectors at a point of a ball: n, l and e", &[], shading::draw),
+    entry("ambient", "the ambient term: flat", &[Parameter::Color], ambient::draw),
+    entry(
+        "diffuse",
+        "the diffuse term: from light to dark, wherever the eye is",
+        &[Parameter::Color],
+        diffuse::draw,
+    ),
+    entry(
+        "scattering",
+        "rough surfaces scatter equally, smooth ones mirror",
+        &[Parameter::Theta],
+        scattering::draw,
+    ),
+    entry(
+        "cosine",
+        "Lambert’s law: why the diffuse term is a cosine",
+        &[Parameter::Theta],
+        cosine::draw,
+    ),
+    entry(
+        "specular",
+        "the specular term: a highlight that moves with the eye",
+        &[Parameter::Alpha, Parameter::Color],
+        specular::draw,
+    ),
+    entry(
+        "reflection",
+        "the reflected vector, constructed, and the trap of its sign",
+        &[Parameter::Theta],
+        reflection::draw,
+    ),
+    entry("shininess", "cos(x)^i for i = 1, 2, 4, 8, 16, 32", &[], shininess::draw),
+    entry("grid", "specular coefficient against shininess", &[Parameter::Color], grid::draw),
+    entry("halfway", "the halfway vector, and β against φ", &[Parameter::Theta], halfway::draw),
+    entry("peak", "why n = h is brightest", &[Parameter::Theta, Parameter::Alpha], peak::draw),
+    entry("speed", "what the speed hack saved", &[], speed::draw),
+    entry(
+        "blinn",
+        "Phong and Blinn–Phong, in and across the plane of incidence",
+        &[Parameter::Theta, Parameter::Alpha, Parameter::Color],
+        blinn::draw,
+    ),
+    entry(
+        "terms",
+        "ambient + diffuse + specular = Phong",
+        &[Parameter::Alpha, Parameter::Color],
+        terms::draw,
+    ),
+    entry("examples", "the model at work: four scenes", &[], examples::draw),
+    entry(
+        "microfacets",
+        "tiny mirrors, and the lobe they add up to",
+        &[Parameter::Theta],
+        microfacets::draw,
+    ),
 ];
+
+const fn entry(
+    name: &'static str,
+    line: &'static str,
+    takes: &'static [Parameter],
+    draw: fn(Setting) -> Plate,
+) -> Entry {
+    Entry { name, line, takes, draw }
+}
+
+/// What can be set of a figure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Parameter {
+    /// The angle of incidence.
+    Theta,
+    /// The shininess.
+    Alpha,
+    /// The colour of the ball.
+    Color,
+}
 
 /// The figure of that name.
 pub fn find(name: &str) -> Option<&'static Entry> {
@@ -102,9 +147,21 @@ pub fn find(name: &str) -> Option<&'static Entry> {
 }
 
 impl Entry {
-    /// Renders, measures and draws, in the current rayon pool.
-    pub fn draw(&self, finish: Finish) -> Figure {
-        Figure { name: self.name, plate: (self.draw)(finish) }
+    /// Renders, measures and draws, in the current rayon pool. What the figure does not take of the
+    /// setting is as if it were not set.
+    pub fn draw(&self, setting: impl Into<Setting>) -> Figure {
+        let setting = setting.into();
+        let takes = |parameter| self.takes.contains(&parameter);
+        let mut plate = (self.draw)(Setting {
+            theta: setting.theta.filter(|_| takes(Parameter::Theta)),
+            alpha: setting.alpha.filter(|_| takes(Parameter::Alpha)),
+            color: setting.color.filter(|_| takes(Parameter::Color)),
+            ..setting
+        });
+        if setting.dark {
+            plate.drawing = plate.drawing.on_dark();
+        }
+        Figure { name: self.name, dark: setting.dark, plate }
     }
 }
 
@@ -117,11 +174,48 @@ pub enum Finish {
     Slide,
 }
 
+/// How a figure is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Setting {
+    /// How much work goes into the rendered parts.
+    pub finish: Finish,
+    /// The angle of incidence, degrees in [5, 80]; `None`: the figure's own.
+    pub theta: Option<f64>,
+    /// The shininess, in [1, 1000]; `None`: the figure's own.
+    pub alpha: Option<f64>,
+    /// The colour of the ball, linear, not black; `None`: blue.
+    pub color: Option<Rgb>,
+    /// Whether the paper is dark.
+    pub dark: bool,
+}
+
+impl From<Finish> for Setting {
+    fn from(finish: Finish) -> Self {
+        Self { finish, theta: None, alpha: None, color: None, dark: false }
+    }
+}
+
+impl Setting {
+    /// What the figures' own tests draw.
+    #[cfg(test)]
+    const DRAFT: Self =
+        Self { finish: Finish::Draft, theta: None, alpha: None, color: None, dark: false };
+
+    fn theta_or(self, own: f64) -> f64 {
+        self.theta.unwrap_or(own)
+    }
+
+    fn alpha_or(self, own: f64) -> f64 {
+        self.alpha.unwrap_or(own)
+    }
+}
+
 /// A figure, drawn.
 #[derive(Clone, Debug)]
 pub struct Figure {
     /// What it is asked for by.
     pub name: &'static str,
+    dark: bool,
     plate: Plate,
 }
 
@@ -237,6 +331,28 @@ mod tests {
         assert!(page.contains("<th>half width, i = 8</th><td>23.508°</td>"));
         let addresses = page.matches("http").count();
         assert_eq!(addresses, page.matches("http://www.w3.org/2000/svg").count());
+    }
+
+    #[test]
+    fn a_figure_takes_what_it_says_and_nothing_else() {
+        let set = Setting {
+            theta: Some(35.0),
+            alpha: Some(50.0),
+            color: Some(Rgb::new(0.8, 0.2, 0.1)),
+            ..Setting::DRAFT
+        };
+        for entry in CATALOGUE {
+            let differs = entry.draw(set).svg() != entry.draw(Finish::Draft).svg();
+            assert_eq!(differs, !entry.takes.is_empty(), "{}", entry.name);
+        }
+    }
+
+    #[test]
+    fn dark_paper_is_dark_and_has_the_same_numbers() {
+        let entry = find("cosine").unwrap();
+        let dark = entry.draw(Setting { dark: true, ..Setting::DRAFT });
+        assert!(dark.svg().contains("#15181c") && !dark.svg().contains("fill=\"#ffffff\""));
+        assert_eq!(dark.numbers(), entry.draw(Finish::Draft).numbers());
     }
 
     #[test]

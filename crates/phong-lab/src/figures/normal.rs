@@ -8,13 +8,15 @@ use phong_scene::{ConstantMaterial, Rgb, Scene};
 use super::drawing::Drawing;
 use super::mark::{Anchor, Path, Point, Stroke, heading};
 use super::stage::{self, Spot, ball, distant, plastic};
-use super::{Finish, Number, Plate, style};
+use super::{Number, Plate, Setting, style};
 
+/// The direction to the light.
+const TO_LIGHT: DVec3 = DVec3::new(-0.5, 0.8, 1.0);
 const TITLE: &str = "The normal of a sphere";
 const EQUATION: &str = "*n* = (*p* − *c*) / ‖*p* − *c*‖";
 
-pub(super) fn draw(finish: Finish) -> Plate {
-    let spots = stage::spots(&stage::measured(&scene()));
+pub(super) fn draw(setting: Setting) -> Plate {
+    let spots = stage::spots(&stage::measured(&scene(setting)));
     let apart = spots.iter().map(|spot| {
         let from_center = spot.p.as_dvec3().normalize_or_zero(); // c is the origin
         from_center.distance(spot.n.as_dvec3())
@@ -30,23 +32,29 @@ pub(super) fn draw(finish: Finish) -> Plate {
         equation: EQUATION,
         caption: "The normal at a point p of a sphere points from its centre c to p; divided by \
                   its length, the radius, it is a unit vector.",
-        drawing: drawing(&spots, finish),
+        drawing: drawing(&spots, setting),
         numbers,
     }
 }
 
-fn scene() -> Scene {
-    let clay =
-        ConstantMaterial { color: Rgb::grey(0.72), k_s: 0.0, k_d: 0.75, k_a: 0.3, ..plastic() };
-    ball(clay, vec![distant(DVec3::new(-0.5, 0.8, 1.0), 0.8)], DVec3::Z)
+fn scene(setting: Setting) -> Scene {
+    let clay = ConstantMaterial {
+        color: Rgb::grey(0.72),
+        k_s: 0.0,
+        k_d: 0.75,
+        k_a: 0.3,
+        ..plastic(setting)
+    };
+    ball(clay, vec![distant(TO_LIGHT, 0.8)], DVec3::Z)
 }
 
-fn drawing(spots: &[Spot], finish: Finish) -> Drawing {
+fn drawing(spots: &[Spot], setting: Setting) -> Drawing {
     let mut drawing = Drawing::slide();
     drawing.header(TITLE, EQUATION);
     let (at, size) = (Point::new(90.0, 142.0), 300.0);
-    let film = stage::shown(&scene(), Point::splat(size), finish);
+    let film = stage::shown(&scene(setting), Point::splat(size), setting);
     drawing.image(at, Point::splat(size), stage::bitmap(&film, &[LayerKind::Picture]));
+    stage::light_from(&mut drawing, TO_LIGHT, DVec3::Z, at, size);
     for target in hedgehog() {
         let nearest = spots
             .iter()
@@ -113,7 +121,7 @@ mod tests {
 
     #[test]
     fn the_rendered_normals_point_from_the_centre_to_the_point() {
-        let [apart, length, pixels] = draw(Finish::Draft).values();
+        let [apart, length, pixels] = draw(Setting::DRAFT).values();
         assert!(apart < 5e-7 && length < 3e-7, "{apart} {length}");
         assert!(pixels > 10_000.0);
     }

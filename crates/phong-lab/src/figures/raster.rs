@@ -6,7 +6,7 @@ use tiny_skia::{
 };
 
 use super::drawing::Drawing;
-use super::mark::{Bitmap, Ink, Mark, Path, Point, Step, Stroke, Text};
+use super::mark::{Anchor, Bitmap, Ink, Mark, Path, Point, Run, Script, Step, Stroke, Text};
 use super::style;
 use super::text::Faces;
 
@@ -26,7 +26,7 @@ fn paint(drawing: &Drawing) -> Bitmap {
         pixels: Pixmap::new(width.max(1), height.max(1)).expect("a canvas of moderate size"),
         faces: Faces::new(),
     };
-    canvas.pixels.fill(color(style::PAPER));
+    canvas.pixels.fill(color(drawing.paper));
     for mark in &drawing.marks {
         match mark {
             Mark::Shape { path, fill, stroke } => canvas.shape(path, *fill, *stroke),
@@ -35,6 +35,36 @@ fn paint(drawing: &Drawing) -> Bitmap {
         }
     }
     Bitmap { width, height, rgba: canvas.pixels.take_demultiplied() }
+}
+
+/// A line of text as pixels: how much of each its letters cover.
+pub(crate) struct Lettering {
+    /// Width in pixels.
+    pub(crate) width: usize,
+    /// From 0 to 1, rows from the top.
+    pub(crate) coverage: Vec<f32>,
+}
+
+/// Words in the figures' face, with letters `size` pixels high.
+pub(crate) fn lettering(words: &str, size: f64) -> Lettering {
+    let faces = Faces::new();
+    let line = Text {
+        at: Point::new(0.0, size.round()),
+        anchor: Anchor::Start,
+        size,
+        ink: style::TEXT,
+        bold: false,
+        upright: false,
+        runs: vec![Run { words: words.to_owned(), italic: false, script: Script::Line }],
+    };
+    let [_, right] = faces.extent(&line);
+    let (width, height) = (right.ceil().max(1.0) as u32, (1.3 * size).ceil() as u32);
+    let pixels = Pixmap::new(width, height).expect("a line of text is small");
+    let mut canvas = Canvas { pixels, faces };
+    let outline = canvas.faces.outline(&line.runs, line.at, size, false);
+    canvas.transformed(&outline, Some(line.ink), None, Transform::identity());
+    let coverage = canvas.pixels.pixels().iter().map(|p| f32::from(p.alpha()) / 255.0).collect();
+    Lettering { width: width as usize, coverage }
 }
 
 struct Canvas {

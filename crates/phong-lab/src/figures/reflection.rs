@@ -6,7 +6,7 @@ use super::drawing::Drawing;
 use super::mark::{Anchor, Ink, Point, Stroke};
 use super::plot::fixed;
 use super::symbols::{drawn, surface, unit};
-use super::{Finish, Number, Plate, style};
+use super::{Number, Plate, Setting, style};
 
 const TITLE: &str = "The reflected vector";
 const EQUATION: &str = "*r* = 2(*l*·*n*)*n* − *l*";
@@ -17,8 +17,9 @@ const EYE: f64 = 31.0;
 /// Exponents of the table: an even one hides the wrong sign, odd ones show it.
 const EXPONENTS: [f64; 3] = [2.0, 3.0, 9.0];
 
-pub(super) fn draw(_: Finish) -> Plate {
-    let (n, l, e) = (Dir3::Y, unit(LIGHT), unit(EYE));
+pub(super) fn draw(setting: Setting) -> Plate {
+    let light = 90.0 + setting.theta_or(LIGHT - 90.0);
+    let (n, l, e) = (Dir3::Y, unit(light), unit(EYE));
     let (r, wrong) = (n.mirror(l), reflect(l, n));
     let mut numbers = vec![
         Number::new("l·n", l.dot(n).into(), ""),
@@ -37,21 +38,21 @@ pub(super) fn draw(_: Finish) -> Plate {
         caption: "l and r add up to twice the projection of l on n; l − 2(l·n)n is −r, points \
                   into the surface, and gives no highlight, or by an even exponent a false one.",
         numbers,
-        drawing: drawing(n, l, e),
+        drawing: drawing(light, [n, l, e]),
     }
 }
 
-fn drawing(n: Dir3, l: Dir3, e: Dir3) -> Drawing {
+fn drawing(light: f64, [n, l, e]: [Dir3; 3]) -> Drawing {
     let mut drawing = Drawing::slide();
     drawing.header(TITLE, EQUATION);
-    construct(&mut drawing, Point::new(292.0, 440.0), 212.0, [n, l, e]);
+    construct(&mut drawing, Point::new(292.0, 440.0), 212.0, light, [n, l, e]);
     trap(&mut drawing, Point::new(762.0, 226.0), 104.0, [n, l, e]);
     table(&mut drawing, n.mirror(l), reflect(l, n), e);
     drawing
 }
 
 /// The parallelogram of l, r and 2(l·n)n.
-fn construct(drawing: &mut Drawing, o: Point, unit: f64, [n, l, e]: [Dir3; 3]) {
+fn construct(drawing: &mut Drawing, o: Point, unit: f64, light: f64, [n, l, e]: [Dir3; 3]) {
     surface(drawing, o, 240.0);
     let r = n.mirror(l);
     let tip = |v: Dir3| o + unit * drawn(v.to_vec());
@@ -64,9 +65,9 @@ fn construct(drawing: &mut Drawing, o: Point, unit: f64, [n, l, e]: [Dir3; 3]) {
     drawing.arrow(whole, tip(r), style::LIGHT.fade(0.6), 2.0);
     drawing.line(o, whole, dashed(style::NORMAL));
 
-    let [phi_from, phi_to] = [EYE, 180.0 - LIGHT];
-    drawing.angle(o, 62.0, [90.0, LIGHT], style::TEXT, "*θ*");
-    drawing.angle(o, 62.0, [180.0 - LIGHT, 90.0], style::TEXT, "*θ*");
+    let [phi_from, phi_to] = [EYE, 180.0 - light];
+    drawing.angle(o, 62.0, [90.0, light], style::TEXT, "*θ*");
+    drawing.angle(o, 62.0, [180.0 - light, 90.0], style::TEXT, "*θ*");
     drawing.angle(o, 108.0, [phi_from, phi_to], style::TEXT, "*φ*");
     drawing.vector(o, tip(l), style::LIGHT, "*l*");
     drawing.vector(o, tip(e), style::EYE, "*e*");
@@ -131,7 +132,7 @@ mod tests {
 
     #[test]
     fn the_wrong_sign_survives_an_even_exponent_and_no_other() {
-        let numbers = draw(Finish::Draft).numbers;
+        let numbers = draw(Setting::DRAFT).numbers;
         let value = |name: &str| numbers.iter().find(|n| n.name == name).unwrap().value;
         assert_eq!(value("l·n"), value("r·n"));
         assert_eq!(value("(r·e)^2"), value("wrong sign, power 2"));

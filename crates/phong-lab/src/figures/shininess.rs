@@ -5,7 +5,7 @@ use phong::math::{lobe, wide};
 use super::drawing::Drawing;
 use super::mark::{Anchor, Path, Point, Stroke};
 use super::plot::{Plot, fixed, ticks};
-use super::{Finish, Number, Plate, style};
+use super::{Number, Plate, Setting, style};
 
 const TITLE: &str = "Shininess";
 const EQUATION: &str = "cos(*x*)^{*i*}";
@@ -13,7 +13,7 @@ const EQUATION: &str = "cos(*x*)^{*i*}";
 /// The lecture's exponents.
 const EXPONENTS: [u32; 6] = [1, 2, 4, 8, 16, 32];
 
-pub(super) fn draw(_: Finish) -> Plate {
+pub(super) fn draw(_: Setting) -> Plate {
     let half_widths = EXPONENTS.map(|i| half_width(|degrees| falloff(degrees, i)));
     let numbers = EXPONENTS
         .iter()
@@ -66,7 +66,7 @@ fn drawing(half_widths: &[f64; 6]) -> Drawing {
     let half = Stroke::new(style::MIRROR, style::LINE).dashed();
     drawing.line(plot.at(-90.0, 0.5), plot.at(90.0, 0.5), half);
 
-    let shades = style::shades(EXPONENTS.len());
+    let shades = style::FAMILY;
     for (&i, &shade) in EXPONENTS.iter().zip(&shades) {
         let stroke = Stroke::new(shade, style::CURVE);
         plot.curve(&mut drawing, [-90.0, 90.0], 180, |x| falloff(x, i), stroke);
@@ -100,7 +100,7 @@ mod tests {
     #[test]
     fn the_half_widths_are_those_of_the_closed_form() {
         let expected = [60.0, 45.0, 32.7651, 23.5081, 16.7437, 11.8825];
-        let numbers = draw(Finish::Draft).numbers;
+        let numbers = draw(Setting::DRAFT).numbers;
         for ((i, number), degrees) in EXPONENTS.iter().zip(&numbers).zip(expected) {
             assert_eq!(number.name, format!("half width, i = {i}"));
             assert!((number.value - degrees).abs() < 1e-4, "{number:?}");

@@ -11,9 +11,10 @@ use phong_scene::{
     Place, Rgb, Scene, Shape, srgb_encode,
 };
 
-use super::Finish;
+use super::drawing::Drawing;
 use super::mark::{Bitmap, Point};
-use super::raster;
+use super::symbols::lamp;
+use super::{Finish, Setting, raster, style};
 
 /// Edge of the square pictures that numbers are measured on, pixels.
 const MEASURED: u32 = 160;
@@ -25,15 +26,35 @@ pub(super) const AMBIENT: LayerKind = LayerKind::Term(Term::Ambient);
 pub(super) const DIFFUSE: LayerKind = LayerKind::Term(Term::Diffuse);
 pub(super) const SPECULAR: LayerKind = LayerKind::Term(Term::Specular);
 
-/// The blue plastic of the balls.
-pub(super) fn plastic() -> ConstantMaterial {
+/// The plastic of the balls: blue, unless the setting says otherwise.
+pub(super) fn plastic(setting: Setting) -> ConstantMaterial {
     ConstantMaterial {
-        color: Rgb::from_srgb8([0x3d, 0x84, 0xd6]),
+        color: setting.color.unwrap_or(Rgb::from_srgb8([0x3d, 0x84, 0xd6])),
         k_a: 0.2,
         k_d: 0.8,
         k_s: 0.6,
-        shininess: 24.0,
+        shininess: setting.alpha_or(24.0) as f32,
         ..ConstantMaterial::default()
+    }
+}
+
+/// The channel in which the plastic is brightest, and what it is called.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Channel(usize);
+
+impl Channel {
+    pub(super) fn of(setting: Setting) -> Self {
+        let color = plastic(setting).color.to_array();
+        let brightest = (0..3).rev().max_by(|&a, &b| color[a].total_cmp(&color[b]));
+        Self(brightest.unwrap_or(2))
+    }
+
+    pub(super) fn name(self) -> &'static str {
+        ["red", "green", "blue"][self.0]
+    }
+
+    pub(super) fn value(self, color: Rgb) -> f64 {
+        f64::from(color.to_array()[self.0])
     }
 }
 
@@ -88,8 +109,8 @@ pub(super) fn object(shape: Shape, material: u32) -> Object {
 }
 
 /// The scene as the figure shows it, `size` units large.
-pub(super) fn shown(scene: &Scene, size: Point, finish: Finish) -> Film {
-    let (scale, samples) = match finish {
+pub(super) fn shown(scene: &Scene, size: Point, setting: Setting) -> Film {
+    let (scale, samples) = match setting.finish {
         Finish::Draft => (1.0, 1),
         Finish::Slide => (raster::SCALE, 16),
     };
@@ -126,6 +147,22 @@ pub(super) fn seen(p: DVec3, eye: DVec3, at: Point, size: f64) -> Point {
     let right = (-eye).cross(DVec3::Y).normalize_or_zero();
     let up = right.cross(-eye).normalize_or_zero();
     at + Point::splat(0.5 * size) + size / VIEW * Point::new(p.dot(right), -p.dot(up))
+}
+
+/// Draws, beside a picture of a ball, a lamp where its light comes from and the way it shines. Light
+/// from behind the eye has no way on paper; then there is no arrow.
+pub(super) fn light_from(drawing: &mut Drawing, to_light: DVec3, eye: DVec3, at: Point, size: f64) {
+    let center = at + Point::splat(0.5 * size);
+    let across = seen(to_light.normalize_or_zero(), eye, at, size) - center;
+    let (way, share) = (across.normalize_or_zero(), across.length() * VIEW / size);
+    if share < 0.1 {
+        return;
+    }
+    // The ball's edge is 0.48 of the picture from its middle.
+    let edge = center + 0.5 * size * way;
+    lamp(drawing, edge + 17.0 * way, 4.5);
+    let tip = edge - 0.34 * size * share * way;
+    drawing.arrow(edge + 5.0 * way, tip, style::LIGHT, 2.0);
 }
 
 /// A pixel of a measured ball.

@@ -56,6 +56,36 @@ pub(super) const LINE: f64 = 1.4;
 /// A guide, a tick.
 pub(super) const THIN: f64 = 1.0;
 
+/// Six colours that stay apart, for six curves in one plot; Okabe and Ito's, darkened for white.
+pub(super) const FAMILY: [Ink; 6] = [
+    Ink::rgb(0x1f, 0x24, 0x2b),
+    Ink::rgb(0x9b, 0x3d, 0x83),
+    Ink::rgb(0x00, 0x66, 0xa8),
+    Ink::rgb(0x00, 0x83, 0x60),
+    Ink::rgb(0xc9, 0x7b, 0x00),
+    Ink::rgb(0xc8, 0x4a, 0x00),
+];
+
+/// What stands for an ink on dark paper: the palette's own pale twin, or the ink itself.
+pub(super) fn on_dark(ink: Ink) -> Ink {
+    let twins = [
+        (PAPER, Ink::rgb(0x15, 0x18, 0x1c)),
+        (TEXT, Ink::rgb(0xe4, 0xe8, 0xec)),
+        (MUTED, Ink::rgb(0x9a, 0xa5, 0xb1)),
+        (GUIDE, Ink::rgb(0x5a, 0x63, 0x6d)),
+        (GRID, Ink::rgb(0x2a, 0x30, 0x38)),
+        (BODY, Ink::rgb(0x26, 0x2c, 0x33)),
+        (SURFACE, Ink::rgb(0x8f, 0x9a, 0xa5)),
+        (NORMAL, Ink::rgb(0x5c, 0xb3, 0xf0)),
+        (LIGHT, Ink::rgb(0xf2, 0xb1, 0x34)),
+        (MIRROR, Ink::rgb(0xff, 0x8a, 0x4c)),
+        (EYE, Ink::rgb(0x3f, 0xd1, 0xa4)),
+        (HALF, Ink::rgb(0xe0, 0x8f, 0xcb)),
+    ];
+    let twin = twins.iter().find(|(light, _)| light.srgb == ink.srgb);
+    twin.map_or(ink, |(_, dark)| dark.fade(ink.opacity))
+}
+
 /// `count` shades of one blue, light to dark: members of a family of curves.
 pub(super) fn shades(count: usize) -> Vec<Ink> {
     let (light, dark) = ([0x8f, 0xc1, 0xe3], [0x0b, 0x2f, 0x57]);

@@ -9,7 +9,6 @@ use super::drawing::Drawing;
 use super::mark::Script;
 use super::mark::{Anchor, Bitmap, Ink, Mark, Path, Point, Step, Stroke, Text};
 use super::raster;
-use super::style;
 use super::text;
 use crate::markup::{data_url, escaped};
 
@@ -59,7 +58,7 @@ fn element(drawing: &Drawing, title: &str, description: &str, head: &str) -> Str
         h = number(height),
     );
     let corners = [Point::ZERO, Point::new(width, 0.0), drawing.size, Point::new(0.0, height)];
-    out += &shape(&Path::polygon(corners), Some(style::PAPER), None);
+    out += &shape(&Path::polygon(corners), Some(drawing.paper), None);
     for mark in &drawing.marks {
         out += &match mark {
             Mark::Shape { path, fill, stroke } => shape(path, *fill, *stroke),
@@ -178,7 +177,7 @@ mod tests {
     #[test]
     fn words_are_escaped_and_scripts_come_back_to_the_line() {
         let mut drawing = Drawing::slide();
-        drawing.text(Point::ZERO, Anchor::Start, 10.0, style::TEXT, "a_i < b");
+        drawing.text(Point::ZERO, Anchor::Start, 10.0, crate::figures::style::TEXT, "a_i < b");
         let svg = inline(&drawing, "a < b", "");
         assert!(svg.contains("<title>a &lt; b</title>"));
         assert!(

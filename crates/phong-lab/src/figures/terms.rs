@@ -2,19 +2,19 @@
 
 use glam::DVec3;
 use phong::film::LayerKind;
-use phong_scene::{Light, Rgb};
+use phong_scene::{Light, LightKind, Rgb};
 
 use super::drawing::Drawing;
 use super::mark::{Bitmap, Point};
 use super::stage::{self, AMBIENT, DIFFUSE, SPECULAR, Spot, ball, distant, plastic};
-use super::{Finish, Number, Plate, style};
+use super::{Number, Plate, Setting, style};
 
 const TITLE: &str = "The terms add up";
 const EQUATION: &str = "*k*_a *C*_a + Σ (*k*_d (*l*·*n*) *C*_d + *k*_s (*r*·*e*)^{*α*} *C*_s)";
 
-pub(super) fn draw(finish: Finish) -> Plate {
+pub(super) fn draw(setting: Setting) -> Plate {
     let [first, second] = lights();
-    let spots = |lights: Vec<Light>| stage::spots(&stage::measured(&scene(lights)));
+    let spots = |lights: Vec<Light>| stage::spots(&stage::measured(&scene(lights, setting)));
     let one = spots(vec![first.clone()]);
     let other = spots(vec![second.clone()]);
     let both = spots(vec![first.clone(), second.clone()]);
@@ -36,7 +36,7 @@ pub(super) fn draw(finish: Finish) -> Plate {
         caption: "The picture is the sum of its terms, and with two lights the sum of the \
                   pictures by each, less the ambient light that both of them contain.",
         numbers,
-        drawing: drawing(&lights(), finish),
+        drawing: drawing(&lights(), setting),
     }
 }
 
@@ -52,14 +52,15 @@ fn lights() -> [Light; 2] {
     [key, distant(DVec3::new(-1.6, 0.2, 0.9), 0.45)]
 }
 
-fn scene(lights: Vec<Light>) -> phong_scene::Scene {
-    ball(plastic(), lights, DVec3::Z)
+fn scene(lights: Vec<Light>, setting: Setting) -> phong_scene::Scene {
+    ball(plastic(setting), lights, DVec3::Z)
 }
 
-fn drawing([first, second]: &[Light; 2], finish: Finish) -> Drawing {
+fn drawing([first, second]: &[Light; 2], setting: Setting) -> Drawing {
     let mut drawing = Drawing::slide();
     drawing.header(TITLE, EQUATION);
-    let shown = |lights: Vec<Light>| stage::shown(&scene(lights), Point::splat(BALL), finish);
+    let shown =
+        |lights: Vec<Light>| stage::shown(&scene(lights, setting), Point::splat(BALL), setting);
     let all = [LayerKind::Picture];
     let one = shown(vec![first.clone()]);
     let layers = |kinds: &[LayerKind]| stage::bitmap(&one, kinds);
@@ -73,21 +74,32 @@ fn drawing([first, second]: &[Light; 2], finish: Finish) -> Drawing {
     ];
     let words = ["light 1", "light 2", "ambient", "both lights"];
     row(&mut drawing, 318.0, pictures, ["+", "−", "="], words);
+    for (column, y, light) in [(0, 318.0, first), (1, 318.0, second), (3, 96.0, first)] {
+        if let LightKind::Distant { direction, .. } = light.kind {
+            let at = Point::new(left(column), y);
+            stage::light_from(&mut drawing, -direction, DVec3::Z, at, BALL);
+        }
+    }
     drawing
 }
 
 /// A ball's edge, units.
 const BALL: f64 = 168.0;
 
+/// From one ball to the next.
+const STEP: f64 = 230.0;
+
+fn left(column: usize) -> f64 {
+    51.0 + STEP * column as f64
+}
+
 fn row(drawing: &mut Drawing, y: f64, pictures: [Bitmap; 4], signs: [&str; 3], words: [&str; 4]) {
-    let step = 230.0;
-    let left = |column: usize| 51.0 + step * column as f64;
     for (column, (picture, words)) in pictures.into_iter().zip(words).enumerate() {
         drawing.image(Point::new(left(column), y), Point::splat(BALL), picture);
         drawing.heading(Point::new(left(column) + 0.5 * BALL, y + BALL + 26.0), words);
     }
     for (column, sign) in signs.into_iter().enumerate() {
-        let at = Point::new(left(column) + 0.5 * (BALL + step), y + 0.5 * BALL);
+        let at = Point::new(left(column) + 0.5 * (BALL + STEP), y + 0.5 * BALL);
         drawing.label(at, 36.0, style::TEXT, sign);
     }
 }
@@ -98,7 +110,7 @@ mod tests {
 
     #[test]
     fn terms_add_up_exactly_and_lights_to_rounding() {
-        let [terms, lights, pixels] = draw(Finish::Draft).values();
+        let [terms, lights, pixels] = draw(Setting::DRAFT).values();
         assert_eq!(terms, 0.0);
         assert!(lights <= 2.4e-7, "{lights}");
         assert!(pixels > 10_000.0);

@@ -10,7 +10,7 @@ use super::mark::{Ink, Point, Stroke};
 use super::plot::fixed;
 use super::stage::distant;
 use super::symbols::{drawn, eye, lamp, unit};
-use super::{Finish, Number, Plate, style};
+use super::{Number, Plate, Setting, style};
 
 const TITLE: &str = "To the eye and to the light";
 const EQUATION: &str = "*e* = (eye − *p*) / ‖eye − *p*‖,   *l* = (lamp − *p*) / ‖lamp − *p*‖";
@@ -23,7 +23,7 @@ const EYE: Vec3 = Vec3::new(2.0, 2.1, 0.0);
 /// The sun's direction.
 const SUN: DVec3 = DVec3::new(-0.62, 1.0, 0.0);
 
-pub(super) fn draw(_: Finish) -> Plate {
+pub(super) fn draw(_: Setting) -> Plate {
     let mut numbers = Vec::new();
     for (kind, light) in [("distant", sun()), ("point", point())] {
         let angle = wide::acos(f64::from(to_light(&light, 0).dot(to_light(&light, 1))).min(1.0));
@@ -109,7 +109,7 @@ mod tests {
 
     #[test]
     fn only_a_point_light_is_seen_in_different_directions() {
-        let [distant, point] = draw(Finish::Draft).values();
+        let [distant, point] = draw(Setting::DRAFT).values();
         assert_eq!(distant, 0.0);
         // The angle at the lamp between the two points, by the cosine rule.
         let [a, b] = POINTS.map(|degrees| LAMP - unit(degrees).to_vec().as_dvec3());

@@ -27,6 +27,8 @@ use crate::markup::data_url;
 const PICTURE: [u32; 2] = [430, 270];
 /// Incidence of the curves, degrees; the middle and the worst.
 const ANGLES: [f64; 3] = [0.0, 30.0, 60.0];
+/// From one row of plots to the next.
+const ROW: f64 = 182.0;
 /// Inside of a plot.
 const PLOT: [f64; 2] = [390.0, 120.0];
 /// A's ink, and B's.
@@ -43,7 +45,7 @@ pub fn svg(fit: &Fit) -> String {
 
 fn draw(out: &mut String, fit: &Fit) -> std::fmt::Result {
     let names = [fit.from, fit.to].map(|lobe| lobe.to_string());
-    let height = 398 + 175 * ANGLES.len();
+    let height = 398 + ROW as usize * ANGLES.len();
     writeln!(
         out,
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 940 {height}\" width=\"940\" \
@@ -80,13 +82,12 @@ fn draw(out: &mut String, fit: &Fit) -> std::fmt::Result {
         };
         writeln!(out, "<text x=\"{x}\" y=\"350\" font-size=\"15\">{what}</text>")?;
         for (row, theta) in ANGLES.into_iter().enumerate() {
-            plot(out, fit, slice, theta, [x, 368.0 + 175.0 * row as f64])?;
+            plot(out, fit, slice, theta, [x, 368.0 + ROW * row as f64])?;
         }
     }
     writeln!(
         out,
-        "<text x=\"50\" y=\"{}\" fill=\"#555\">The highlight, 1 at its peak, over degrees from the \
-         mirror direction. No single number is right for all angles.</text>\n</svg>",
+        "<text x=\"50\" y=\"{}\" fill=\"#555\">No single number is right for all angles.</text>\n</svg>",
         height - 14
     )
 }
@@ -129,6 +130,15 @@ fn plot(
             y * height + 4.0
         )?;
     }
+    writeln!(
+        out,
+        "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">the eye’s angle from the mirror \
+         direction</text><text transform=\"translate(-28 {}) rotate(-90)\" \
+         text-anchor=\"middle\">highlight, of its peak</text>",
+        width / 2.0,
+        height + 33.0,
+        height / 2.0
+    )?;
     for (lobe, ink, dash) in [(fit.from, INKS[0], ""), (fit.to, INKS[1], "6 4")] {
         let shone = LitLobe::new(lobe, theta);
         let at = |i: u32| {

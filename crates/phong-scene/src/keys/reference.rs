@@ -2,6 +2,8 @@
 
 use super::shape::{MADE_OF, PLACED};
 use super::{BACKGROUND, Key, Kind, SCENE, TEXTURED, Table};
+use crate::dialect::Switches;
+use crate::material::{AmbientRule, Dialect, Model, Tint, Viewer};
 
 /// The reference of the scene text in Markdown: every table, key, kind, range and default.
 ///
@@ -34,7 +36,67 @@ pub fn reference_markdown() -> String {
                Those in `[groups.NAME]` are written `[[groups.NAME.sphere]]` and so on.\n\n";
     let shared: Vec<_> = MADE_OF.iter().chain(&PLACED).collect();
     sections.push(format!("{any}{}", rows(&shared)));
+    sections.push(COLORS.to_owned());
+    sections.push(dialects());
     sections.join("\n")
+}
+
+/// What is linear and what is not.
+const COLORS: &str = "\
+## Colours
+
+| written | meaning |
+|---|---|
+| `0.5` | linear grey: half the light of white |
+| `[0.5, 0.2, 0.1]` | linear red, green and blue; 1 is full light, and light may be above it |
+| `\"#c8402f\"` | bytes of sRGB, as colour pickers show them; decoded when they are read |
+| `\"tomato\"` | a CSS name: the same, decoded |
+
+Gradients run linearly between their stops, however those are written.
+";
+
+/// A table of what each dialect sets, from the very switches it presets.
+fn dialects() -> String {
+    let mut out = String::from(
+        "## What each dialect sets\n\nEach row is what another program means by its materials. The \
+         model fixes the lobe; a dialect is an error with a model that its program does not have.\n\n\
+         | dialect | models | `times_cosine` | `normalize` | `tint` | `ambient_rule` | `viewer` |\n\
+         |---|---|---|---|---|---|---|\n",
+    );
+    let lobes = [
+        ("lambert", Model::Lambert),
+        ("phong", Model::Phong),
+        ("blinn-phong", Model::BlinnPhong),
+        ("blinn-fast", Model::BlinnFast),
+    ];
+    for dialect in Dialect::ALL {
+        let allowed = lobes.iter().filter(|(_, model)| dialect.allows(model));
+        let mut models: Vec<&str> = allowed.map(|(name, _)| *name).collect();
+        if dialect == Dialect::Lecture {
+            models = vec!["every model"];
+        }
+        let Switches { times_cosine, normalize, tint, ambient_rule, viewer } = dialect.switches();
+        let tint = match tint {
+            Tint::Light => "light",
+            Tint::Object => "object",
+            Tint::Metallic => "metallic",
+        };
+        let ambient = match ambient_rule {
+            AmbientRule::Once => "once",
+            AmbientRule::PerLight => "per-light",
+            AmbientRule::Both => "both",
+        };
+        let viewer = match viewer {
+            Viewer::Local => "local",
+            Viewer::Distant => "distant",
+        };
+        out += &format!(
+            "| `{}` | {} | {times_cosine} | {normalize} | {tint} | {ambient} | {viewer} |\n",
+            dialect.name(),
+            models.join(", ")
+        );
+    }
+    out
 }
 
 /// A table's keys under its header; of a shape, those it does not share with all of them.
@@ -109,6 +171,16 @@ mod tests {
             assert_doc_holds("shape.rs", &own_keys(table));
         }
         assert_doc_holds("shape.rs", &MADE_OF.iter().chain(&PLACED).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn the_reference_says_what_each_dialect_sets() {
+        let text = reference_markdown();
+        for dialect in Dialect::ALL {
+            assert!(text.contains(&format!("\n| `{}` | ", dialect.name())), "{}", dialect.name());
+        }
+        let row = "| `three-js` | lambert, blinn-phong | true | true | light | once | local |\n";
+        assert!(text.contains(row), "{text}");
     }
 
     #[test]

@@ -164,7 +164,15 @@ fn number(range: &Range) -> Value {
 
 fn color(most: f64) -> Value {
     let channel = number(&Range::closed(0.0, most));
-    json!({ "anyOf": [channel, list(&channel, 3), text()] })
+    let titled = |mut schema: Value, title: &str| {
+        schema["title"] = json!(title);
+        schema
+    };
+    json!({ "anyOf": [
+        titled(channel.clone(), "linear grey"),
+        titled(list(&channel, 3), "linear red, green, blue"),
+        titled(text(), "\"#rrggbb\" or a CSS name: sRGB, decoded"),
+    ] })
 }
 
 fn text() -> Value {

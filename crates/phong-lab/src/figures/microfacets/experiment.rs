@@ -24,6 +24,8 @@ const RUNS: u64 = 16;
 
 /// What the facets should add up to.
 pub(super) struct Experiment {
+    /// The angle of incidence, degrees.
+    theta: f64,
     l: Dir3,
     /// `D(h)/(4 n·l)`, the mean over each band, per steradian.
     pub(super) lobe: [f64; BANDS],
@@ -37,9 +39,9 @@ pub(super) struct Tally {
 }
 
 impl Experiment {
-    pub(super) fn new() -> Self {
-        let l = direction(-THETA, 0.0);
-        Self { l, lobe: std::array::from_fn(|band| mean(band, l)) }
+    pub(super) fn new(theta: f64) -> Self {
+        let l = direction(-theta, 0.0);
+        Self { theta, l, lobe: std::array::from_fn(|band| mean(middle(band), l, STEPS)) }
     }
 
     /// The densities that `count` facets give.
@@ -76,9 +78,24 @@ impl Experiment {
     }
 }
 
+/// Steps each way of a mean over a band.
+const STEPS: usize = 32;
+
+impl Experiment {
+    /// The mean over a band's width about `psi`: a smooth curve through the means of the bands.
+    pub(super) fn smooth(&self, psi: f64) -> f64 {
+        mean(psi, self.l, 12)
+    }
+
+    /// The angle of incidence, degrees.
+    pub(super) fn theta(&self) -> f64 {
+        self.theta
+    }
+}
+
 /// `D(h)/(4 n·l)` for an eye in the plane of incidence, `psi` degrees from the normal.
-pub(super) fn lobe(psi: f64) -> f64 {
-    reflected(direction(-THETA, 0.0), direction(psi, 0.0))
+pub(super) fn lobe(theta: f64, psi: f64) -> f64 {
+    reflected(direction(-theta, 0.0), direction(psi, 0.0))
 }
 
 fn reflected(l: Dir3, out: Dir3) -> f64 {
@@ -98,17 +115,21 @@ fn width() -> f64 {
     (RANGE[1] - RANGE[0]) / BANDS as f64
 }
 
-/// The mean of `D(h)/(4 n·l)` over a band, by the midpoint rule.
-fn mean(band: usize, l: Dir3) -> f64 {
-    const STEPS: usize = 32;
-    let middle = |step: usize| (step as f64 + 0.5) / STEPS as f64;
+/// The angle in the middle of a band, degrees.
+fn middle(band: usize) -> f64 {
+    RANGE[0] + width() * (band as f64 + 0.5)
+}
+
+/// The mean of `D(h)/(4 n·l)` over a band's width about `at`, by the midpoint rule.
+fn mean(at: f64, l: Dir3, steps: usize) -> f64 {
+    let middle = |step: usize| (step as f64 + 0.5) / steps as f64;
     let mut sum = 0.0;
-    for (i, j) in (0..STEPS).flat_map(|i| (0..STEPS).map(move |j| (i, j))) {
-        let psi = RANGE[0] + width() * (band as f64 + middle(i));
+    for (i, j) in (0..steps).flat_map(|i| (0..steps).map(move |j| (i, j))) {
+        let psi = at + width() * (middle(i) - 0.5);
         let y = OUT_OF_PLANE * (2.0 * middle(j) - 1.0);
         sum += reflected(l, direction(psi, y));
     }
-    sum / (STEPS * STEPS) as f64
+    sum / (steps * steps) as f64
 }
 
 /// The band of a direction; `None` for one out of the plane or the range.
