@@ -111,6 +111,10 @@ impl Output {
                 Target::File(mut listed) => drafts.extend(listed.0.take()),
             }
         }
+        // A pipe may wait for its reader, and an interrupt must not wait with it.
+        let (pipes, drafts): (Vec<_>, Vec<_>) =
+            drafts.into_iter().partition(|draft| draft.temporary().is_none());
+        place(pipes)?;
         let mut all = held(&TEMPORARIES);
         let gone: Vec<_> =
             drafts.iter().filter_map(|draft| draft.temporary().map(Path::to_owned)).collect();

@@ -19,7 +19,7 @@ fn in_shell(folder: &Given, before: &str, words: &str, after: &str) -> Then {
     let phong = env!("CARGO_BIN_EXE_phong");
     let mut shell = Command::new("sh");
     shell.current_dir(folder.path("")).stdin(Stdio::null());
-    shell.args(["-c", &format!("{before} exec {phong} {words} {after}")]);
+    shell.args(["-c", &format!("{before} {phong} {words} {after}")]);
     Then::of(shell.output().unwrap())
 }
 
@@ -127,4 +127,16 @@ fn a_layer_that_cannot_be_written_leaves_every_former_file() {
     assert_eq!(then.code, Some(3), "{}", then.err);
     assert_eq!(folder.names(), ["a.normal.png", "a.png", "a.toml"]);
     assert!(folder.bytes("a.png") == b"former" && folder.bytes("a.normal.png") == b"former");
+}
+
+#[test]
+fn a_pipe_that_nobody_reads_can_be_interrupted() {
+    let folder = balls();
+    let then = in_shell(
+        &folder,
+        "mkfifo a.png; timeout --preserve-status -k 60 -s INT 2",
+        "render a.toml -o a.png",
+        "",
+    );
+    assert_eq!(then.code, Some(130), "{}", then.err);
 }
