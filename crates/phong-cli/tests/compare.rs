@@ -148,7 +148,7 @@ fn what_cannot_be_compared_is_refused_with_the_way_out() {
     folder.done("render a.toml -o small.png --size 20x30 --quiet");
     fs::write(folder.path("wide.toml"), BALLS.replace("[40, 30]", "[50, 30]")).unwrap();
     let refused = |words: &str, told: &[&str]| folder.when(words).is_refused(told);
-    refused("compare a.png text.png", &["text.png", "no PNG, PFM or OpenEXR"]);
+    refused("compare a.png text.png", &["text.png", "no PNG, PPM, JPEG, PFM or OpenEXR"]);
     refused("compare a.png nowhere.png", &["nowhere.png"]);
     refused("compare a.png a.jpeg", &["a.jpeg"]);
     refused("compare a.png small.png", &["a.png is 40x30 and small.png is 20x30"]);

@@ -213,7 +213,7 @@ mod tests {
 
     fn grey(size: [u32; 2], values: &[f32]) -> Picture {
         let plane = Plane { name: "Y".to_owned(), values: values.to_vec() };
-        Picture { size, planes: vec![plane], transfer: Transfer::Linear, levels: None }
+        Picture { size, planes: vec![plane], transfer: Transfer::Linear, levels: None, lossy: None }
     }
 
     #[test]

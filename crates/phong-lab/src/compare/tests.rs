@@ -9,7 +9,7 @@ fn picture(transfer: Transfer, planes: &[(&str, &[f32])]) -> Picture {
         .iter()
         .map(|&(name, values)| Plane { name: name.to_owned(), values: values.to_vec() })
         .collect();
-    Picture { size: [2, 1], planes, transfer, levels: None }
+    Picture { size: [2, 1], planes, transfer, levels: None, lossy: None }
 }
 
 fn grey(values: &[f32]) -> Picture {

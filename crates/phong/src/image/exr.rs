@@ -175,6 +175,7 @@ pub(super) fn read(bytes: &[u8], max_bytes: u64) -> Result<Picture, ReadError> {
         planes,
         transfer: Transfer::Linear,
         levels: None,
+        lossy: None,
     })
 }
 

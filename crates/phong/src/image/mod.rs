@@ -1,4 +1,5 @@
-//! Pictures as files: PNG, PFM and OpenEXR, written whole or not at all, and read back.
+//! Pictures as files: PNG, PFM and OpenEXR, written whole or not at all, and read back; PPM and JPEG
+//! are read too.
 //!
 //! | | values | layers | exposure | alpha |
 //! |---|---|---|---|---|
@@ -11,9 +12,11 @@
 mod curve;
 #[cfg(feature = "exr")]
 mod exr;
+mod jpeg;
 mod pfm;
 mod picture;
 mod png;
+mod pnm;
 mod save;
 
 use std::io::{Seek, Write};
@@ -24,7 +27,7 @@ use thiserror::Error;
 use crate::film::LayerKind;
 use crate::finish::Finished;
 
-pub use picture::{Picture, Plane, ReadError, Transfer};
+pub use picture::{Lossy, Picture, Plane, ReadError, Transfer};
 pub use save::{Draft, SaveError, WriteSeek, place, remove_abandoned, save};
 
 impl Picture {
@@ -33,7 +36,8 @@ impl Picture {
         Kind::of(begin).is_some()
     }
 
-    /// Reads a PNG, PFM or EXR file, known by how it begins. 16-bit PNGs keep all their bits.
+    /// Reads a PNG, PPM, JPEG, PFM or EXR file, known by how it begins. 16-bit PNGs keep all their
+    /// bits.
     ///
     /// # Errors
     /// [`ReadError`], for anything but a whole picture of at most 2³⁰ values.
@@ -50,6 +54,8 @@ impl Picture {
         match Kind::of(bytes) {
             Some(Kind::Png) => png::read(bytes, max_bytes),
             Some(Kind::Pfm) => pfm::read(bytes, max_bytes),
+            Some(Kind::Pnm) => pnm::read(bytes, max_bytes),
+            Some(Kind::Jpeg) => jpeg::read(bytes, max_bytes),
             #[cfg(feature = "exr")]
             Some(Kind::Exr) => exr::read(bytes, max_bytes),
             _ => Err(ReadError::Unknown),
@@ -61,6 +67,9 @@ impl Picture {
 enum Kind {
     Png,
     Pfm,
+    /// PPM and PGM.
+    Pnm,
+    Jpeg,
     Exr,
 }
 
@@ -69,6 +78,8 @@ impl Kind {
         match bytes {
             [0x89, b'P', b'N', b'G', ..] => Some(Self::Png),
             [b'P', b'F' | b'f', ..] => Some(Self::Pfm),
+            [b'P', b'2' | b'3' | b'5' | b'6', ..] => Some(Self::Pnm),
+            [0xff, 0xd8, 0xff, ..] => Some(Self::Jpeg),
             [0x76, 0x2f, 0x31, 0x01, ..] => Some(Self::Exr),
             _ => None,
         }

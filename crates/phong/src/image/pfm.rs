@@ -74,6 +74,7 @@ pub(super) fn read(bytes: &[u8], max_bytes: u64) -> Result<Picture, ReadError> {
         planes: names.iter().enumerate().map(plane).collect(),
         transfer: Transfer::Linear,
         levels: None,
+        lossy: None,
     })
 }
 

@@ -18,8 +18,21 @@ pub struct Picture {
     /// What the values are.
     pub transfer: Transfer,
     /// The whole number that stands for 1 in the file, to which values were rounded: 255 or 65535
-    /// in a PNG, less in one of few bits; `None`: they are floats.
+    /// in a PNG, any in a PPM, less in a PNG of few bits; `None`: they are floats.
     pub levels: Option<u16>,
+    /// What compression may have changed; `None`: nothing.
+    pub lossy: Option<Lossy>,
+}
+
+/// How coarsely a JPEG holds its picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Lossy {
+    /// Steps to which the cosine coefficients of 8 × 8 values are rounded, in levels of 255, row by row
+    /// from the mean to the finest: of brightness, and of colour.
+    pub steps: [[u16; 64]; 2],
+    /// Width and height in pixels of the block that 8 × 8 values of colour stand for: 16 where two
+    /// pixels share one.
+    pub block: [u8; 2],
 }
 
 /// One channel of a picture.
@@ -44,7 +57,7 @@ pub enum Transfer {
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum ReadError {
     /// It begins like none of the formats.
-    #[error("this is no PNG, PFM or OpenEXR file")]
+    #[error("this is no PNG, PPM, JPEG, PFM or OpenEXR file")]
     Unknown,
     /// It is damaged, or uses what we do not read.
     #[error("{0}")]
@@ -110,6 +123,7 @@ impl Picture {
             planes,
             transfer: Transfer::Linear,
             levels: None,
+            lossy: None,
         }
     }
 

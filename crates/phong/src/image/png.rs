@@ -215,5 +215,6 @@ pub(super) fn read(bytes: &[u8], max_bytes: u64) -> Result<Picture, ReadError> {
         planes: names.iter().enumerate().map(plane).collect(),
         transfer: if linear { Transfer::Linear } else { Transfer::Srgb },
         levels: Some(levels),
+        lossy: None,
     })
 }
