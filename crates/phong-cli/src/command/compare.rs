@@ -79,7 +79,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         return Err(Failure::usage("--tolerance is a number from 0 on"));
     }
     let models = targets(&args.model)?;
-    let mut output = args.diff.as_deref().map(|path| Drawing::create(path, args)).transpose()?;
+    let inputs = [Some(args.a.as_str()), args.b.as_deref()];
+    let mut output = args.diff.as_deref().map(|path| Drawing::beside(path, inputs)).transpose()?;
     let kinds = (is_scene(&args.a), args.b.as_deref().map(is_scene));
     let (told, pictures, scenes) = match (kinds, &args.b) {
         ((false, Some(false)), Some(b)) => {
@@ -119,7 +120,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         report::data(text.as_bytes())?;
     }
     if let Some(output) = output {
-        Output::commit(vec![output.output])?;
+        output.finish()?;
     }
     if same { Ok(()) } else { Err(Failure::No) }
 }
@@ -220,13 +221,14 @@ pub(crate) fn read(path: &Path) -> Result<Picture, Failure> {
 }
 
 /// Where differences are drawn.
-struct Drawing {
+pub(crate) struct Drawing {
     output: Output,
     format: Format,
 }
 
 impl Drawing {
-    fn create(path: &Path, args: &Args) -> Result<Self, Failure> {
+    /// A file that is none of the inputs.
+    pub(crate) fn beside(path: &Path, inputs: [Option<&str>; 2]) -> Result<Self, Failure> {
         let stdout = path == Path::new("-");
         let format = Format::of_path(path).or(stdout.then_some(Format::Png)).ok_or_else(|| {
             Failure::usage(format!("the name {} does not say what to write", path.display()))
@@ -238,12 +240,23 @@ impl Drawing {
             );
         }
         let output = Output::create(path)?;
-        let inputs = [Some(&args.a), args.b.as_ref()];
         if inputs.into_iter().flatten().any(|input| output.is(Path::new(input))) {
             return Err(Failure::usage(format!("{} would be written over", path.display()))
                 .with_help("give --diff another file"));
         }
         Ok(Self { output, format })
+    }
+
+    /// Draws how a picture differs from ours, beside both.
+    pub(crate) fn draw_beside(&mut self, ours: &Picture, theirs: &Picture) -> Result<(), Failure> {
+        let found =
+            compare::compare(ours, theirs).map_err(|error| Failure::usage(error.to_string()))?;
+        self.draw(&found, &[ours.clone(), theirs.clone()], true)
+    }
+
+    /// Puts the file in place.
+    pub(crate) fn finish(self) -> Result<(), Failure> {
+        Output::commit(vec![self.output])
     }
 
     /// A drawing with a scale as PNG; else the differences themselves, three channels a pixel.

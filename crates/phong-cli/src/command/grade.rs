@@ -3,11 +3,14 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use phong_lab::grade::{Grade, GradeError, MISTAKES, grade};
-use phong_scene::Scene;
+use phong::image::{Picture, Transfer};
+use phong::render::{Cancel, RenderOptions, render};
+use phong::view::View;
+use phong_lab::grade::{Candidate, Grade, GradeError, Grader, MISTAKES};
+use phong_scene::{Scene, srgb_encode};
 use serde_json::{Value, json};
 
-use super::compare;
+use super::compare::{self, Drawing};
 use crate::args::InputArgs;
 use crate::failure::Failure;
 use crate::{input, memory, report};
@@ -17,12 +20,14 @@ Examples:
   phong grade scene.toml mine.png
   phong grade scene.toml */picture.png --json
 
-Give the scene the size of the pictures; one sample a pixel, through its centre, is expected, but
-pixels at edges are left out, so smoothed edges do no harm. Exit code 0: every picture passes; 1:
-one does not; 2: one cannot be graded, which takes no verdict from the others.";
+The scene is drawn at the size of each picture. One sample a pixel, through its centre, is expected,
+but pixels at edges are left out, so smoothed edges do no harm; of a JPEG what its compression may
+have changed is allowed for. A cause is named if it explains the picture; causes that explain it
+equally well are told as tied, and where none does, none is named. Exit code 0: every picture
+passes; 1: one does not; 2: one cannot be graded, which takes no verdict from the others.";
 
-/// Bytes that a pixel takes while it is graded, at least (measured: 300).
-const PIXEL: u64 = 200;
+/// Bytes that a pixel takes while it is graded, at least: what its ray met and one light.
+const PIXEL: u64 = 300;
 
 /// Hold somebody else's rendering against ours, term by term: names the term that is wrong
 #[derive(Debug, clap::Args)]
@@ -31,9 +36,14 @@ pub(crate) struct Args {
     #[command(flatten)]
     pub(crate) input: InputArgs,
 
-    /// Pictures of the scene (.png .pfm .exr), drawn by another program
+    /// Pictures of the scene (.png .ppm .jpg .pfm .exr), drawn by another program
     #[arg(required = true, value_name = "IMAGE")]
     pub(crate) images: Vec<PathBuf>,
+
+    /// Draw how the picture differs from ours, in colours with their scale, beside both (.png); or
+    /// write the differences as numbers (.pfm .exr). For one picture
+    #[arg(short = 'o', long, value_name = "FILE")]
+    pub(crate) diff: Option<PathBuf>,
 
     /// One JSON object on standard output
     #[arg(long)]
@@ -51,12 +61,19 @@ fn causes() -> String {
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
-    let scene = input::open(&args.input, false)?.scene;
+    if args.diff.is_some() && args.images.len() > 1 {
+        return Err(Failure::usage("--diff is for one picture, and there are more"));
+    }
+    let inputs = [Some(args.input.input.as_str()), args.images[0].to_str()];
+    let mut drawing = args.diff.as_deref().map(|path| Drawing::beside(path, inputs)).transpose()?;
+    let mut scene = input::open(&args.input, false)?.scene;
+    let written_size = scene.image.size;
+    let mut grader = None;
     let mut answers = Vec::new();
     let (mut all_pass, mut all_graded) = (true, true);
     // One picture at a time; what is wrong with one takes no verdict from the others.
     for path in &args.images {
-        let graded = match one(&scene, path) {
+        let graded = match one(&mut scene, &mut grader, path, drawing.as_mut()) {
             Ok(graded) => graded,
             Err(failure) => {
                 all_graded = false;
@@ -68,9 +85,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         };
         all_pass &= graded.pass;
         if args.json {
-            answers.push(as_json(path, &graded));
+            answers.push(as_json(path, &graded, scene.image.size));
         } else {
-            report::data(as_text(path, &graded).as_bytes())?;
+            let sizes = [written_size, scene.image.size];
+            report::data(as_text(path, &graded, sizes).as_bytes())?;
         }
     }
     if args.json {
@@ -82,6 +100,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             }
         }
     }
+    if let Some(drawing) = drawing.filter(|_| all_graded) {
+        drawing.finish()?;
+    }
     match (all_graded, all_pass) {
         (false, _) => Err(Failure::Told),
         (true, false) => Err(Failure::No),
@@ -89,22 +110,47 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
 }
 
-fn one(scene: &Scene, path: &Path) -> Result<Grade, Failure> {
+fn one(
+    scene: &mut Scene,
+    grader: &mut Option<Grader>,
+    path: &Path,
+    drawing: Option<&mut Drawing>,
+) -> Result<Grade, Failure> {
     let picture = compare::read(path)?;
     let pixels = u64::from(picture.size[0]) * u64::from(picture.size[1]);
     memory::want(pixels.saturating_mul(PIXEL))?;
-    grade(scene, &picture).map_err(|error| {
-        let failure = Failure::usage(format!("{}: {error}", path.display()));
-        match error {
-            GradeError::Size { .. } => {
-                failure.with_help("grade takes pictures of the scene's own size")
-            }
-            GradeError::NoColor | GradeError::View(_) | GradeError::Options(_) => failure,
-        }
-    })
+    scene.image.size = picture.size;
+    let trouble = |error: GradeError| Failure::usage(format!("{}: {error}", path.display()));
+    // What pictures of one size have in common is found out once.
+    let ready = match grader.take().filter(|ready| ready.size() == picture.size) {
+        Some(ready) => ready,
+        None => Grader::new(scene).map_err(trouble)?,
+    };
+    let graded = grader.insert(ready).grade(&picture).map_err(trouble)?;
+    if let Some(drawing) = drawing {
+        // A is ours, B is theirs.
+        drawing.draw_beside(&ours(scene, &picture)?, &picture)?;
+    }
+    Ok(graded)
 }
 
-fn as_json(path: &Path, graded: &Grade) -> Value {
+/// Our picture of the scene with one sample a pixel, as bytes or as floats as theirs is.
+fn ours(scene: &Scene, theirs: &Picture) -> Result<Picture, Failure> {
+    let trouble = |error: String| Failure::System(error);
+    let options = RenderOptions::of(&scene.image).map_err(|error| trouble(error.to_string()))?;
+    let view = View::of(scene).map_err(|error| trouble(error.to_string()))?;
+    let film = render(&view, &options.one_sample(), &|_| {}, &Cancel::new()).film;
+    let mut picture = Picture::of_film(&film);
+    if theirs.transfer == Transfer::Srgb {
+        for value in picture.planes.iter_mut().flat_map(|plane| &mut plane.values) {
+            *value = srgb_encode(f64::from(*value).clamp(0.0, 1.0)) as f32;
+        }
+        picture.transfer = Transfer::Srgb;
+    }
+    Ok(picture)
+}
+
+fn as_json(path: &Path, graded: &Grade, size: [u32; 2]) -> Value {
     let candidates: Vec<Value> = graded
         .candidates
         .iter()
@@ -113,7 +159,8 @@ fn as_json(path: &Path, graded: &Grade) -> Value {
                 "cause": one.cause,
                 "says": one.says,
                 "evidence": one.evidence,
-                "rms": one.residual.rms,
+                "rms": one.rms,
+                "explains": one.explains,
             })
         })
         .collect();
@@ -122,9 +169,14 @@ fn as_json(path: &Path, graded: &Grade) -> Value {
     json!({
         "image": path.to_string_lossy(),
         "verdict": if graded.pass { "pass" } else { "fail" },
+        "size": size,
         "cause": graded.cause,
+        "tied": graded.tied,
+        "told_apart_by": graded.told_apart_by,
         "confidence": graded.confidence,
         "candidates": candidates,
+        "unrevealed": graded.unrevealed,
+        "objects": graded.objects,
         "terms": terms,
         "rms": graded.residual.rms,
         "worst": { "difference": graded.residual.worst, "at": graded.residual.worst_at },
@@ -133,7 +185,7 @@ fn as_json(path: &Path, graded: &Grade) -> Value {
     })
 }
 
-fn as_text(path: &Path, graded: &Grade) -> String {
+fn as_text(path: &Path, graded: &Grade, [written, size]: [[u32; 2]; 2]) -> String {
     let residual = graded.residual;
     let [x, y] = residual.worst_at;
     let mut text = format!(
@@ -155,7 +207,15 @@ fn as_text(path: &Path, graded: &Grade) -> String {
         .filter_map(|(name, factor)| factor.map(|factor| format!("{name} × {factor:.2}")))
         .collect();
     line(format!("terms, ours = 1: {}", terms.join(", ")));
+    if written != size {
+        line(format!(
+            "drawn at its size, {} × {}; the scene's own is {} × {}",
+            size[0], size[1], written[0], written[1]
+        ));
+    }
+    let hidden = format!("this scene cannot reveal: {}", graded.unrevealed.join(", "));
     if graded.pass {
+        line(hidden);
         return text;
     }
     match &graded.cause {
@@ -165,9 +225,30 @@ fn as_text(path: &Path, graded: &Grade) -> String {
                 .to_owned(),
         ),
     }
-    for one in &graded.candidates {
-        line(format!("- {}: {}", one.cause, one.says));
-        line(format!("    {}", one.evidence));
+    if let (Some(cause), false) = (&graded.cause, graded.tied.is_empty()) {
+        let needs = graded.told_apart_by.as_deref().unwrap_or_default();
+        line(format!(
+            "these pictures cannot be told apart in this scene: {cause}, {}; a scene that could: \
+             one with {needs}",
+            graded.tied.join(", ")
+        ));
     }
+    if !graded.objects.is_empty() {
+        line(format!("only these objects differ: {}", graded.objects.join(", ")));
+    }
+    let mut told = |title: &str, explains: bool| {
+        let ones: Vec<&Candidate> =
+            graded.candidates.iter().filter(|one| one.explains == explains).collect();
+        if !ones.is_empty() && !title.is_empty() {
+            line(title.to_owned());
+        }
+        for one in ones {
+            line(format!("- {}: {}", one.cause, one.says));
+            line(format!("    {}", one.evidence));
+        }
+    };
+    told("", true);
+    told("also tried, and not enough:", false);
+    line(hidden);
     text
 }

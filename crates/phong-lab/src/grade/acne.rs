@@ -1,31 +1,38 @@
 //! Shadow acne: lit points that lack the light of a lamp, strewn over a surface.
 
-use phong_scene::Rgb;
+use rayon::prelude::*;
 
-use super::Prepared;
-use super::mistakes::Curve;
-use super::picture::{Level, Residual, Theirs, encode, residual};
-use super::shade::{Wrong, shade};
+use super::fault::Fault;
+use super::picture::{Level, Residual, Theirs};
+use super::prepared::Prepared;
+use super::shade::shade;
+use super::tone::{Tone, encode};
 
 /// At least this share of a dark point's lit neighbours is lit: strewn, not a shadow.
 const STREWN: f64 = 0.2;
 /// Fewer dark points than this share of the picture are no pattern.
 const LEAST: f64 = 2e-3;
+/// So many pixels are looked at first.
+const SOME: usize = 1000;
+/// This share of what is off must be dark points.
+const MOST: f64 = 0.9;
 /// Of a point's lights this many may be missing in any combination.
 const MOST_LIGHTS: usize = 5;
 
-/// How far the picture is off if dark points are forgiven, and what they look like; `None` if
-/// there is no such pattern.
-pub(super) fn look(right: &Prepared, theirs: &Theirs) -> Option<(Residual, String)> {
-    let ours: Vec<Rgb> =
-        right.points.iter().map(|point| shade(point, &Wrong::default()).total()).collect();
+/// The values that lit points have which lack a light, pixel by pixel, and what they look like;
+/// `None` if there is no such pattern.
+pub(super) type Strewn = (Vec<Option<[f32; 3]>>, String);
+
+/// Looks for points that lack the light of a lamp; `some` pixels say whether that is worth while.
+pub(super) fn look(right: &Prepared, theirs: &Theirs, some: &[usize]) -> Option<Strewn> {
+    let nothing = Fault::default();
     let differs = |ours: [f32; 3], theirs: [Level; 3]| {
         ours.iter().zip(theirs).any(|(ours, theirs)| theirs.apart(*ours) > Residual::NOTICED)
     };
     // The value a point has with some of its lights missing, if that is what they drew.
     let darkened = |i: usize| -> Option<[f32; 3]> {
-        let drawn = theirs.at(i, right.size, None);
-        if !right.inner[i] || !differs(encode(ours[i], Curve::Right), drawn) {
+        let drawn = theirs.at(i, right.size, None)?;
+        if !right.inner[i] || !differs(right.ours[i], drawn) {
             return None;
         }
         let surface = right.points[i].surface.as_ref()?;
@@ -39,12 +46,21 @@ pub(super) fn look(right: &Prepared, theirs: &Theirs) -> Option<(Residual, Strin
                     surface.lights[light].visible = false;
                 }
             }
-            let sum = shade(&dark, &Wrong::default());
-            let value = encode(sum.total(), Curve::Right);
+            let sum = shade(&dark, &nothing, &right.facts);
+            let value = encode(sum.total(), Tone::Right);
             (!differs(value, drawn)).then_some(value)
         })
     };
-    let dark: Vec<Option<[f32; 3]>> = (0..right.points.len()).map(darkened).collect();
+    let some = &some[..some.len().min(SOME)];
+    let off = |&&i: &&usize| {
+        theirs.at(i, right.size, None).is_some_and(|drawn| differs(right.ours[i], drawn))
+    };
+    let off: Vec<usize> = some.iter().filter(off).copied().collect();
+    let explained = off.iter().filter(|&&i| darkened(i).is_some()).count();
+    if (explained as f64) < MOST * off.len() as f64 {
+        return None;
+    }
+    let dark: Vec<_> = (0..right.points.len()).into_par_iter().map(darkened).collect();
     let count = dark.iter().filter(|dark| dark.is_some()).count();
     let width = right.size[0] as usize;
     let (mut lit, mut neighbours) = (0_u64, 0_u64);
@@ -61,15 +77,9 @@ pub(super) fn look(right: &Prepared, theirs: &Theirs) -> Option<(Residual, Strin
     if (count as f64) < LEAST * dark.len() as f64 || strewn < STREWN {
         return None;
     }
-    let mended = residual(
-        right.size,
-        &right.inner,
-        |i| dark[i].unwrap_or_else(|| encode(ours[i], Curve::Right)),
-        |i| theirs.at(i, right.size, None),
-    );
     let seen = format!(
         "{count} lit points lack a light, and {:.0} % of their neighbours do not",
         100.0 * strewn
     );
-    Some((mended, seen))
+    Some((dark, seen))
 }

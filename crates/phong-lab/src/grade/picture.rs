@@ -1,12 +1,21 @@
 //! Pictures, pixel by pixel.
 
 use phong::image::{Picture, Transfer};
-use phong::math::wide;
-use phong_scene::{Rgb, srgb_encode};
+use phong_scene::srgb_encode;
 use rayon::prelude::*;
 
-use super::mistakes::{Curve, Layout};
 use super::points::{Point, Surface};
+
+/// Where pixels are put.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Layout {
+    UpsideDown,
+    LeftRight,
+    Turned,
+    BlueFirst,
+    /// By so many pixels to the right, and down.
+    Shifted(i32, i32),
+}
 
 /// How far two pictures are apart, in encoded values (1 is white), over all but edge pixels, beyond
 /// what rounding coarser than to 8 bits on the curve explains.
@@ -30,7 +39,7 @@ impl Residual {
     pub const NOTICED: f64 = 2.5 / 255.0;
     /// Of how much a value stands out from the mean of its neighbours, samples spread over its pixel
     /// may take this share.
-    const SMOOTHED: f64 = 0.5;
+    pub(super) const SMOOTHED: f64 = 0.5;
 }
 
 /// Their picture, encoded. NaN stays NaN, and is compared with nothing.
@@ -86,6 +95,15 @@ impl Theirs {
         Some(Self { values: (0..r.len()).map(at).collect() })
     }
 
+    /// Allows each value to be further off by so much.
+    pub(super) fn allow(&mut self, by: &[[f32; 3]]) {
+        for (pixel, by) in self.values.iter_mut().zip(by) {
+            for (level, by) in pixel.iter_mut().zip(by) {
+                level.rounding += by;
+            }
+        }
+    }
+
     /// The pixels with a value that is no number; `None`: there are none.
     pub(super) fn not_numbers(&self) -> Option<NotNumbers> {
         let is_nan = |pixel: &[Level; 3]| pixel.iter().any(|level| level.value.is_nan());
@@ -93,16 +111,17 @@ impl Theirs {
         Some(NotNumbers { count: self.values.iter().filter(|v| is_nan(v)).count(), first })
     }
 
-    /// The value that belongs at a pixel if the picture is laid out wrongly.
+    /// The value that belongs at a pixel if the picture is laid out wrongly; `None`: it is not in
+    /// the picture.
     pub(super) fn at(
         &self,
         i: usize,
         [width, height]: [u32; 2],
         layout: Option<Layout>,
-    ) -> [Level; 3] {
+    ) -> Option<[Level; 3]> {
         let (w, h) = (width as usize, height as usize);
         let (x, y) = (i % w, i / w);
-        match layout {
+        Some(match layout {
             None => self.values[i],
             Some(Layout::UpsideDown) => self.values[(h - 1 - y) * w + x],
             Some(Layout::LeftRight) => self.values[y * w + w - 1 - x],
@@ -111,22 +130,19 @@ impl Theirs {
                 let [r, g, b] = self.values[i];
                 [b, g, r]
             }
-        }
+            Some(Layout::Shifted(right, down)) => {
+                let (x, y) = (x as i64 + i64::from(right), y as i64 + i64::from(down));
+                let there = (0..w as i64).contains(&x) && (0..h as i64).contains(&y);
+                return there.then(|| self.values[y as usize * w + x as usize]);
+            }
+        })
     }
-}
 
-/// Linear values as levels in [0, 1].
-pub(super) fn encode(color: Rgb, curve: Curve) -> [f32; 3] {
-    color.to_array().map(|v| {
-        let v = f64::from(v).clamp(0.0, 1.0);
-        let encoded = match curve {
-            Curve::Right => srgb_encode(v),
-            Curve::Missing => v,
-            Curve::Twice => srgb_encode(srgb_encode(v)),
-            Curve::Power22 => wide::pow(v, 1.0 / 2.2),
-        };
-        encoded as f32
-    })
+    /// By how much a value stands out from the mean of the eight around it, in the channel where that
+    /// is most; 0 at the picture's border.
+    pub(super) fn standing_out(&self, i: usize, width: usize) -> f64 {
+        standing_out(|j, c| f64::from(self.values[j][c].value), i, width, self.values.len())
+    }
 }
 
 /// What half a step of a file is more than half a step of 8 bits.
@@ -138,15 +154,14 @@ fn beyond_usual(half: f64) -> f32 {
 pub(super) fn residual(
     [width, _]: [u32; 2],
     inner: &[bool],
-    ours: impl Fn(usize) -> [f32; 3] + Send + Sync,
-    theirs: impl Fn(usize) -> [Level; 3] + Sync,
+    ours: &[[f32; 3]],
+    theirs: &Theirs,
 ) -> Residual {
-    let ours: Vec<[f32; 3]> = (0..inner.len()).into_par_iter().map(ours).collect();
     let row = |y: usize| {
         let mut out = Residual::default();
         let from = y * width as usize;
         for i in (from..from + width as usize).filter(|&i| inner[i]) {
-            let (a, b) = (ours[i], theirs(i));
+            let (a, b) = (ours[i], theirs.values[i]);
             if b.iter().any(|level| level.value.is_nan()) {
                 continue;
             }
@@ -156,7 +171,13 @@ pub(super) fn residual(
             let noticed = worst > Residual::NOTICED
                 && worst
                     > Residual::NOTICED
-                        + Residual::SMOOTHED * standing_out(&ours, i, width as usize);
+                        + Residual::SMOOTHED
+                            * standing_out(
+                                |j, c| f64::from(ours[j][c]),
+                                i,
+                                width as usize,
+                                ours.len(),
+                            );
             out.over += f64::from(u8::from(noticed));
             out.pixels += 1;
             if worst > out.worst {
@@ -185,17 +206,15 @@ pub(super) fn residual(
     all
 }
 
-/// By how much a value stands out from the mean of the eight around it, in the channel where that
-/// is most; 0 at the picture's border.
-fn standing_out(ours: &[[f32; 3]], i: usize, width: usize) -> f64 {
-    let (x, y, height) = (i % width, i / width, ours.len() / width);
+fn standing_out(value: impl Fn(usize, usize) -> f64, i: usize, width: usize, pixels: usize) -> f64 {
+    let (x, y, height) = (i % width, i / width, pixels / width);
     if x == 0 || y == 0 || x + 1 == width || y + 1 == height {
         return 0.0;
     }
     let most = |most: f64, c: usize| {
         let block = (y - 1..=y + 1).flat_map(|v| (x - 1..=x + 1).map(move |u| v * width + u));
-        let sum: f64 = block.map(|j| f64::from(ours[j][c])).sum();
-        let own = f64::from(ours[i][c]);
+        let sum: f64 = block.map(|j| value(j, c)).sum();
+        let own = value(i, c);
         most.max((own - (sum - own) / 8.0).abs())
     };
     (0..3).fold(0.0, most)
@@ -209,19 +228,6 @@ const JUMP: f32 = 0.02;
 /// are brought nearly the same by mirrors and glass.
 pub(super) fn inner(points: &[Point], [width, height]: [u32; 2]) -> Vec<bool> {
     let (w, h) = (width as usize, height as usize);
-    let alike = |a: &Option<Surface>, b: &Option<Surface>| match (a, b) {
-        (None, None) => true,
-        (Some(a), Some(b)) => {
-            a.object == b.object
-                && a.lights.len() == b.lights.len()
-                && a.lights.iter().zip(&b.lights).all(|(a, b)| {
-                    (a.above, a.visible, a.clear) == (b.above, b.visible, b.clear)
-                })
-                // Faces of a mesh or box that meet at a corner.
-                && a.n.dot(b.n) > 0.7
-        }
-        _ => false,
-    };
     let brought = |i: usize| points[i].terms.reflection + points[i].terms.transmission;
     let no_jump = |i: usize, j: usize| {
         (brought(i) - brought(j)).to_array().iter().all(|apart| apart.abs() <= JUMP)
@@ -230,7 +236,26 @@ pub(super) fn inner(points: &[Point], [width, height]: [u32; 2]) -> Vec<bool> {
         let (x, y) = (i % w, i / w);
         let around = |v: usize, most: usize| v.saturating_sub(1)..=(v + 1).min(most - 1);
         let mut neighbours = around(y, h).flat_map(|v| around(x, w).map(move |u| v * w + u));
-        neighbours.all(|j| alike(&points[i].surface, &points[j].surface) && no_jump(i, j))
+        neighbours
+            .all(|j| alike(points[i].surface.as_ref(), points[j].surface.as_ref()) && no_jump(i, j))
     };
     (0..points.len()).into_par_iter().map(at).collect()
+}
+
+/// Whether two points are of one surface, and see the same lights.
+pub(super) fn alike(a: Option<&Surface>, b: Option<&Surface>) -> bool {
+    match (a, b) {
+        (None, None) => true,
+        (Some(a), Some(b)) => {
+            a.object == b.object
+                && a.lights.len() == b.lights.len()
+                && a.lights.iter().zip(&b.lights).all(|(a, b)| {
+                    (a.above, a.visible, a.clear, a.reached, a.away, a.away_endless)
+                        == (b.above, b.visible, b.clear, b.reached, b.away, b.away_endless)
+                })
+                // Faces of a mesh or box that meet at a corner.
+                && a.n.dot(b.n) > 0.7
+        }
+        _ => false,
+    }
 }

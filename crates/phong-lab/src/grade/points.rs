@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use glam::DVec3;
 use phong::explain::listen;
 use phong::interaction::SurfaceInteraction;
 use phong::material::Material;
@@ -32,7 +33,7 @@ pub(super) struct MaterialHere {
 }
 
 impl MaterialHere {
-    fn new(scene: &View, number: u32, point: &TexturePoint) -> Self {
+    pub(super) fn new(scene: &View, number: u32, point: &TexturePoint) -> Self {
         let written = scene.written_at(number, point);
         Self { written, ready: scene.material_at(number, point) }
     }
@@ -41,11 +42,16 @@ impl MaterialHere {
 #[derive(Clone, Debug)]
 pub(super) struct Surface {
     pub(super) object: u32,
+    /// The material's number, from 0.
+    pub(super) number: u32,
     pub(super) material: Arc<MaterialHere>,
+    pub(super) p: DVec3,
     pub(super) n: Dir3,
     /// The normal as the surface has it: what a program uses that never turns it to the ray.
     pub(super) ng: Dir3,
     pub(super) e: Dir3,
+    /// How far the eye is.
+    pub(super) to_eye: f32,
     pub(super) tangent: Dir3,
     pub(super) color: Rgb,
     /// The ambient term as it is in the sum, per-light parts included.
@@ -55,7 +61,10 @@ pub(super) struct Surface {
 
 /// One light at one point.
 #[derive(Clone, Copy, Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a ray's answer")]
 pub(super) struct LightPoint {
+    /// Its number, from 0.
+    pub(super) number: usize,
     pub(super) l: Dir3,
     pub(super) distance: f32,
     /// Attenuated.
@@ -67,40 +76,129 @@ pub(super) struct LightPoint {
     pub(super) visible: bool,
     /// Above, and nothing in its direction, however far.
     pub(super) clear: bool,
+    /// Nothing between, above the horizon or not.
+    pub(super) reached: bool,
+    /// Nothing in the opposite direction, as far as the light is.
+    pub(super) away: bool,
+    /// Nothing in the opposite direction, however far.
+    pub(super) away_endless: bool,
 }
 
-/// The points of a whole picture, row by row.
-pub(super) fn gather(scene: &View, options: &RenderOptions) -> Vec<Point> {
-    // One sample is in the middle of its pixel whatever the filter, and this one is soonest made.
-    let centre = options.one_sample().with_filter(FilterKind::Box);
-    let [width, height] = options.size();
+/// Which rays objects can block.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Casting<'a> {
+    pub(super) view: &'a View,
+    pub(super) shadows: bool,
+}
+
+impl Casting<'_> {
+    /// Whether nothing is in the way of a light's ray from a point.
+    pub(super) fn free(self, light: usize, at: &SurfaceInteraction, dir: Dir3, far: f32) -> bool {
+        let casts = self.shadows && self.view.lights()[light].shadows;
+        !(casts && self.view.world().occluded(&at.spawn(dir, far)))
+    }
+
+    /// A light at a point where it sends `sample`, and is seen as told.
+    pub(super) fn light(
+        self,
+        number: usize,
+        at: &SurfaceInteraction,
+        sample: &phong::light::LightSample,
+        [above, visible]: [bool; 2],
+    ) -> LightPoint {
+        let (l, distance) = (sample.l, sample.distance);
+        let point_light =
+            !matches!(self.view.written_lights()[number].kind, LightKind::Distant { .. });
+        let free = |dir, far| self.free(number, at, dir, far);
+        let away = free(-l, distance);
+        LightPoint {
+            number,
+            l,
+            distance,
+            color: sample.color,
+            specular_color: sample.specular_color,
+            above,
+            visible,
+            clear: visible && (!point_light || free(l, f32::INFINITY)),
+            reached: if above { visible } else { free(l, distance) },
+            away,
+            away_endless: away && (!point_light || free(-l, f32::INFINITY)),
+        }
+    }
+}
+
+/// Materials that are the same everywhere on their surfaces; `None`: those with a texture.
+pub(super) fn shared(scene: &View) -> Vec<Option<Arc<MaterialHere>>> {
     let everywhere = |(number, written): (usize, &phong_scene::Material)| {
         let here = || MaterialHere::new(scene, number as u32, &TexturePoint::default());
         written.textured().is_empty().then(|| Arc::new(here()))
     };
-    let shared: Vec<_> = scene.written_materials().iter().enumerate().map(everywhere).collect();
-    let shared = &*shared;
-    let row = |y: u32| {
-        let centre = &centre;
-        (0..width).map(move |x| {
-            let mut listener =
-                Listener { scene, shared, weights: Vec::new(), point: Point::default() };
-            // Within the picture, so there is nothing that can be outside.
-            let _ = listen(scene, centre, [x, y], 0, &mut listener);
-            listener.point
-        })
+    scene.written_materials().iter().enumerate().map(everywhere).collect()
+}
+
+/// The points of a whole picture, row by row.
+pub(super) fn gather(scene: &View, options: &RenderOptions) -> Vec<Point> {
+    let [width, height] = options.size();
+    let all: Vec<usize> = (0..width as usize * height as usize).collect();
+    gather_at(scene, options, &all)
+}
+
+/// The points of these pixels, numbered row by row.
+pub(super) fn gather_at(scene: &View, options: &RenderOptions, pixels: &[usize]) -> Vec<Point> {
+    // One sample is in the middle of its pixel whatever the filter, and this one is soonest made.
+    let centre = options.one_sample().with_filter(FilterKind::Box);
+    let width = options.size()[0];
+    let shared = &*shared(scene);
+    let casting = Casting { view: scene, shadows: options.shadows() };
+    let at = |&i: &usize| {
+        let mut listener =
+            Listener { casting, shared, weights: Vec::new(), point: Point::default(), at: None };
+        let pixel = [i as u32 % width, i as u32 / width];
+        // Within the picture, so there is nothing that can be outside.
+        let _ = listen(scene, &centre, pixel, 0, &mut listener);
+        listener.point
     };
-    (0..height).into_par_iter().flat_map_iter(row).collect()
+    pixels.par_iter().with_min_len(64).map(at).collect()
+}
+
+/// A surface that a ray met, before any light.
+pub(super) fn surface(
+    view: &View,
+    shared: &[Option<Arc<MaterialHere>>],
+    ray: &Ray,
+    at: &SurfaceInteraction,
+    ambient: Rgb,
+) -> Surface {
+    // A tangent is of unit length; whatever else it were would have no direction.
+    let tangent = view.coordinates(ray, &at.hit).tangent.to_array();
+    Surface {
+        object: view.object(&at.hit),
+        number: at.material,
+        material: shared[at.material as usize].clone().unwrap_or_else(|| {
+            let point = view.texture_point_of(ray, at);
+            Arc::new(MaterialHere::new(view, at.material, &point))
+        }),
+        p: at.p,
+        n: at.n,
+        ng: at.ng,
+        e: at.e,
+        to_eye: at.hit.t,
+        tangent: Dir3::from_array(tangent).unwrap_or(Dir3::X),
+        color: at.color,
+        ambient,
+        lights: Vec::with_capacity(view.lights().len()),
+    }
 }
 
 /// Listens to the first hit of one ray.
 struct Listener<'a> {
-    scene: &'a View,
+    casting: Casting<'a>,
     /// The materials that are the same everywhere.
     shared: &'a [Option<Arc<MaterialHere>>],
     /// Weights of the rays on their way below the camera's.
     weights: Vec<Rgb>,
     point: Point,
+    at: Option<SurfaceInteraction>,
 }
 
 impl Witness for Listener<'_> {
@@ -112,48 +210,23 @@ impl Witness for Listener<'_> {
 
     fn met(&mut self, ray: &Ray, at: &SurfaceInteraction, terms: Terms) {
         if self.weights.is_empty() {
-            // A tangent is of unit length; whatever else it were would have no direction.
-            let tangent = self.scene.coordinates(ray, &at.hit).tangent.to_array();
             self.point.terms = terms;
-            self.point.surface = Some(Surface {
-                object: self.scene.object(&at.hit),
-                material: self.shared[at.material as usize].clone().unwrap_or_else(|| {
-                    let point = self.scene.texture_point_of(ray, at);
-                    Arc::new(MaterialHere::new(self.scene, at.material, &point))
-                }),
-                n: at.n,
-                ng: at.ng,
-                e: at.e,
-                tangent: Dir3::from_array(tangent).unwrap_or(Dir3::X),
-                color: at.color,
-                ambient: terms.ambient,
-                lights: Vec::with_capacity(self.scene.lights().len()),
-            });
+            self.point.surface =
+                Some(surface(self.casting.view, self.shared, ray, at, terms.ambient));
+            self.at = Some(*at);
         }
     }
 
     fn lit(&mut self, told: &LightContribution) {
-        let (true, Some(surface), Some(sample)) =
-            (self.weights.is_empty(), &mut self.point.surface, told.sample)
+        let (true, Some(surface), Some(sample), Some(at)) =
+            (self.weights.is_empty(), &mut self.point.surface, told.sample, &self.at)
         else {
             return;
         };
-        surface.ambient +=
-            surface.material.ready.ambient_of_light(surface.color, self.scene.ambient(), &sample);
-        let endless = told.shadow.map(|ray| Ray { t_max: f32::INFINITY, ..ray });
-        let point_light =
-            !matches!(self.scene.written_lights()[told.light].kind, LightKind::Distant { .. });
-        let clear = told.visible
-            && !(point_light && endless.is_some_and(|ray| self.scene.world().occluded(&ray)));
-        surface.lights.push(LightPoint {
-            l: sample.l,
-            distance: sample.distance,
-            color: sample.color,
-            specular_color: sample.specular_color,
-            above: told.above,
-            visible: told.visible,
-            clear,
-        });
+        let ambient = self.casting.view.ambient();
+        surface.ambient += surface.material.ready.ambient_of_light(surface.color, ambient, &sample);
+        let seen = [told.above, told.visible];
+        surface.lights.push(self.casting.light(told.light, at, &sample, seen));
     }
 
     fn entered(&mut self, _: Branch, weight: Rgb, _: Option<f32>, _: &Ray) {

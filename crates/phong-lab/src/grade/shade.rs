@@ -1,209 +1,244 @@
 //! The sum as a program with a mistake computes it.
 //!
-//! With [`Wrong::default`] nothing is wrong, and the sum is the integrator's, which a test holds.
+//! With [`Fault::default`] nothing is wrong, and the sum is the integrator's, which a test holds.
 
+use glam::{DVec3, Vec3};
 use phong::light::LightSample;
 use phong::math::{Dir3, lobe, pow};
 use phong::reflectance::{blinn_phong, phong as phong_model};
 use phong::terms::Terms;
-use phong_scene::{Model, Rgb};
+use phong_scene::{LightKind, Model, Rgb, Scene, Shape};
 
+use super::fault::Fault;
 use super::points::{LightPoint, MaterialHere, Point, Surface};
+use super::wrong::{
+    Ambient, Below, Clamp, Eye, Falloff, Half, LightColor, Lobe, Normal, Reversed, Shadows, Wrong,
+};
 
-/// What may be wrong with a renderer's sum.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[expect(clippy::struct_excessive_bools, reason = "each is one independent mistake")]
-pub(super) struct Wrong {
-    /// What the ambient term is multiplied by.
-    pub(super) ambient: Ambient,
-    pub(super) diffuse: bool,
-    pub(super) specular: bool,
-    pub(super) shadows: Shadows,
-    /// Diffuse below the horizon is negative.
-    pub(super) unclamped_diffuse: bool,
-    /// R·E below 0 is raised to the power all the same.
-    pub(super) unclamped_specular: bool,
-    /// The highlight is not cut where the light is behind the surface.
-    pub(super) uncut_specular: bool,
-    /// Of R, or of E: the sign.
-    pub(super) mirrored: bool,
-    pub(super) half: Half,
-    pub(super) lobe: Option<Lobe>,
-    /// What the exponent is multiplied by.
-    pub(super) exponent: f32,
-    /// The normal points the other way.
-    pub(super) inside_out: bool,
-    /// L keeps the length of the way to the light.
-    pub(super) long_l: bool,
-    /// What the highlight is tinted by besides.
-    pub(super) tinted: bool,
-    pub(super) times_cosine: bool,
-    /// Only the first light counts.
-    pub(super) first_light: bool,
-    /// Light is divided by the square of its distance.
-    pub(super) inverse_square: bool,
-    /// Each light's sum is clamped to 1 before it is added.
-    pub(super) clamped_lights: bool,
-    /// Mirror and glass rays bring nothing.
-    pub(super) no_secondary: bool,
+/// What a wrong sum needs to know of the scene besides the point.
+#[derive(Clone, Debug)]
+pub(super) struct Facts {
+    eye: DVec3,
+    backward: Dir3,
+    /// How many lights there are.
+    pub(super) lights: usize,
+    /// Of each light: its constants of attenuation; `None` for distant ones.
+    attenuation: Vec<Option<[f64; 3]>>,
+    /// The lights' own colours, not attenuated.
+    colors: Vec<[Rgb; 2]>,
+    /// Of each object: how long its normal is if nobody makes it 1. Empty where objects of groups
+    /// make the numbers other than the text's.
+    normal_lengths: Vec<f32>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Ambient {
-    Right,
-    Missing,
-    PerLight,
-    NotInShadow,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Shadows {
-    Right,
-    Missing,
-    /// Things behind a point light cast shadows too.
-    Endless,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Half {
-    Right,
-    /// L + E, as it is.
-    Sum,
-    /// (L + E) / 2.
-    Mean,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Lobe {
-    Phong,
-    Blinn,
-}
-
-impl Default for Wrong {
-    fn default() -> Self {
+impl Facts {
+    pub(super) fn new(scene: &Scene, backward: Dir3) -> Self {
+        let attenuation = |light: &phong_scene::Light| match light.kind {
+            LightKind::Distant { .. } => None,
+            LightKind::Point { attenuation, .. } | LightKind::Spot { attenuation, .. } => {
+                Some(attenuation)
+            }
+        };
+        let length = |object: &phong_scene::Object| {
+            let length = match &object.shape {
+                Shape::Sphere { radius, .. } => *radius,
+                Shape::Plane { normal, .. } | Shape::Disc { normal, .. } => normal.length(),
+                _ => 1.0,
+            };
+            length as f32
+        };
+        let known = scene.groups.is_empty();
         Self {
-            ambient: Ambient::Right,
-            diffuse: true,
-            specular: true,
-            shadows: Shadows::Right,
-            unclamped_diffuse: false,
-            unclamped_specular: false,
-            uncut_specular: false,
-            mirrored: false,
-            half: Half::Right,
-            lobe: None,
-            exponent: 1.0,
-            inside_out: false,
-            long_l: false,
-            tinted: false,
-            times_cosine: false,
-            first_light: false,
-            inverse_square: false,
-            clamped_lights: false,
-            no_secondary: false,
+            eye: scene.camera.eye,
+            backward,
+            lights: scene.lights.len(),
+            attenuation: scene.lights.iter().map(attenuation).collect(),
+            colors: scene.lights.iter().map(|l| [l.color, l.specular_color]).collect(),
+            normal_lengths: scene.objects.iter().filter(|_| known).map(length).collect(),
         }
+    }
+
+    fn is_distant(&self, light: usize) -> bool {
+        self.attenuation.get(light).is_none_or(Option::is_none)
     }
 }
 
 /// The sum at a point, computed with a mistake.
-pub(super) fn shade(point: &Point, wrong: &Wrong) -> Terms {
+pub(super) fn shade(point: &Point, fault: &Fault, facts: &Facts) -> Terms {
     let Some(surface) = &point.surface else {
-        return point.terms;
+        return match fault.look.as_ref().and_then(|look| look.background) {
+            Some(background) => Terms { background, ..point.terms },
+            None => point.terms,
+        };
     };
-    let mut sum = Terms { ambient: ambient(surface, wrong), ..point.terms };
+    if !fault.is_of(surface.object) {
+        return sum(point.terms, surface, &Wrong::default(), None, facts);
+    }
+    match &fault.look {
+        Some(look) => {
+            let surface = look.dress(surface);
+            sum(point.terms, &surface, &fault.wrong, fault.light.as_ref(), facts)
+        }
+        None => sum(point.terms, surface, &fault.wrong, fault.light.as_ref(), facts),
+    }
+}
+
+fn sum(
+    terms: Terms,
+    surface: &Surface,
+    wrong: &Wrong,
+    of_light: Option<&(usize, Wrong)>,
+    facts: &Facts,
+) -> Terms {
+    let mut sum = Terms { ambient: ambient(surface, wrong, facts), ..terms };
     if wrong.no_secondary {
         (sum.reflection, sum.transmission) = (Rgb::BLACK, Rgb::BLACK);
     }
-    let lights = if wrong.first_light { 1 } else { surface.lights.len() };
-    for light in surface.lights.iter().take(lights) {
-        let (mut diffuse, mut specular) = one_light(surface, light, wrong);
+    for light in &surface.lights {
+        if wrong.first_light && light.number > 0 {
+            continue;
+        }
+        let wrong = match of_light {
+            Some((number, wrong)) if *number == light.number => wrong,
+            _ => wrong,
+        };
+        let (mut diffuse, mut specular) = one_light(surface, light, wrong, facts);
         if wrong.clamped_lights {
             diffuse = diffuse.map(|v| v.min(1.0));
             let total = (diffuse + specular).map(|v| v.min(1.0));
             specular = total - diffuse;
         }
-        if wrong.diffuse {
-            sum.diffuse += diffuse;
-        }
-        if wrong.specular {
-            sum.specular += specular;
+        sum.diffuse += diffuse * wrong.diffuse_factor;
+        sum.specular += specular * wrong.specular_factor;
+    }
+    if wrong.averaged && facts.lights > 0 {
+        let share = 1.0 / facts.lights as f32;
+        (sum.diffuse, sum.specular) = (sum.diffuse * share, sum.specular * share);
+    }
+    if let Shadows::Whole(left) = wrong.shadows
+        && surface.lights.iter().any(|light| light.above && !light.visible)
+    {
+        for term in [&mut sum.ambient, &mut sum.diffuse, &mut sum.specular] {
+            *term *= left;
         }
     }
     sum
 }
 
-fn ambient(surface: &Surface, wrong: &Wrong) -> Rgb {
-    match wrong.ambient {
+fn ambient(surface: &Surface, wrong: &Wrong, facts: &Facts) -> Rgb {
+    let seen = surface.lights.iter().filter(|light| light.visible).count();
+    let blocked = surface.lights.iter().any(|light| light.above && !light.visible);
+    let kept = |gone: bool| if gone { Rgb::BLACK } else { surface.ambient };
+    let ambient = match wrong.ambient {
         Ambient::Right => surface.ambient,
         Ambient::Missing => Rgb::BLACK,
-        Ambient::PerLight => surface.ambient * surface.lights.len() as f32,
-        Ambient::NotInShadow => {
-            let blocked = |light: &LightPoint| light.above && !light.visible;
-            if surface.lights.iter().any(blocked) && !surface.lights.iter().any(|l| l.visible) {
-                Rgb::BLACK
-            } else {
-                surface.ambient
-            }
-        }
+        Ambient::PerLight => surface.ambient * facts.lights as f32,
+        Ambient::PerSeenLight => surface.ambient * seen as f32,
+        Ambient::NotInShadow => kept(blocked && seen == 0),
+        Ambient::NotUnlit => kept(seen == 0),
+        Ambient::NotWhereBlocked => kept(blocked),
+        Ambient::WithoutWeight => match surface.material.written.k_a {
+            k_a if k_a > 0.0 => surface.ambient / k_a,
+            _ => surface.ambient,
+        },
+    };
+    ambient * wrong.ambient_factor
+}
+
+/// L, its length, and the shares of diffuse and specular light that pass what stands in the way.
+fn arriving(
+    surface: &Surface,
+    light: &LightPoint,
+    wrong: &Wrong,
+    facts: &Facts,
+) -> (Dir3, f32, [f32; 2]) {
+    let share = |seen: bool| [f32::from(u8::from(seen)); 2];
+    let distant = facts.is_distant(light.number);
+    let length = if wrong.long_l && !distant { light.distance } else { 1.0 };
+    let reversed = if distant { wrong.reversed_distant } else { wrong.reversed_points };
+    if let Some(reversed) = reversed {
+        let seen = match reversed {
+            Reversed::Untested => true,
+            Reversed::Away => light.away,
+            Reversed::AwayEndless => light.away_endless,
+            Reversed::Between => light.reached,
+        };
+        return (-light.l, length, share(seen || wrong.shadows == Shadows::Missing));
     }
+    let seen = if light.above {
+        match wrong.shadows {
+            Shadows::Missing | Shadows::Whole(_) => share(true),
+            Shadows::Endless => share(light.clear),
+            Shadows::Through(diffuse, specular) if !light.visible => [diffuse, specular],
+            Shadows::Right | Shadows::Through(..) => share(light.visible),
+        }
+    } else {
+        let open = wrong.below == Below::Open || wrong.shadows == Shadows::Missing;
+        // A normal never turned to the ray: what is above for it is asked for as usual.
+        let turned = wrong.normal == Normal::Outward && surface.ng.dot(light.l) > 0.0;
+        share(if turned { light.reached } else { open || light.reached })
+    };
+    (light.l, length, seen)
 }
 
 /// Diffuse and specular of one light.
-fn one_light(surface: &Surface, light: &LightPoint, wrong: &Wrong) -> (Rgb, Rgb) {
-    let seen = match wrong.shadows {
-        Shadows::Right => light.visible,
-        Shadows::Missing => light.above,
-        Shadows::Endless => light.clear,
-    };
-    // Of a light behind the surface our own picture says nothing, so nothing stands in its way.
-    let behind = !light.above;
-    let reaches_behind = wrong.unclamped_diffuse
-        || wrong.unclamped_specular
-        || wrong.uncut_specular
-        || wrong.inside_out;
-    if !(seen || behind && reaches_behind || wrong.inside_out) {
-        return (Rgb::BLACK, Rgb::BLACK);
+fn one_light(surface: &Surface, light: &LightPoint, wrong: &Wrong, facts: &Facts) -> (Rgb, Rgb) {
+    let dark = (Rgb::BLACK, Rgb::BLACK);
+    let (l, length, shares) = arriving(surface, light, wrong, facts);
+    if shares == [0.0; 2] {
+        return dark;
     }
-    let factor = if wrong.inverse_square && light.distance.is_finite() {
-        1.0 / (light.distance * light.distance)
-    } else {
-        1.0
-    };
-    let sample = LightSample {
-        l: light.l,
-        distance: light.distance,
-        color: light.color * factor,
-        specular_color: light.specular_color * factor,
-    };
+    let [color, specular_color] = colors(light, wrong, facts);
+    let sample = LightSample { l, distance: light.distance, color, specular_color };
     let MaterialHere { written, ready: material } = &*surface.material;
-    let n = if wrong.inside_out { -surface.ng } else { surface.n };
+    let n = match wrong.normal {
+        Normal::Right | Normal::Long => surface.n,
+        Normal::Outward => surface.ng,
+        Normal::Inward => -surface.ng,
+    };
     if !matches!(
         written.model,
         Model::Lambert | Model::Phong | Model::BlinnPhong | Model::BlinnFast
     ) {
+        if !light.above && n == surface.n && l == light.l {
+            return dark;
+        }
         let e = if wrong.mirrored { -surface.e } else { surface.e };
         let terms = material.shade_light(n, surface.tangent, e, surface.color, &sample);
-        return (terms.diffuse, terms.specular);
+        return (terms.diffuse * shares[0], terms.specular * shares[1]);
+    }
+    // A light above the shading normal's horizon and below the geometric one gives nothing.
+    if !light.above && n == surface.n && l == light.l && n.dot(l) > 0.0 {
+        return dark;
     }
     let incident = material.incident(n, surface.color, &sample);
-    let length = if wrong.long_l && light.distance.is_finite() { light.distance } else { 1.0 };
-    let n_dot_l = n.dot(light.l) * length;
-    let cosine = if wrong.unclamped_diffuse { n_dot_l } else { n_dot_l.max(0.0) };
-    let diffuse = written.k_d * cosine * incident.c_d;
-    let cut = n_dot_l <= 0.0 && !(wrong.uncut_specular || wrong.unclamped_specular);
+    let n_length = match wrong.normal {
+        Normal::Long => facts.normal_lengths.get(surface.object as usize).copied().unwrap_or(1.0),
+        _ => 1.0,
+    };
+    let n_dot_l = n.dot(l) * length * n_length;
+    let cosine = match wrong.diffuse_clamp {
+        Clamp::Right => n_dot_l.max(0.0),
+        Clamp::Missing => n_dot_l,
+        Clamp::Abs => n_dot_l.abs(),
+    };
+    let k_d = if wrong.k_d_ignored { 1.0 } else { written.k_d };
+    let diffuse = k_d * cosine * incident.c_d;
+    let cut = n_dot_l <= 0.0 && !(wrong.uncut_specular || wrong.specular_clamp != Clamp::Right);
     if cut || written.model == Model::Lambert {
-        return (diffuse, Rgb::BLACK);
+        return (diffuse * shares[0], Rgb::BLACK);
     }
     let tint = if wrong.tinted { surface.color } else { Rgb::WHITE };
     let own = if written.model == Model::Phong { Lobe::Phong } else { Lobe::Blinn };
-    let e = material.eye(surface.e);
-    let base = base(n, light.l, e, length, wrong.lobe.unwrap_or(own), wrong);
+    let (e, e_length) = eye(surface, material.eye(surface.e), wrong, facts);
+    let vectors = Vectors { n, n_length, l, length, e, e_length };
+    let base = base(&vectors, wrong.lobe.unwrap_or(own), wrong);
     let alpha = written.shininess * wrong.exponent;
     let power = match (written.model, wrong.lobe) {
         (Model::BlinnFast, None) => blinn_phong::rational_lobe(base, alpha),
-        _ => raised(base, alpha, wrong.unclamped_specular),
+        _ => raised(base, alpha, wrong.specular_clamp),
     };
-    let mut scale = written.k_s;
+    let mut scale = if wrong.k_s_ignored { 1.0 } else { written.k_s };
     if written.times_cosine || wrong.times_cosine {
         scale *= n_dot_l.max(0.0);
     }
@@ -213,17 +248,80 @@ fn one_light(surface: &Surface, light: &LightPoint, wrong: &Wrong) -> (Rgb, Rgb)
             Lobe::Blinn => blinn_phong::normalization(written.shininess, written.times_cosine),
         };
     }
-    (diffuse, scale * power * incident.c_s * tint)
+    (diffuse * shares[0], scale * power * shares[1] * incident.c_s * tint)
+}
+
+/// The light's diffuse and specular colours as they arrive.
+fn colors(light: &LightPoint, wrong: &Wrong, facts: &Facts) -> [Rgb; 2] {
+    let mut colors = [light.color, light.specular_color];
+    let d = light.distance;
+    if wrong.light_color != LightColor::Right {
+        let own = facts.colors.get(light.number).copied().unwrap_or([Rgb::WHITE; 2]);
+        let grey = |c: Rgb| match wrong.light_color {
+            LightColor::Brightest => Rgb::grey(c.max_channel()),
+            LightColor::Mean => Rgb::grey((c.r + c.g + c.b) / 3.0),
+            LightColor::Luminance => Rgb::grey(0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b),
+            LightColor::Right | LightColor::White | LightColor::WhiteSpecular => Rgb::WHITE,
+        };
+        // Whatever attenuates the light attenuates its wrong colour too.
+        let left = |here: Rgb, own: Rgb| match own.max_channel() {
+            most if most > 0.0 => here.max_channel() / most,
+            _ => 0.0,
+        };
+        for (which, (color, own)) in colors.iter_mut().zip(own).enumerate() {
+            if which == 1 || wrong.light_color != LightColor::WhiteSpecular {
+                *color = grey(own) * left(*color, own);
+            }
+        }
+    }
+    let Some(Some([c, linear, square])) = facts.attenuation.get(light.number) else {
+        return colors;
+    };
+    let factor = match wrong.falloff {
+        Falloff::Right => return colors,
+        Falloff::Missing => (c + linear * f64::from(d) + square * f64::from(d * d)) as f32,
+        Falloff::Linear => 1.0 / d,
+        Falloff::Square => 1.0 / (d * d),
+    };
+    colors.map(|color| color * factor)
+}
+
+/// E and its length.
+fn eye(surface: &Surface, right: Dir3, wrong: &Wrong, facts: &Facts) -> (Dir3, f32) {
+    let unit = |v: DVec3| Dir3::new(v.as_vec3()).unwrap_or(right);
+    match wrong.eye {
+        Eye::Right => (right, 1.0),
+        Eye::Axis => (facts.backward, 1.0),
+        Eye::FromOrigin => (unit(facts.eye), 1.0),
+        Eye::AlongZ => (Dir3::Z, 1.0),
+        Eye::AtOrigin => (unit(-surface.p), 1.0),
+        Eye::Long => (right, surface.to_eye),
+        Eye::LongRay => (right, 1.0 / surface.e.dot(facts.backward).max(1e-3)),
+    }
+}
+
+struct Vectors {
+    n: Dir3,
+    n_length: f32,
+    l: Dir3,
+    length: f32,
+    e: Dir3,
+    e_length: f32,
 }
 
 /// R·E or N·H.
-fn base(n: Dir3, l: Dir3, e: Dir3, length: f32, lobe: Lobe, wrong: &Wrong) -> f32 {
+fn base(vectors: &Vectors, lobe: Lobe, wrong: &Wrong) -> f32 {
+    let &Vectors { n, n_length, l, length, e, e_length } = vectors;
     let sign = if wrong.mirrored { -1.0 } else { 1.0 };
     match lobe {
-        Lobe::Phong => sign * length * n.mirror(l).dot(e),
+        Lobe::Phong if n_length == 1.0 => sign * length * e_length * n.mirror(l).dot(e),
+        Lobe::Phong => {
+            let (n, l): (Vec3, Vec3) = (n_length * n.to_vec(), length * l.to_vec());
+            sign * e_length * (2.0 * n.dot(l) * n - l).dot(e.to_vec())
+        }
         Lobe::Blinn => {
-            let sum = length * l.to_vec() + sign * e.to_vec();
-            let along = n.to_vec().dot(sum);
+            let sum = length * l.to_vec() + sign * e_length * e.to_vec();
+            let along = n_length * n.to_vec().dot(sum);
             match wrong.half {
                 Half::Right => along / sum.length().max(f32::MIN_POSITIVE),
                 Half::Sum => along,
@@ -234,18 +332,18 @@ fn base(n: Dir3, l: Dir3, e: Dir3, length: f32, lobe: Lobe, wrong: &Wrong) -> f3
 }
 
 /// A power as a program takes it that does, or does not, clamp its base first.
-fn raised(base: f32, alpha: f32, unclamped: bool) -> f32 {
+fn raised(base: f32, alpha: f32, clamp: Clamp) -> f32 {
     if base > 1.0 {
         // Not a cosine: a vector was not normalised.
-        return pow(base, alpha);
+        return pow(base, alpha).min(1e9);
     }
-    if base > 0.0 || !unclamped {
+    if base > 0.0 || clamp == Clamp::Right {
         return lobe(base, alpha);
     }
     // std::pow of a negative base: its sign for an odd exponent, NaN for a fraction.
     match alpha {
+        a if clamp == Clamp::Abs || a % 2.0 == 0.0 => lobe(-base, a),
         a if a.fract() != 0.0 => 0.0,
-        a if a % 2.0 == 0.0 => lobe(-base, a),
         a => -lobe(-base, a),
     }
 }

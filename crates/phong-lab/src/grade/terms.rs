@@ -3,9 +3,10 @@
 use phong::terms::{Term, Terms};
 use phong_scene::srgb_decode;
 
-use super::Prepared;
+use super::fault::Fault;
 use super::picture::Theirs;
-use super::shade::{Wrong, shade};
+use super::prepared::Prepared;
+use super::shade::shade;
 
 /// Terms, each with a column of its own.
 const COUNT: usize = Term::ALL.len();
@@ -31,11 +32,12 @@ fn named(column: Term) -> String {
 pub(super) fn fit(right: &Prepared, theirs: &Theirs) -> Vec<(String, Option<f64>)> {
     let mut normal = [[0.0; COUNT]; COUNT];
     let mut side = [0.0; COUNT];
+    let nothing = Fault::default();
     for (i, point) in right.points.iter().enumerate() {
         if !right.inner[i] || point.surface.is_none() {
             continue;
         }
-        let sum = shade(point, &Wrong::default());
+        let sum = shade(point, &nothing, &right.facts);
         let mut columns = Terms::default();
         for (term, value) in sum.iter() {
             if let Some(column) = counted_as(term) {
@@ -43,7 +45,7 @@ pub(super) fn fit(right: &Prepared, theirs: &Theirs) -> Vec<(String, Option<f64>
             }
         }
         let columns = Term::ALL.map(|column| columns[column].to_array());
-        let drawn = theirs.at(i, right.size, None);
+        let Some(drawn) = theirs.at(i, right.size, None) else { continue };
         for channel in 0..3 {
             let level = f64::from(drawn[channel].value);
             if level.is_nan() || level > 0.995 {

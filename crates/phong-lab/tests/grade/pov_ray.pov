@@ -1,5 +1,6 @@
 // The pair of pov_ray.toml, drawn as a student would hand it in: 8 bits, encoded, edges smoothed.
 //   povray +Ipov_ray.pov +Opov_ray.png +W96 +H72 +A0.1 +AM2 +R3 -D
+// and as pov_ray.jpg with +FJ Compression=90
 #version 3.7;
 global_settings { assumed_gamma 1 }
 camera {
