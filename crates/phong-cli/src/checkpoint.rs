@@ -51,6 +51,10 @@ impl Checkpoint {
     /// What an earlier run has done of this very picture; `None` if there is no checkpoint.
     pub(crate) fn film(&self) -> Result<Option<Film>, Failure> {
         let failed = |error: &io::Error| Failure::reading(&self.path, error);
+        // Opening a pipe would wait for whoever writes to it.
+        if fs::metadata(&self.path).is_ok_and(|kind| !kind.is_file()) {
+            return Err(self.unusable("it is no file"));
+        }
         let file = match File::open(&self.path) {
             Ok(file) => file,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),

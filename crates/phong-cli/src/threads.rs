@@ -14,6 +14,9 @@ const STACK: usize = 8 << 20;
 /// Bytes of addresses that a thread may take: its stack, and what its allocator sets aside.
 const ADDRESSES: u64 = STACK as u64 + (64 << 20);
 
+/// Most threads where the command line asks for none: making a hundred thousand takes minutes.
+const MOST_UNASKED: usize = 1024;
+
 /// Does work on so many threads; `None`: on one for each core. Where they cannot be made it is done
 /// on fewer, in the end on this one alone, with a word about it unless `quiet`.
 pub(crate) fn on<T: Send>(wanted: Option<u32>, quiet: bool, work: impl FnOnce() -> T + Send) -> T {
@@ -40,7 +43,7 @@ pub(crate) fn on<T: Send>(wanted: Option<u32>, quiet: bool, work: impl FnOnce() 
 fn rayon_threads() -> usize {
     let said = std::env::var("RAYON_NUM_THREADS").ok().and_then(|text| text.parse().ok());
     let cores = || thread::available_parallelism().map_or(1, usize::from);
-    said.filter(|&threads| threads > 0).unwrap_or_else(cores)
+    said.filter(|&threads| threads > 0).unwrap_or_else(cores).min(MOST_UNASKED)
 }
 
 /// A pool of so many threads. If one of them cannot be made the others have ended, and given back

@@ -104,6 +104,8 @@ fn a_pipe_is_read_once_and_only_as_the_input() {
     assert_eq!(then.code, Some(0), "{}", then.err);
     // Nobody writes to that one.
     folder.when("check mesh.toml").is_refused(&["pipe.obj", "a pipe or a device"]);
+    in_shell(&folder, "mkfifo a.png.part");
+    folder.when("render a.toml --resume").is_refused(&["a.png.part", "it is no file"]);
     for device in ["zero", "random", "full"] {
         let text = mesh.replace("pipe.obj", &format!("/dev/{device}"));
         fs::write(folder.path("device.toml"), text.replace("[[mesh]]", "[[include]]")).unwrap();
