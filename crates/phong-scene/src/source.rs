@@ -177,12 +177,11 @@ impl Jail {
         };
         match path.canonicalize() {
             Ok(real) if real.starts_with(&self.folder) => Ok(real),
-            Ok(_) => Err(outside()),
-            // What is not there either lies outside by its name, or nothing is given away.
+            // Of what is not there and lies outside by its name, that it is not there is not told.
             Err(error) if plain(path).is_some_and(|path| path.starts_with(&self.folder)) => {
                 Err(error)
             }
-            Err(_) => Err(outside()),
+            _ => Err(outside()),
         }
     }
 }

@@ -15,7 +15,7 @@ pub(super) struct Blocks {
     order: Vec<u32>,
     /// Where in `order` a corner stands.
     places: Vec<u32>,
-    blocks: Vec<bool>,
+    blocking: Vec<bool>,
     /// The range whose middle this is.
     ranges: Vec<Range>,
 }
@@ -77,15 +77,15 @@ impl Blocks {
         for (place, &corner) in order.iter().enumerate() {
             places[corner as usize] = place as u32;
         }
-        Self { blocks: vec![false; order.len()], order, places, ranges }
+        Self { blocking: vec![false; order.len()], order, places, ranges }
     }
 
     /// Says whether a corner blocks.
     pub(super) fn set(&mut self, corner: u32, blocks: bool) {
-        if self.blocks[corner as usize] == blocks {
+        if self.blocking[corner as usize] == blocks {
             return;
         }
-        self.blocks[corner as usize] = blocks;
+        self.blocking[corner as usize] = blocks;
         let place = self.places[corner as usize] as usize;
         let (mut start, mut end) = (0, self.order.len());
         loop {
@@ -108,7 +108,7 @@ impl Blocks {
         may: impl Fn(DVec2, DVec2) -> bool,
         wanted: impl Fn(DVec2) -> bool,
     ) -> bool {
-        let hit = |corner: u32| self.blocks[corner as usize] && wanted(points[corner as usize]);
+        let hit = |corner: u32| self.blocking[corner as usize] && wanted(points[corner as usize]);
         // Each step leaves one range more at most, and the ranges halve.
         let mut open = [(0_usize, 0_usize); 40];
         open[0] = (0, self.order.len());
