@@ -1,11 +1,16 @@
 //! Surfaces in one place: which is met first, and glass that touches or fills other glass.
 #![expect(clippy::unwrap_used, reason = "in a test, what is not there is a failure")]
 
+use std::sync::Arc;
+
 use phong::aov::Aov;
 use phong::explain::{End, explain};
 use phong::film::{Film, LayerKind};
+use phong::geometry::{Geometry, GeometryOptions};
+use phong::look::Look;
 use phong::render::{Cancel, RenderOptions, render};
 use phong::view::View;
+use phong_bvh::{BuildOptions, Level};
 use phong_scene::{Limits, Memory, Scene};
 
 const FIRST: &str = include_str!("cases/floor-first.toml");
@@ -281,6 +286,29 @@ fn a_pane_through_which_nothing_is_bent_is_still_drawn() {
     let pane = glass_box([-1.0, 0.0, -0.5], [1.0, 1.0, 0.5], "film");
     let [with, without] = [drawn(&text(&[FLOOR, &pane])), drawn(&text(&[FLOOR]))];
     assert!(values(&with) != values(&without));
+}
+
+#[test]
+fn threads_tiles_and_simd_levels_change_no_bit_where_surfaces_coincide() {
+    let left = glass_box([-1.0, 0.0, -0.5], [0.1, 1.0, 0.5], "hard");
+    let right = glass_box([0.1, 0.0, -0.5], [1.0, 1.0, 0.5], "water");
+    let label =
+        "[[disc]]\ncenter = [0, 0, 1]\nnormal = [0, 1, 0]\nradius = 0.6\nmaterial = \"label\"\n";
+    let scene = scene(&text(&[FLOOR, &left, &right, label]));
+    let options = RenderOptions::of(&scene.image).unwrap().with_depth(3).unwrap();
+    let drawn = |level: Option<Level>, tile: u32, threads: usize| {
+        let build = Some(BuildOptions { level, ..BuildOptions::default() });
+        let geometry = GeometryOptions { build, ..GeometryOptions::default() };
+        let geometry = Arc::new(Geometry::new(&scene, geometry).unwrap());
+        let view = View::new(geometry, Look::new(&scene)).unwrap();
+        let options = options.clone().with_tile(tile).unwrap();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| render(&view, &options, &|_| {}, &Cancel::new())).film
+    };
+    let usual = drawn(None, 16, 1);
+    for film in [drawn(None, 16, 3), drawn(None, 5, 2), drawn(Some(Level::Scalar), 16, 2)] {
+        assert_eq!(values(&film), values(&usual));
+    }
 }
 
 #[test]
