@@ -62,7 +62,7 @@ fn differences_are_drawn_with_their_scale_or_written_as_numbers() {
     folder.when("compare a.png b.png -o d.png");
     let drawn = phong::image::Picture::read(&folder.bytes("d.png")).unwrap();
     // 40 pixels, enlarged six times, and a margin.
-    assert_eq!(drawn.size, [6 * 40 + 16, 8 + 6 * 30 + 8 + 10 + 6 + 10 + 8]);
+    assert_eq!(drawn.size, [6 * 40 + 16, 8 + 6 * 30 + 8 + 10 + 6 + 17 + 8]);
     folder.when("compare a.png b.png --diff d.pfm");
     let written = phong::image::Picture::read(&folder.bytes("d.pfm")).unwrap();
     assert_eq!(written.size, [40, 30]);

@@ -16,8 +16,8 @@ fn without_a_name_it_lists_the_figures_and_writes_nothing() {
     let answer = phong(&folder, &["figure"]).assert().success();
     let words = String::from_utf8(answer.get_output().stdout.clone()).unwrap();
     let names: Vec<&str> = words.lines().filter_map(|line| line.split(' ').next()).collect();
-    let wanted = "normal vectors ambient diffuse cosine specular reflection shininess grid halfway \
-                  blinn terms examples microfacets";
+    let wanted = "normal vectors shading ambient diffuse scattering cosine specular reflection \
+                  shininess grid halfway peak speed blinn terms examples microfacets";
     assert_eq!(names, wanted.split(' ').collect::<Vec<_>>());
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
 }
@@ -36,6 +36,26 @@ fn a_figure_is_written_as_svg_and_png_and_twice_the_same() {
         assert!(first.starts_with(start), "{name}");
     }
     assert_eq!(fs::read_dir(folder.path().join("figures")).unwrap().count(), 2);
+}
+
+#[test]
+fn a_figure_takes_parameters_and_refuses_those_it_has_no_use_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let svg = |words: &[&str]| {
+        phong(&folder, words).assert().success();
+        fs::read_to_string(folder.path().join("figures/cosine.svg")).unwrap()
+    };
+    assert!(svg(&["figure", "cosine", "--theta", "50"]).contains(" = 50°"));
+    assert!(svg(&["figure", "cosine", "--dark"]).contains("#15181c"));
+    for (words, told) in [
+        (["cosine", "--alpha", "5"], "the figure cosine has no --alpha"),
+        (["cosine", "--theta", "89"], "from 5 to 80"),
+        (["terms", "--color", "black"], "--color"),
+    ] {
+        let answer = phong(&folder, &["figure"]).args(words).assert().code(2);
+        let said = String::from_utf8(answer.get_output().stderr.clone()).unwrap();
+        assert!(said.contains(told), "{said}");
+    }
 }
 
 #[test]
