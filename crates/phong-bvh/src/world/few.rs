@@ -128,7 +128,7 @@ impl<S: Simd> Best<S> {
         self.t = better.select(t, self.t);
         self.part = better.select(part, self.part);
         self.prim = better.select(prim, self.prim);
-        self.new = self.new | better;
+        self.new |= better;
     }
 
     /// Puts those found here in their place. They have no barycentric weights.

@@ -1,5 +1,7 @@
 //! Meshes, points and cylinders: lengths of arrays, indices, numbers.
 
+#![expect(clippy::needless_bitwise_bool, reason = "a branch for each number would cost more")]
+
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 

@@ -90,11 +90,12 @@ fn dialects() -> String {
             Viewer::Local => "local",
             Viewer::Distant => "distant",
         };
-        out += &format!(
+        let row = format!(
             "| `{}` | {} | {times_cosine} | {normalize} | {tint} | {ambient} | {viewer} |\n",
             dialect.name(),
             models.join(", ")
         );
+        out += &row;
     }
     out
 }

@@ -417,7 +417,8 @@ mod tests {
         comb.extend([(f64::from(n / 2), -1.0), (0.0, -1.0)]);
         let lying: Vec<_> = comb.iter().map(|&(x, y)| (y, x)).collect();
         let star = (0..n).map(|i| {
-            let (angle, r) = (f64::from(i) / f64::from(n) * 6.283, 1.0 + f64::from(i % 2));
+            let (angle, r) =
+                (f64::from(i) / f64::from(n) * std::f64::consts::TAU, 1.0 + f64::from(i % 2));
             (r * libm::cos(angle), r * libm::sin(angle))
         });
         for outline in [comb, lying, star.collect()] {

@@ -195,18 +195,14 @@ impl ValueReader<'_> {
         &mut self,
         value: &'v Spanned<DeValue<'i>>,
     ) -> Option<&'v [Spanned<DeValue<'i>>; N]> {
-        match value
-            .get_ref()
-            .as_array()
-            .and_then(|items| items.first_chunk::<N>().filter(|_| items.len() == N))
-        {
-            Some(items) => Some(items),
-            None => {
-                let spot = self.spot(value);
-                let commas = N == 3 && are_decimal_commas(value.get_ref(), N);
-                self.mismatch_helped(spot, value, commas)
-            }
+        let items = value.get_ref().as_array();
+        let items = items.and_then(|items| items.first_chunk().filter(|_| items.len() == N));
+        if items.is_none() {
+            let spot = self.spot(value);
+            let commas = N == 3 && are_decimal_commas(value.get_ref(), N);
+            return self.mismatch_helped(spot, value, commas);
         }
+        items
     }
 
     /// Exactly `N` numbers in a list.
