@@ -71,8 +71,8 @@ fn crc32(bytes: &[u8]) -> u32 {
 
 #[test]
 fn more_memory_than_the_system_grants_is_told_and_no_abort() {
-    let spheres: String =
-        (0..40_000).map(|i| format!("[[sphere]]\ncenter = [{i}, 0, 0]\nradius = 1\n")).collect();
+    let sphere = |i| format!("[[sphere]]\ncenter = [{i}, 0, 0]\nradius = 1\n");
+    let spheres = (0..40_000).map(sphere).collect::<Vec<_>>().concat();
     let folder = given(&[("a.toml", &format!("{BALLS}{spheres}"))]);
     let limited = in_shell(&folder, "exec $phong check a.toml --max-memory 30M");
     assert_eq!(limited.code, Some(2), "{}", limited.err);

@@ -16,6 +16,7 @@ pub struct Finishing {
 
 impl Finishing {
     /// The same, of the scene with this [`fingerprint`](crate::part::fingerprint()).
+    #[must_use]
     pub fn of_scene(self, fingerprint: u32) -> Self {
         Self { scene: Some(fingerprint) }
     }

@@ -56,13 +56,13 @@ fn two_cubes() -> String {
             let mut words = line.split(' ');
             let kind = words.next().unwrap();
             let numbers: Vec<f64> = words.map(|word| word.parse().unwrap()).collect();
-            text += &match kind {
-                "v" => format!("v {} {} {}\n", numbers[0] + shift, numbers[1], numbers[2]),
-                _ => {
-                    let corner = |i: usize| numbers[i] as u32 + first;
-                    format!("f {} {} {} {}\n", corner(0), corner(1), corner(2), corner(3))
-                }
+            let line = if kind == "v" {
+                format!("v {} {} {}\n", numbers[0] + shift, numbers[1], numbers[2])
+            } else {
+                let corner = |i: usize| numbers[i] as u32 + first;
+                format!("f {} {} {} {}\n", corner(0), corner(1), corner(2), corner(3))
             };
+            text += &line;
         }
     }
     text

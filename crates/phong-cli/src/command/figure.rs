@@ -98,7 +98,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 
 /// Refuses what the figure has no use for; of all figures, those that have one take it.
 fn refuse_unused(args: &Args, name: &str) -> Result<(), Failure> {
-    if args.color.is_some_and(|color| color.is_black()) {
+    if args.color.is_some_and(Rgb::is_black) {
         return Err(Failure::usage("--color: of a black ball nothing can be measured"));
     }
     let given = [

@@ -132,9 +132,10 @@ impl Page {
             self.numbers.one(s.t)
         ));
         let m = &s.material;
-        let place = match m.place.file.is_empty() {
-            true => " (the default material)".to_owned(),
-            false => format!(" ({})", m.place),
+        let place = if m.place.file.is_empty() {
+            " (the default material)".to_owned()
+        } else {
+            format!(" ({})", m.place)
         };
         self.line(format_args!("material {}{place}: {}", m.name, described(m)));
         if let Some(eta) = s.eta {

@@ -137,7 +137,7 @@ fn a_jpeg_is_graded_with_what_its_compression_may_have_changed() {
     let told = grade(&scene, &picture).unwrap();
     assert!(told.pass, "{:?} {:?}", told.residual, told.cause);
     let (mut brighter, picture) = drawn_by_another_program("pov_ray.jpg");
-    brighter.ambient = brighter.ambient * 3.0;
+    brighter.ambient *= 3.0;
     let told = grade(&brighter, &picture).unwrap();
     assert!(!told.pass, "{:?}", told.residual);
 }

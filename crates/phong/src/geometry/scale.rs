@@ -39,9 +39,10 @@ impl Scale {
         let sizes = extents.iter().map(|(bounds, _)| bounds.size().max_element());
         let mut sizes: Vec<f64> = sizes.filter(|&size| size > 0.0 && size.is_finite()).collect();
         let quarter = sizes.len() / 4;
-        let usual = match sizes.is_empty() {
-            true => f64::INFINITY,
-            false => *sizes.select_nth_unstable_by(quarter, f64::total_cmp).1,
+        let usual = if sizes.is_empty() {
+            f64::INFINITY
+        } else {
+            *sizes.select_nth_unstable_by(quarter, f64::total_cmp).1
         };
         let mut scale = Self { center: DVec3::ZERO, usual, has_room: true };
         let loose = extents.iter().filter(|(bounds, is_loose)| {

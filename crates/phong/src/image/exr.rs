@@ -86,8 +86,8 @@ pub(super) fn write(
         list.push(channel("A".to_owned(), &opaque, 1, 0));
     }
     let [software, scene] = picture.origin().map(|said| said.map(|(_, text)| text));
-    let mut attributes = LayerAttributes::default();
-    attributes.software_name = software.map(Text::new_or_panic);
+    let software_name = software.map(Text::new_or_panic);
+    let mut attributes = LayerAttributes { software_name, ..LayerAttributes::default() };
     attributes.other.extend(
         scene.map(|sum| {
             (Text::new_or_panic("scene"), AttributeValue::Text(Text::new_or_panic(sum)))

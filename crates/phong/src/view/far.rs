@@ -38,10 +38,8 @@ impl View {
             let off = (low - eye).max(eye - high).max(DVec3::ZERO);
             (off.length(), (high - low).max_element())
         });
-        let is_long = |pixels: f64| match self.camera.is_parallel() {
-            true => pixels * distance > LONG_LENS,
-            false => pixels > LONG_LENS,
-        };
+        let across = if self.camera.is_parallel() { distance } else { 1.0 };
+        let is_long = |pixels: f64| pixels * across > LONG_LENS;
         distance > FAR * extent || self.camera.pixels_across(size[1]).is_some_and(is_long)
     }
 }
