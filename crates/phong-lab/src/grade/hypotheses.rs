@@ -266,15 +266,14 @@ pub(super) fn at_points(scene: &Scene, right: &Prepared) -> Vec<Hypothesis> {
     all.extend(layouts.map(|(cause, layout)| Hypothesis::new(cause, Change::Layout(layout))));
     all.push(Hypothesis::new("background-wrong", Change::AnyBackground));
     for (number, light) in scene.lights.iter().enumerate().take(MOST_LIGHTS) {
-        if scene.lights.len() == 1 {
-            break;
-        }
         let of = || format!("the light `{}`", light.name);
         let missing: fn(&mut Wrong) = |w| (w.diffuse_factor, w.specular_factor) = (0.0, 0.0);
         let unshadowed: fn(&mut Wrong) = |w| w.shadows = Shadows::Missing;
-        for (cause, change) in [("one-light-missing", missing), ("one-light-no-shadow", unshadowed)]
-        {
-            all.push(Hypothesis::of(cause, Change::Light(number, change), of()));
+        all.push(Hypothesis::of("one-light-missing", Change::Light(number, missing), of()));
+        // Of a single light, that is no shadows at all.
+        if scene.lights.len() > 1 {
+            let change = Change::Light(number, unshadowed);
+            all.push(Hypothesis::of("one-light-no-shadow", change, of()));
         }
     }
     all.extend(hex(scene, right));
