@@ -110,6 +110,7 @@ const SUMS: &[Ways] = &[
         "clamp-missing-specular",
         &[
             |w| w.specular_clamp = Clamp::Missing,
+            |w| w.specular_clamp = Clamp::MissingWhereLit,
             |w| {
                 w.specular_clamp = Clamp::Missing;
                 w.below = Below::Open;
@@ -163,6 +164,11 @@ const SUMS: &[Ways] = &[
                 w.below = Below::Open;
             },
             |w| w.specular_clamp = Clamp::Abs,
+            |w| w.specular_clamp = Clamp::AbsWhereLit,
+            |w| {
+                w.diffuse_clamp = Clamp::Abs;
+                w.specular_clamp = Clamp::AbsWhereLit;
+            },
             |w| {
                 w.specular_clamp = Clamp::Abs;
                 w.below = Below::Open;

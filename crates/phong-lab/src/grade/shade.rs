@@ -219,12 +219,13 @@ fn one_light(surface: &Surface, light: &LightPoint, wrong: &Wrong, facts: &Facts
     let n_dot_l = n.dot(l) * length * n_length;
     let cosine = match wrong.diffuse_clamp {
         Clamp::Right => n_dot_l.max(0.0),
-        Clamp::Missing => n_dot_l,
-        Clamp::Abs => n_dot_l.abs(),
+        Clamp::Missing | Clamp::MissingWhereLit => n_dot_l,
+        Clamp::Abs | Clamp::AbsWhereLit => n_dot_l.abs(),
     };
     let k_d = if wrong.k_d_ignored { 1.0 } else { written.k_d };
     let diffuse = k_d * cosine * incident.c_d;
-    let cut = n_dot_l <= 0.0 && !(wrong.uncut_specular || wrong.specular_clamp != Clamp::Right);
+    let cut = n_dot_l <= 0.0
+        && !(wrong.uncut_specular || matches!(wrong.specular_clamp, Clamp::Missing | Clamp::Abs));
     if cut || written.model == Model::Lambert {
         return (diffuse * shares[0], Rgb::BLACK);
     }
@@ -342,7 +343,7 @@ fn raised(base: f32, alpha: f32, clamp: Clamp) -> f32 {
     }
     // std::pow of a negative base: its sign for an odd exponent, NaN for a fraction.
     match alpha {
-        a if clamp == Clamp::Abs || a % 2.0 == 0.0 => lobe(-base, a),
+        a if matches!(clamp, Clamp::Abs | Clamp::AbsWhereLit) || a % 2.0 == 0.0 => lobe(-base, a),
         a if a.fract() != 0.0 => 0.0,
         a => -lobe(-base, a),
     }

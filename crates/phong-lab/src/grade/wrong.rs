@@ -91,6 +91,10 @@ pub(super) enum Clamp {
     Right,
     Missing,
     Abs,
+    /// Of R·E: missing, but only where the light is above the horizon.
+    MissingWhereLit,
+    /// Of R·E: the absolute value, but only where the light is above the horizon.
+    AbsWhereLit,
 }
 
 /// Where E leads to.

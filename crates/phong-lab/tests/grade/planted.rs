@@ -47,6 +47,7 @@ const PLANTED: &[Planted] = &[
     (&["N·L not clamped"], Backlit, "clamp-missing-diffuse"),
     (&["N·L not clamped"], Colored, "clamp-missing-diffuse"),
     (&["R·E not clamped"], Backlit, "clamp-missing-specular"),
+    (&["R·E not clamped where lit"], Colored, "clamp-missing-specular"),
     (&["|N·L|"], Colored, "clamp-abs"),
     (&["highlight behind"], Behind, "highlight-behind"),
     (&["no ambient"], Lamp, "ambient-missing"),

@@ -278,7 +278,8 @@ fn shade(w: &World, slips: Slips, met: &Met) -> V {
             || is("highlight behind")
             || is("R = L − 2(L·N)N");
         if !is("no specular") && shines {
-            let power = if base <= 0.0 && !is("R·E not clamped") { 0.0 } else { base.powf(alpha) };
+            let signed = is("R·E not clamped") || is("R·E not clamped where lit");
+            let power = if base <= 0.0 && !signed { 0.0 } else { base.powf(alpha) };
             let mut specular = mul(light, stuff.k_s * power);
             if is("highlight × N·L") {
                 specular = mul(specular, n_dot_l);
