@@ -47,7 +47,11 @@ impl Fixture {
         let first = |dir: Vec3| f64::from(world.intersect(&Ray::new(at, dir)).t);
         let mut around = [Vec3::X, Vec3::Y, Vec3::Z, -Vec3::X, -Vec3::Y, -Vec3::Z].map(first);
         around.sort_by(f64::total_cmp);
-        let size = if around[2].is_finite() { around[2] } else { at.distance(eye) };
+        // In the open it is as far as everything, and no farther than a near eye.
+        let to_all = world.bounds().map_or(f64::INFINITY, |[low, high]| {
+            (high - low).length() + at.distance((low + high) / 2.0)
+        });
+        let size = if around[2].is_finite() { around[2] } else { to_all.min(at.distance(eye)) };
         let slack = rounding + size * f64::from(f32::EPSILON);
         Self {
             error: rounding as f32,
