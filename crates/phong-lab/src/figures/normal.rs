@@ -39,7 +39,7 @@ pub(super) fn draw(setting: Setting) -> Plate {
 
 fn scene(setting: Setting) -> Scene {
     let clay = ConstantMaterial {
-        color: Rgb::grey(0.72),
+        color: setting.color.unwrap_or(Rgb::grey(0.72)),
         k_s: 0.0,
         k_d: 0.75,
         k_a: 0.3,
