@@ -276,8 +276,11 @@ pub(super) fn at_points(scene: &Scene, right: &Prepared) -> Vec<Hypothesis> {
         let missing: fn(&mut Wrong) = |w| (w.diffuse_factor, w.specular_factor) = (0.0, 0.0);
         let unshadowed: fn(&mut Wrong) = |w| w.shadows = Shadows::Missing;
         all.push(Hypothesis::of("one-light-missing", Change::Light(number, missing), of()));
-        let change = Change::Light(number, unshadowed);
-        all.push(Hypothesis::of("one-light-no-shadow", change, of()));
+        // Of a single light, that is no shadows at all.
+        if scene.lights.len() > 1 {
+            let change = Change::Light(number, unshadowed);
+            all.push(Hypothesis::of("one-light-no-shadow", change, of()));
+        }
     }
     all.extend(hex(scene, right));
     all
