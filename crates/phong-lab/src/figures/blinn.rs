@@ -1,7 +1,7 @@
 //! Phong's lobe against Blinn's: the same exponent, a higher one, in and across the plane of
 //! incidence.
 
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 use phong::film::LayerKind;
 use phong::math::{Dir3, wide};
 use phong::reflectance::{BlinnPhong, Incident, Phong, Reflectance, Switches};
@@ -12,7 +12,7 @@ use super::mark::{Anchor, Ink, Point, Stroke};
 use super::plot::{Plot, fixed, ticks};
 use super::shininess::half_width;
 use super::stage::{self, ball, distant, plastic};
-use super::symbols::unit;
+use super::symbols::{across, light, within};
 use super::{Number, Plate, Setting, style};
 
 const TITLE: &str = "Phong and Blinn–Phong";
@@ -73,23 +73,6 @@ fn matching(alpha: f64) -> f64 {
 enum Lobe {
     Phong,
     Blinn,
-}
-
-/// The light at `theta` degrees, in the plane of x and the normal y.
-fn light(theta: f64) -> Dir3 {
-    unit(90.0 + theta)
-}
-
-/// An eye `phi` degrees from the mirrored light, in the plane of incidence, towards the normal.
-fn within(theta: f64, phi: f64) -> Dir3 {
-    unit(90.0 - theta + phi)
-}
-
-/// An eye `phi` degrees from the mirrored light, straight across the plane of incidence.
-fn across(theta: f64, phi: f64) -> Dir3 {
-    let r = Dir3::Y.mirror(light(theta)).to_vec();
-    let (sin, cos) = wide::sin_cos(phi.to_radians());
-    Dir3::new(cos as f32 * r + sin as f32 * Vec3::Z).unwrap_or(Dir3::Z)
 }
 
 /// The specular term alone, by the function that shades every hit.

@@ -8,7 +8,7 @@ use phong::math::{Dir3, wide};
 use super::drawing::Drawing;
 use super::mark::{Anchor, Ink, Path, Point, Stroke, heading};
 use super::plot::{Plot, fixed, ticks};
-use super::symbols::{drawn, surface, unit};
+use super::symbols::{across, drawn, light, surface, unit, within};
 use super::{Number, Plate, Setting, style};
 
 const TITLE: &str = "The halfway vector";
@@ -44,23 +44,6 @@ pub(super) fn draw(setting: Setting) -> Plate {
         numbers,
         drawing: drawing(setting),
     }
-}
-
-/// The light, in the plane of x and the normal y.
-fn light(theta: f64) -> Dir3 {
-    unit(90.0 + theta)
-}
-
-/// An eye `phi` degrees from the mirrored light, in the plane of incidence, towards the normal.
-fn within(theta: f64, phi: f64) -> Dir3 {
-    unit(90.0 - theta + phi)
-}
-
-/// An eye `phi` degrees from the mirrored light, straight across the plane of incidence.
-fn across(theta: f64, phi: f64) -> Dir3 {
-    let r = Dir3::Y.mirror(light(theta)).to_vec();
-    let (sin, cos) = wide::sin_cos(phi.to_radians());
-    Dir3::new(cos as f32 * r + sin as f32 * Vec3::Z).unwrap_or(Dir3::Z)
 }
 
 /// The angle β between n and h, in degrees.

@@ -1,7 +1,7 @@
 //! Things that appear in many figures: a surface, a lamp, the sun, an eye, unit vectors.
 
 use glam::{DVec3, Vec3};
-use phong::math::Dir3;
+use phong::math::{Dir3, wide};
 
 use super::drawing::Drawing;
 use super::mark::{Ink, Path, Point, Stroke, heading};
@@ -11,6 +11,23 @@ use super::style;
 pub(super) fn unit(degrees: f64) -> Dir3 {
     let way = heading(degrees);
     Dir3::new(Vec3::new(way.x as f32, -way.y as f32, 0.0)).unwrap_or(Dir3::X)
+}
+
+/// The light at `theta` degrees, in the plane of x and the normal y.
+pub(super) fn light(theta: f64) -> Dir3 {
+    unit(90.0 + theta)
+}
+
+/// An eye `phi` degrees from the mirrored light, in the plane of incidence, towards the normal.
+pub(super) fn within(theta: f64, phi: f64) -> Dir3 {
+    unit(90.0 - theta + phi)
+}
+
+/// An eye `phi` degrees from the mirrored light, straight across the plane of incidence.
+pub(super) fn across(theta: f64, phi: f64) -> Dir3 {
+    let r = Dir3::Y.mirror(light(theta)).to_vec();
+    let (sin, cos) = wide::sin_cos(phi.to_radians());
+    Dir3::new(cos as f32 * r + sin as f32 * Vec3::Z).unwrap_or(Dir3::Z)
 }
 
 /// A vector of the drawing's plane as it is drawn, one unit long for a unit vector.
