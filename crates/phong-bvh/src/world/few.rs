@@ -34,6 +34,18 @@ pub(super) struct Spheres<'a> {
     pub(super) names: [[u32; 2]; 8],
 }
 
+impl Few<'_> {
+    /// The spheres that any of the rays may hit, one bit each. Sets `all` to false, and says none from then
+    /// on, if some rays may be too far away to be taken to them as they are.
+    #[inline(always)]
+    fn near<S: Simd>(&self, simd: S, rays: &[Rays8], all: &mut bool) -> u32 {
+        let Some(Spheres { block, .. }) = self.spheres.filter(|_| *all) else { return 0 };
+        let near = near(simd, self.frame, rays, block);
+        *all = near.is_some();
+        near.unwrap_or(0)
+    }
+}
+
 /// The closest hits of rays. Returns false, with the planes done and the spheres not, if some rays may start
 /// too far from the spheres to be taken to them as they are.
 pub(super) struct Closest<'a> {
@@ -49,15 +61,10 @@ impl Kernel for Closest<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> bool {
-        let Self { few: Few { frame, planes, spheres }, first, rays, hits } = self;
+        let Self { few: few @ Few { frame, planes, spheres }, first, rays, hits } = self;
         let mut all = true;
         for (rays, hits) in rays.chunks(TOGETHER).zip(hits.chunks_mut(TOGETHER)) {
-            let near = match spheres {
-                Some(Spheres { block, .. }) if all => near(simd, frame, rays, block),
-                _ => Some(0),
-            };
-            all &= near.is_some();
-            let near = near.unwrap_or(0);
+            let near = few.near(simd, rays, &mut all);
             if near == 0 && planes.is_empty() {
                 if first {
                     hits.fill(Hits8::NONE);
@@ -175,15 +182,10 @@ impl Kernel for Any<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> bool {
-        let Self { few: Few { frame, planes, spheres }, rays, blocked } = self;
+        let Self { few: few @ Few { frame, planes, spheres }, rays, blocked } = self;
         let mut all = true;
         for (rays, blocked) in rays.chunks(TOGETHER).zip(blocked.chunks_mut(TOGETHER)) {
-            let near = match spheres {
-                Some(Spheres { block, .. }) if all => near(simd, frame, rays, block),
-                _ => Some(0),
-            };
-            all &= near.is_some();
-            let near = near.unwrap_or(0);
+            let near = few.near(simd, rays, &mut all);
             if near == 0 && planes.is_empty() {
                 continue;
             }
