@@ -159,7 +159,7 @@ impl Checkpoint {
 mod tests {
     use phong::image::Encoding;
     use phong::view::View;
-    use phong_scene::{Limits, Memory};
+    use phong_scene::{Limits, Memory, Scene};
 
     use super::*;
 
@@ -177,7 +177,7 @@ mod tests {
     fn what_is_done_when_a_render_is_cancelled_is_in_its_checkpoint() {
         let folder = tempfile::tempdir().unwrap();
         let (view, options) = (view(), RenderOptions::new([64, 48]).unwrap());
-        let settings = Settings::of(0, &options, Encoding::default());
+        let settings = Settings::of(&Scene::default(), &options, Encoding::default());
         let output = folder.path().join("a.png");
         let checkpoint = || Checkpoint::beside(&output, settings.clone(), &options, true);
         let (cancel, tiles) = (Cancel::new(), Mutex::new(0));
@@ -205,7 +205,7 @@ mod tests {
     fn a_checkpoint_that_could_not_be_written_is_written_at_the_next_attempt() {
         let folder = tempfile::tempdir().unwrap();
         let (view, options) = (view(), RenderOptions::new([64, 48]).unwrap());
-        let settings = Settings::of(0, &options, Encoding::default());
+        let settings = Settings::of(&Scene::default(), &options, Encoding::default());
         let output = folder.path().join("later/a.png");
         let checkpoint = Checkpoint::beside(&output, settings, &options, true);
         let rendering = Rendering::new(&view, &options);

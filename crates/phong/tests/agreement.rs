@@ -235,13 +235,14 @@ fn what_is_explained_is_what_is_drawn() {
 }
 
 /// A few spheres and a floor, of which every ray is one of eight.
-fn few(kind: CameraKind, aperture: f64) -> View {
+fn few(kind: CameraKind, aperture: f64, background: Background) -> View {
     let source = Memory::new().with("scene.toml", include_bytes!("agreement/few.toml").to_vec());
     let Reading { scene, diagnostics, .. } =
         phong_scene::read("scene.toml", None, &source, &Limits::default());
     assert!(diagnostics.is_empty(), "{diagnostics:#?}");
     let mut scene = scene.expect("a scene, for there is no error");
     (scene.camera.kind, scene.camera.aperture) = (kind, aperture);
+    scene.image.background = background;
     View::of(&scene).expect("compiles")
 }
 
@@ -257,11 +258,11 @@ fn every_camera_filter_and_background_is_drawn_as_explained_in_tiles_of_any_size
         (CameraKind::Panorama, 0.0, 2, FilterKind::Gaussian, Background::Color(Rgb::grey(0.3))),
     ] {
         let name = format!("{kind:?}, {samples} samples, {filter:?}, {background:?}");
-        let scene = few(kind, aperture);
+        let scene = few(kind, aperture, background);
         let size = [21, 13];
         let options = RenderOptions::new(size).expect("a size").with_samples(samples);
         let options = options.expect("at least one").with_terms(TermSet::ALL);
-        let options = options.with_filter(filter).with_background(background);
+        let options = options.with_filter(filter);
         let film = drawn(&scene, &options, 1);
         for tile in [1, 3, 9, 64] {
             let options = options.clone().with_tile(tile).expect("not 0");

@@ -17,7 +17,7 @@ use phong::render::{
 };
 use phong::terms::{Term, TermSet, Terms};
 use phong::view::View;
-use phong_scene::{FilterKind, Limits, Memory, Rgb};
+use phong_scene::{FilterKind, Limits, Memory, Rgb, Scene};
 
 /// A few spheres, a mirror, glass and a floor.
 static SCENE: LazyLock<View> = LazyLock::new(|| {
@@ -299,7 +299,7 @@ fn nothing_is_done_where_it_was_cancelled_before() {
 #[test]
 fn a_part_kept_after_any_pass_goes_on_to_the_same_bits() {
     let (in_passes, whole) = (in_passes(&options()), drawn(&options()));
-    let settings = Settings::of(0, &in_passes, Encoding::default());
+    let settings = Settings::of(&Scene::default(), &in_passes, Encoding::default());
     for last in 0..5 {
         let cancel = Cancel::new();
         let listen = |event: Event<'_>| {
@@ -326,7 +326,7 @@ fn a_part_kept_after_any_pass_goes_on_to_the_same_bits() {
 #[test]
 fn a_part_taken_while_the_rendering_goes_on_is_whole() {
     let options = in_passes(&options());
-    let settings = Settings::of(0, &options, Encoding::default());
+    let settings = Settings::of(&Scene::default(), &options, Encoding::default());
     let rendering = Rendering::new(&SCENE, &options);
     let parts = Mutex::new(Vec::new());
     let listen = |event: Event<'_>| {

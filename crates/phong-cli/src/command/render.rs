@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use phong::film::{LayerKind, Window};
-use phong::part::{Settings, fingerprint};
+use phong::part::Settings;
 use phong::render::{Event, Outcome, Rendering};
 use phong_lab::measure::memory::peak;
 use serde_json::json;
@@ -39,7 +39,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
     clock.lap("read");
 
     meter.stage("building");
-    let settings = Settings::of(fingerprint(&input.scene), &options, plan.encoding);
+    let settings = Settings::of(&input.scene, &options, plan.encoding);
     let scene = compile(&input.scene, &args.input, options.film_bytes())?;
     memory::set_aside(settings.film_bytes())?;
     clock.lap("build");

@@ -273,7 +273,7 @@ pub fn explain(
         let terms = brought.terms.get(0);
         samples.push(Sample { place, weight: drawn.weight, ray: recorder.finish(), terms });
     }
-    let (terms, alpha) = sums[0].resolve(scene.world(), options.samples(), options.background());
+    let (terms, alpha) = sums[0].resolve(scene.world(), options.samples(), scene.background());
     let (terms, alpha) = (terms.get(0), alpha[0]);
     let eye = scene.look().camera.eye;
     let (size, linear) = (options.size(), terms.total());
@@ -312,7 +312,6 @@ impl<'a> Road<'a> {
         }
         let integrator = Integrator {
             scene,
-            background: options.background(),
             depth: options.depth(),
             min_weight: options.min_weight(),
             shadows: options.shadows(),

@@ -43,7 +43,7 @@ impl Interactions {
         height: &dyn Fn(usize, usize) -> f32,
         out: &mut Vec<Radiance8>,
     ) {
-        let (scene, background) = (integrator.scene, integrator.background);
+        let scene = integrator.scene;
         self.hits.resize(rays.len(), Hits8::NONE);
         self.surfaces.resize(rays.len(), Surfaces8::default());
         self.shading.resize(rays.len(), Shading8::NONE);
@@ -57,7 +57,6 @@ impl Interactions {
         }
         scene.world().run(BeginRadiance {
             scene,
-            background,
             lift: integrator.shadows && integrator.terminator,
             height,
             rays,
@@ -158,7 +157,6 @@ pub(super) fn material<'m>(
 
 struct BeginRadiance<'a> {
     scene: &'a View,
-    background: Background,
     /// Whether shadow rays from smooth meshes start above the face.
     lift: bool,
     height: &'a dyn Fn(usize, usize) -> f32,
@@ -174,7 +172,7 @@ impl Kernel for BeginRadiance<'_> {
     fn run<S: Simd>(self, simd: S) {
         /// What lights add to in any case, and the ambient term.
         const LOCAL: TermSet = TermSet::of(&[Term::Ambient, Term::Diffuse, Term::Specular]);
-        let Self { scene, background, lift, height, rays, interactions, out } = self;
+        let Self { scene, lift, height, rays, interactions, out } = self;
         let Interactions { hits, surfaces, shading, made, .. } = interactions;
         let eights = rays.iter().zip(hits).zip(surfaces).zip(shading).zip(out);
         for (i, ((((rays, hits), surface), shading), out)) in eights.enumerate() {
@@ -184,7 +182,7 @@ impl Kernel for BeginRadiance<'_> {
             if missed != 0 {
                 out.brought = out.brought.with(Term::Background);
                 let to = &mut out.terms[Term::Background];
-                match background {
+                match scene.background() {
                     Background::Color(color) => {
                         let missed = mask32x8::from_bitmask(simd, missed.into());
                         let old = load3(simd, to);

@@ -38,8 +38,6 @@ use optics::{Scatter, Scattered8};
 pub(crate) struct Integrator<'a> {
     /// What rays meet.
     pub(crate) scene: &'a View,
-    /// What rays see that meet nothing.
-    pub(crate) background: Background,
     /// Mirror and glass bounces; beyond it a ray brings black.
     pub(crate) depth: u32,
     /// The least product of weights, in the largest channel, for which a ray is followed.
@@ -206,7 +204,7 @@ impl Integrator<'_> {
         if !self.scene.has_bounces() {
             return;
         }
-        let is_transparent = self.background == Background::Transparent;
+        let is_transparent = self.scene.background() == Background::Transparent;
         for branch in [Branch::Reflection, Branch::Transmission] {
             let (secondary, scratch) = &mut **deeper.get_or_insert_default();
             self.scatter(branch, rays, interactions, samplers, paths, bounces, secondary, witness);

@@ -2,6 +2,9 @@
 
 use std::fmt::Write as _;
 
+use phong_scene::Scene;
+
+use super::fingerprint;
 use crate::aov::Aov;
 use crate::film::{Film, LayerKind, Window};
 use crate::image::{Bits, Encoding};
@@ -28,10 +31,10 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// The settings of a rendering. `scene` is the scene's [`fingerprint`](super::fingerprint()).
-    pub fn of(scene: u32, options: &RenderOptions, encoding: Encoding) -> Self {
+    /// The settings of a rendering of a scene.
+    pub fn of(scene: &Scene, options: &RenderOptions, encoding: Encoding) -> Self {
         let picture = [
-            ("scene", format!("{scene:08x}")),
+            ("scene", format!("{:08x}", fingerprint(scene))),
             ("samples", options.samples().to_string()),
             ("seed", options.seed().to_string()),
             ("depth", options.depth().to_string()),
@@ -39,7 +42,7 @@ impl Settings {
             ("shadows", options.shadows().to_string()),
             ("terminator", options.terminator().to_string()),
             ("filter", format!("{:?}", options.filter())),
-            ("background", format!("{:?}", options.background())),
+            ("background", format!("{:?}", scene.image.background)),
         ];
         Self {
             size: options.size(),

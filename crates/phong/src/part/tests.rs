@@ -1,4 +1,4 @@
-use phong_scene::{Image, Rgb};
+use phong_scene::{Image, Rgb, Scene};
 
 use super::*;
 use crate::aov::Aov;
@@ -16,7 +16,7 @@ fn settings(share: Option<(u32, u32)>) -> Settings {
     let options = options.with_aovs(&[Aov::Depth, Aov::Normal]);
     let options = share.map_or(options.clone(), |(i, n)| options.with_share(i, n).unwrap());
     let encoding = Encoding { bits: Bits::Sixteen, linear: true, exposure: -0.1 };
-    Settings::of(0x1234_abcd, &options, encoding)
+    Settings::of(&Scene { image, ..Scene::default() }, &options, encoding)
 }
 
 /// A part with its tiles done, every value told apart from every other.

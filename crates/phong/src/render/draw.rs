@@ -63,7 +63,17 @@ impl Samples {
         if camera.is_projective() && !is_far {
             let to = self;
             let bvh = integrator.scene.world();
-            bvh.run(ProjectiveRays { camera, options, filter, pixels, indices, soft, to });
+            let gradient = matches!(integrator.scene.background(), Background::Gradient { .. });
+            bvh.run(ProjectiveRays {
+                camera,
+                options,
+                filter,
+                pixels,
+                indices,
+                soft,
+                gradient,
+                to,
+            });
             return;
         }
         for index in indices {
@@ -134,6 +144,8 @@ struct ProjectiveRays<'a> {
     indices: Range<u32>,
     /// Whether samplers are asked for.
     soft: bool,
+    /// Whether the heights of rays are asked for.
+    gradient: bool,
     to: &'a mut Samples,
 }
 
@@ -142,11 +154,10 @@ impl Kernel for ProjectiveRays<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Self { camera, options, filter, pixels, indices, soft, to } = self;
+        let Self { camera, options, filter, pixels, indices, soft, gradient, to } = self;
         let low: f64x4<S> = [0.0, 1.0, 2.0, 3.0].simd_into(simd);
         let high: f64x4<S> = [4.0, 5.0, 6.0, 7.0].simd_into(simd);
         let lens = camera.has_lens();
-        let gradient = matches!(options.background(), Background::Gradient { .. });
         for index in indices {
             for pixels in pixels {
                 let samplers = soft.then(|| pixels.samplers.at(index));
@@ -201,7 +212,6 @@ mod tests {
                 let view = View::of(&scene).expect("a scene of nothing but a light");
                 let integrator = Integrator {
                     scene: &view,
-                    background,
                     depth: 0,
                     min_weight: 0.0,
                     shadows: true,

@@ -1,6 +1,6 @@
 //! What to render: options that are valid from the moment they exist.
 
-use phong_scene::{Background, FilterKind, Image};
+use phong_scene::{FilterKind, Image};
 use thiserror::Error;
 
 use super::Passes;
@@ -32,7 +32,6 @@ pub struct RenderOptions {
     shadows: bool,
     terminator: bool,
     filter: FilterKind,
-    background: Background,
     tile: u32,
     terms: TermSet,
     aovs: Vec<Aov>,
@@ -95,14 +94,14 @@ impl RenderOptions {
         Self::of(&Image { size, ..Image::default() })
     }
 
-    /// All of a picture as its scene has it.
+    /// All of a picture as its scene has it. (The background is of the [`Look`](crate::look::Look).)
     ///
     /// # Errors
     /// As of [`new`](Self::new), [`with_samples`](Self::with_samples),
     /// [`with_depth`](Self::with_depth) and [`with_min_weight`](Self::with_min_weight): never for an
     /// image that the scene's check has passed.
     pub fn of(image: &Image) -> Result<Self, OptionsError> {
-        let Image { size, samples, background, filter, seed, depth, min_weight, terminator } =
+        let Image { size, samples, filter, seed, depth, min_weight, terminator, background: _ } =
             *image;
         let valid = Self {
             size: [1, 1],
@@ -115,7 +114,6 @@ impl RenderOptions {
             shadows: true,
             terminator,
             filter,
-            background,
             tile: Self::TILE,
             terms: TermSet::NONE,
             aovs: Vec::new(),
@@ -231,12 +229,6 @@ impl RenderOptions {
         Self { filter, ..self }
     }
 
-    /// Lets rays see this that hit nothing.
-    #[must_use]
-    pub fn with_background(self, background: Background) -> Self {
-        Self { background, ..self }
-    }
-
     /// Keeps a layer for each of these terms; there is none by default.
     #[must_use]
     pub fn with_terms(self, terms: TermSet) -> Self {
@@ -309,11 +301,6 @@ impl RenderOptions {
     /// How samples are weighted into a pixel.
     pub fn filter(&self) -> FilterKind {
         self.filter
-    }
-
-    /// What rays see that hit nothing.
-    pub fn background(&self) -> Background {
-        self.background
     }
 
     /// Edge of a tile in pixels, ≥ 1.

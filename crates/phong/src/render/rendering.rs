@@ -112,7 +112,6 @@ impl<'a> Rendering<'a> {
     pub fn run(&self, listen: &(dyn Fn(Event<'_>) + Sync), cancel: &Cancel) {
         let integrator = Integrator {
             scene: self.scene,
-            background: self.options.background(),
             depth: self.options.depth(),
             min_weight: self.options.min_weight(),
             shadows: self.options.shadows(),

@@ -124,7 +124,7 @@ impl<'a> TileRenderer<'a> {
         TileBuffers { pixels, drawn, scratch, values, .. }: &mut TileBuffers,
         counts: &mut RayCounts,
     ) -> Result<(), Cancelled> {
-        let (integrator, background) = (&self.integrator, self.options.background());
+        let (integrator, background) = (&self.integrator, self.integrator.scene.background());
         for pixels in pixels.chunks(MOST_EIGHTS) {
             drawn.draw(integrator, self.options, &self.filter, pixels, 0..1);
             let brought = integrator.trace(&drawn.bundle, scratch, counts, &mut ());
@@ -150,7 +150,7 @@ impl<'a> TileRenderer<'a> {
         TileBuffers { pixels, drawn, scratch, sums, values }: &mut TileBuffers,
         counts: &mut RayCounts,
     ) -> Result<Option<TileSums>, Cancelled> {
-        let (integrator, background) = (&self.integrator, self.options.background());
+        let (integrator, background) = (&self.integrator, self.integrator.scene.background());
         let bvh = integrator.scene.world();
         let begin = earlier.map_or(0, TileSums::samples);
         let mut kept = (to < self.options.samples()).then(|| Vec::with_capacity(pixels.len()));
@@ -201,7 +201,7 @@ impl<'a> TileRenderer<'a> {
             self.check_cancelled()?;
             for (square, sample) in squares.iter().zip(brought) {
                 let terms = sample.terms.get(0);
-                let alpha = coverage(sample.covers(0), self.options.background());
+                let alpha = coverage(sample.covers(0), self.integrator.scene.background());
                 // First the square's first pixel in this tile, then all the others.
                 let part = square.intersection(&window);
                 let place = of_window(window, [part.x0, part.y0]);
