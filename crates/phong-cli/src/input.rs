@@ -185,7 +185,8 @@ pub(crate) fn read(args: &InputArgs) -> Result<(Reading, Vec<PathBuf>), Failure>
     let files = Files { input: args.input.clone(), ..Files::default() };
     let default = Limits { lenient: args.lenient, ..Limits::default() };
     let limits = Limits { bytes: memory::limit(), ..default };
-    let mut reading = phong_scene::read(&args.input, args.format, &files, &limits);
+    let mut reading =
+        phong_scene::read_changed(&args.input, args.format, &files, &limits, &args.set);
     // Of a file that cannot be opened nothing else is said.
     if let ([only], false) = (&mut reading.diagnostics[..], stdin) {
         let path = &path_of(&args.input);

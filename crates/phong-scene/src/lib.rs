@@ -4,8 +4,10 @@
 //! in. This crate knows no rays and no pixels, and never imports another crate of the project.
 //! It never prints, exits or panics on input: reading gives *all* [`Diagnostic`]s as data.
 
+mod batch;
 mod bounds;
 mod camera;
+mod change;
 mod check;
 mod color;
 mod diagnostic;
@@ -26,16 +28,19 @@ mod transform;
 mod unpack;
 mod wording;
 
+pub use batch::{Batch, BatchReading, Parameter, ParameterValues, Written};
 pub use bounds::Bounds;
 pub use camera::{Camera, CameraKind};
+pub use change::Change;
 pub use color::{ColorError, Rgb, srgb_decode, srgb_encode};
 pub use diagnostic::{Diagnostic, Label, Place, SceneError, Severity, Span};
 pub use format::export::{Account, File, PlyEncoding};
 pub use format::table::Format;
-pub use format::{Export, ExportOptions, read};
+pub use format::toml::batch::read_batch;
+pub use format::{Export, ExportOptions, read, read_changed};
 pub use fragment::Fragment;
 pub use frame::{Framing, Side};
-pub use keys::{reference_markdown, schema_json};
+pub use keys::{batch_reference_markdown, batch_schema_json, reference_markdown, schema_json};
 pub use light::{Light, LightKind};
 pub use limits::Limits;
 pub use material::{

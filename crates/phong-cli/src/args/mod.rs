@@ -9,6 +9,7 @@ mod values;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use phong_scene::Change;
 
 pub(crate) use picture::{ImageArgs, RenderArgs};
 pub(crate) use values::{
@@ -48,6 +49,11 @@ pub(crate) struct InputArgs {
     /// faces but those that use vertices there are not
     #[arg(long, conflicts_with = "strict")]
     pub(crate) lenient: bool,
+
+    /// Lay a value over the scene's: camera.fov=30, materials.red.color=tomato, light.2.color=0.5
+    /// (lights and shapes count from 1); may be given several times
+    #[arg(long, value_name = "KEY=VALUE", value_parser = Change::parse)]
+    pub(crate) set: Vec<Change>,
 }
 
 /// A question about an input, for people or for programs.

@@ -1,5 +1,6 @@
 //! What readers are given.
 
+use crate::change::Change;
 use crate::diagnostic::Diagnostic;
 use crate::fragment::Fragment;
 use crate::limits::Limits;
@@ -18,6 +19,8 @@ pub(crate) struct Input<'a> {
     pub(crate) radius: Option<f32>,
     /// What of it is wanted.
     pub(crate) wanted: Wanted,
+    /// What is laid over its text.
+    pub(crate) changes: &'a [Change],
 }
 
 /// What of a file is wanted, where it could be read in more than one way.
@@ -35,7 +38,7 @@ pub(crate) enum Wanted {
 impl<'a> Input<'a> {
     /// The file at a path, where nobody says how large points are.
     pub(crate) fn new(path: &'a str, source: &'a dyn Source, limits: &'a Limits) -> Self {
-        Self { path, source, limits, radius: None, wanted: Wanted::Anything }
+        Self { path, source, limits, radius: None, wanted: Wanted::Anything, changes: &[] }
     }
 }
 

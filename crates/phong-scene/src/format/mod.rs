@@ -14,6 +14,7 @@ pub(crate) mod toml;
 use self::export::{Account, File, PlyEncoding, Writing};
 use self::input::Input;
 use self::table::{Format, MODELS, Read, endings, models_are_read_from};
+use crate::change::Change;
 use crate::diagnostic::{Diagnostic, Place, Span};
 use crate::frame::{Framing, frame};
 use crate::limits::Limits;
@@ -42,6 +43,17 @@ use crate::unpack::Unpacked;
 /// );
 /// ```
 pub fn read(path: &str, format: Option<Format>, source: &dyn Source, limits: &Limits) -> Reading {
+    read_changed(path, format, source, limits, &[])
+}
+
+/// The same, with these values laid over what the scene's text says.
+pub fn read_changed(
+    path: &str,
+    format: Option<Format>,
+    source: &dyn Source,
+    limits: &Limits,
+    changes: &[Change],
+) -> Reading {
     let place = Place { file: path.into(), ..Place::default() };
     let refused = |message: String, help: String, bare| {
         let span = Span { place: place.clone(), ..Span::default() };
@@ -55,7 +67,7 @@ pub fn read(path: &str, format: Option<Format>, source: &dyn Source, limits: &Li
         return refused(message, help, false);
     };
     let source = &Unpacked::new(source, limits);
-    let input = Input::new(path, source, limits);
+    let input = Input { changes, ..Input::new(path, source, limits) };
     let read = match format.reader() {
         None => {
             let message = format!("{format} files are not read yet");
@@ -64,6 +76,12 @@ pub fn read(path: &str, format: Option<Format>, source: &dyn Source, limits: &Li
         Some(Read::Scene(read)) => return read(&input, &MODELS),
         Some(Read::Model(read)) => read,
     };
+    if let Some(change) = changes.first() {
+        let message =
+            format!("this is a bare model, which has no text for {} to change", change.path());
+        let help = "write a scene that names it as `file` of a `[[mesh]]`, and set that one's keys";
+        return refused(message, help.to_owned(), true);
+    }
     let mut diagnostics = Vec::new();
     let fragment = read(&input, &mut diagnostics);
     let sound = !diagnostics.iter().any(Diagnostic::is_error);

@@ -99,6 +99,18 @@ pub(crate) fn of_key(table: &str, key: &str) -> Option<&'static str> {
         (_, "rotation" | "angle") if is_shape(table) => {
             "any shape is turned by `rotate = [ax, ay, az, degrees]`, about an axis"
         }
+        ("batch", "input" | "scene" | "scenes" | "files" | "models" | "frames") => {
+            "did you mean `inputs`?"
+        }
+        ("batch", "out" | "folder" | "outputs" | "directory") => "did you mean `output`?",
+        ("batch", "sweep" | "vary" | "values" | "set") => {
+            "what differs from picture to picture is a table, `[parameters]`"
+        }
+        ("batch", "size" | "samples" | "seed" | "depth" | "terms" | "view") => {
+            "it is one of the `options`: `options = \"--size 640x360 --samples 4\"`"
+        }
+        ("batch", "format") => "the ending of `name` says it: `name = \"{scene}.exr\"`",
+        ("range", "count" | "n" | "num") => "did you mean `steps`?",
         _ => return None,
     })
 }

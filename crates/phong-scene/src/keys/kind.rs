@@ -68,6 +68,14 @@ pub(crate) enum Kind {
     Tables(&'static Table),
     /// Tables by names of the user's choosing: `[name.NAME]`.
     Named(&'static Table),
+    /// A path, or a list of paths; parts of names may be left open.
+    Files,
+    /// A number, or a list of numbers.
+    Numbers,
+    /// Values by the path of a scene's key.
+    Values,
+    /// Options of another program, by its own words.
+    Options,
     /// Known, but not built yet.
     NotYet,
 }
@@ -117,6 +125,10 @@ impl Kind {
             Self::Table(_) => "a table".to_owned(),
             Self::Tables(_) => "a list of tables".to_owned(),
             Self::Named(_) => "tables by name".to_owned(),
+            Self::Files => "the path of a file or a list of paths, in quotes".to_owned(),
+            Self::Numbers => "a number or a list of numbers".to_owned(),
+            Self::Values => "lists of values by the path of a key".to_owned(),
+            Self::Options => "words and numbers by name".to_owned(),
             Self::NotYet => "not built yet".to_owned(),
         }
     }

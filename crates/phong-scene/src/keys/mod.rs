@@ -1,8 +1,10 @@
-//! The one table of keys of the scene text: names, kinds of value, ranges, defaults, meanings.
+//! The one table of keys of the scene text: names, kinds of value, ranges, defaults, meanings. Batch
+//! files have theirs beside it.
 //!
 //! The reader, the editor schema and the reference in the book are all made from it, so what is
 //! read, what is suggested and what is documented cannot drift apart.
 
+mod batch;
 mod camera;
 mod hint;
 mod kind;
@@ -14,15 +16,18 @@ mod schema;
 mod shape;
 mod texture;
 
-pub(crate) use hint::{of_key, of_word};
+pub(crate) use batch::{BATCH, FILES, RANGE};
+pub(crate) use hint::of_word;
 pub(crate) use kind::{Default, Kind};
 pub(crate) use light::LIGHT;
 pub(crate) use material::MATERIAL;
-pub use reference::reference_markdown;
+pub use reference::{batch_reference_markdown, reference_markdown};
 pub(crate) use scene::{BACKGROUND, INCLUDE, SCENE};
-pub use schema::schema_json;
+pub use schema::{batch_schema_json, schema_json};
 pub(crate) use shape::GROUP;
 pub(crate) use texture::{TEXTURE, TEXTURED};
+
+use crate::wording::{closest, list, quoted};
 
 /// One table of the scene text, such as `[camera]` or `[[sphere]]`.
 #[derive(Debug)]
@@ -98,5 +103,16 @@ impl Table {
     /// The key of this name that applies where the selecting key says `word`.
     pub(crate) fn find(&self, name: &str, word: Option<&str>) -> Option<&'static Key> {
         self.keys().find(|key| key.name == name && key.applies(word))
+    }
+
+    /// What is said of a key that the table does not have, and what may have been meant.
+    pub(crate) fn unknown(&self, name: &str, word: Option<&str>) -> (String, String) {
+        let known = || self.keys().filter(|key| key.applies(word)).map(|key| key.name);
+        let help = match (hint::of_key(self.name, name), closest(name, known())) {
+            (Some(hint), _) => hint.to_owned(),
+            (None, Some(meant)) => format!("did you mean `{meant}`?"),
+            (None, None) => format!("known here: {}", list(known(), "and")),
+        };
+        (format!("unknown key {} in this `{}`", quoted(name), self.name), help)
     }
 }

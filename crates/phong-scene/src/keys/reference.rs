@@ -1,7 +1,7 @@
 //! The reference of the scene text, for people: one table of keys after another, in Markdown.
 
 use super::shape::{MADE_OF, PLACED};
-use super::{BACKGROUND, Key, Kind, SCENE, TEXTURED, Table};
+use super::{BACKGROUND, BATCH, FILES, Key, Kind, RANGE, SCENE, TEXTURED, Table};
 use crate::dialect::Switches;
 use crate::material::{AmbientRule, Dialect, Model, Tint, Viewer};
 
@@ -39,6 +39,21 @@ pub fn reference_markdown() -> String {
     sections.push(COLORS.to_owned());
     sections.push(dialects());
     sections.join("\n")
+}
+
+/// The reference of a batch file in Markdown, as [`reference_markdown`] is of the scene text.
+///
+/// ```
+/// let text = phong_scene::batch_reference_markdown();
+/// assert!(text.contains("| `shares` | a whole number from 1 to 10000 | `1` |"));
+/// ```
+pub fn batch_reference_markdown() -> String {
+    [
+        section(None, &BATCH),
+        section(Some("{ from = .., to = .., steps = .. }"), &RANGE),
+        section(Some("{ files = .. }"), &FILES),
+    ]
+    .join("\n")
 }
 
 /// What is linear and what is not.

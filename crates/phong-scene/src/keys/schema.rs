@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::{BACKGROUND, Default, Key, Kind, SCENE, TEXTURED, Table};
+use super::{BACKGROUND, BATCH, Default, FILES, Key, Kind, RANGE, SCENE, TEXTURED, Table};
 use crate::limits::{LARGEST, Range};
 use crate::scene::Image;
 
@@ -22,6 +22,18 @@ pub fn schema_json() -> String {
     schema.insert("title".into(), json!("phong scene"));
     // Included files are scene files as well, and have no camera.
     schema.remove("required");
+    format!("{:#}\n", Value::Object(schema))
+}
+
+/// A batch file as a JSON schema, as [`schema_json`] is of the scene text.
+///
+/// ```
+/// assert!(phong_scene::batch_schema_json().contains("phong batch"));
+/// ```
+pub fn batch_schema_json() -> String {
+    let mut schema = object(&BATCH);
+    schema.insert("$schema".into(), json!("http://json-schema.org/draft-07/schema#"));
+    schema.insert("title".into(), json!("phong batch"));
     format!("{:#}\n", Value::Object(schema))
 }
 
@@ -144,6 +156,19 @@ fn kind(kind: Kind) -> Value {
         Kind::Table(table) => Value::Object(object(table)),
         Kind::Tables(table) => json!({ "type": "array", "items": object(table) }),
         Kind::Named(table) => json!({ "type": "object", "additionalProperties": object(table) }),
+        Kind::Files => json!({ "anyOf": [text(), { "type": "array", "items": text() }] }),
+        Kind::Numbers => json!({ "anyOf": [any_number(), {
+            "type": "array", "items": any_number(), "minItems": 1,
+        }] }),
+        Kind::Values => json!({ "type": "object", "additionalProperties": { "anyOf": [
+            { "type": "array", "minItems": 1 },
+            object(&RANGE),
+            object(&FILES),
+            { "type": ["number", "string", "boolean", "object"] },
+        ] } }),
+        Kind::Options => json!({ "type": "object", "additionalProperties": {
+            "type": ["string", "number", "boolean"],
+        } }),
         Kind::NotYet => json!({ "not": {} }),
     }
 }

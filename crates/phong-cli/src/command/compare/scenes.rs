@@ -52,6 +52,7 @@ pub(super) fn render(
         format: None,
         strict: args.strict,
         lenient: false,
+        set: Vec::new(),
     });
     // What is wrong with the second is told before the first is drawn.
     let once = names[0] == names[1];

@@ -7,6 +7,8 @@
 //! material shape file`) say what only several keys together can be wrong about, `resolve` and
 //! `groups` look every name up, and [`check`](crate::check) adds what can hardly be meant.
 
+pub(crate) mod batch;
+mod change;
 mod draft;
 mod file;
 mod groups;
@@ -26,16 +28,19 @@ mod texture;
 mod value;
 pub(crate) mod write;
 
+use crate::change::Change;
 use crate::diagnostic::{Diagnostic, Place, Span};
 use crate::format::input::{Input, Models};
 use crate::scene::Reading;
 
 /// Reads a scene and what it includes.
 pub(crate) fn read(input: &Input<'_>, models: &'static Models) -> Reading {
-    let Input { path, source, limits, .. } = *input;
+    let Input { path, source, limits, changes, .. } = *input;
+    let values: Vec<String> = changes.iter().map(Change::document).collect();
     match text::load(path, source, limits) {
         Ok(text) => {
-            let (scene, diagnostics) = reader::Reader::new(source, limits, models).read(path, text);
+            let reader = reader::Reader::new(source, limits, models);
+            let (scene, diagnostics) = reader.read(path, text, changes, &values);
             Reading { scene, bare: false, diagnostics }
         }
         Err(message) => {

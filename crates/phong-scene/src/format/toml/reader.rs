@@ -7,7 +7,8 @@ use glam::DAffine3;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::draft::{Draft, DraftShape, Named, Part};
+use super::change::Changes;
+use super::draft::{Draft, DraftShape, Named, Part, say_unknown_name};
 use super::notes::Notes;
 use super::path::normal;
 use super::table::{Values, say_unknown};
@@ -15,6 +16,7 @@ use super::text::{Spot, Text};
 use super::texture::{self, TextureNames};
 use super::{light, material, reuse, settings, shape, syntax};
 use crate::camera::Camera;
+use crate::change::Change;
 use crate::color::Rgb;
 use crate::diagnostic::Diagnostic;
 use crate::format::input::Models;
@@ -34,6 +36,8 @@ pub(super) struct Reader<'a> {
     /// Where the readers of models are found.
     pub(super) models: &'static Models,
     pub(super) notes: Notes,
+    /// What is laid over the text.
+    changes: Changes<'a>,
     pub(super) image: Image,
     pub(super) camera: Option<Camera>,
     pub(super) ambient: Rgb,
@@ -77,6 +81,7 @@ impl<'a> Reader<'a> {
             limits,
             models,
             notes: Notes::default(),
+            changes: Changes::default(),
             image: Image::default(),
             camera: None,
             ambient: Rgb::WHITE,
@@ -98,27 +103,35 @@ impl<'a> Reader<'a> {
     }
 
     /// Reads the scene whose text this is; `None` if a diagnostic is an error.
-    pub(super) fn read(mut self, path: &str, text: String) -> (Option<Scene>, Vec<Diagnostic>) {
-        self.file(path, Text::new(path.into(), text, Vec::new()));
+    /// Over it lie these changes, whose values are in `values`.
+    pub(super) fn read(
+        mut self,
+        path: &str,
+        text: String,
+        changes: &'a [Change],
+        values: &'a [String],
+    ) -> (Option<Scene>, Vec<Diagnostic>) {
+        let text = Arc::new(Text::new(path.into(), text, Vec::new()));
+        let number = self.notes.add(Arc::clone(&text));
+        self.changes = Changes::new(changes, values, &mut self.notes);
+        self.text(path, &text, number);
+        self.say_unused();
         self.resolve()
     }
 
-    /// Reads one file.
+    /// Reads one more file.
     pub(super) fn file(&mut self, path: &str, text: Text) {
+        let text = Arc::new(text);
+        let number = self.notes.add(Arc::clone(&text));
+        self.text(path, &text, number);
+    }
+
+    fn text(&mut self, path: &str, text: &Text, number: u32) {
         self.files += 1;
         self.bytes += text.text.len() as u64;
         self.open.push(normal(path));
-        let text = Arc::new(text);
-        let number = self.notes.add(Arc::clone(&text));
-        let mended;
-        let document = if let Ok(document) = DeTable::parse(&text.text) {
-            document
-        } else {
-            let syntax::Mended { text, lost } = syntax::mend(number, &mut self.notes);
-            self.notes.lose(number, lost);
-            mended = text;
-            DeTable::parse_recoverable(&mended).0
-        };
+        let mut mended = String::new();
+        let document = syntax::parse(&text.text, number, &mut mended, &mut self.notes);
         self.document(document.get_ref(), path, number);
         self.open.pop();
     }
@@ -172,6 +185,7 @@ impl<'a> Reader<'a> {
         }
         if main {
             self.say_missing(document, head);
+            self.settings_not_written(document, head);
         }
         items.sort_by_key(|(spot, _)| spot.start);
         for (spot, item) in items {
@@ -202,9 +216,52 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// `[image]` and `[ambient]` where the text has none, and something is laid over them.
+    fn settings_not_written(&mut self, document: &DeTable<'_>, head: Spot) {
+        for name in ["image", "ambient"] {
+            let Some(Kind::Table(table)) = keys::SCENE.find(name, None).map(|key| key.kind) else {
+                continue;
+            };
+            if !document.contains_key(name) && !self.changes.over(name, &[]).is_empty() {
+                self.setting(table, &DeTable::new(), head);
+            }
+        }
+    }
+
+    /// Says what of the changes is of nothing that there is.
+    fn say_unused(&mut self) {
+        // What is missing may be in what could not be read.
+        if self.notes.has_errors() {
+            return;
+        }
+        for laid in self.changes.unused() {
+            let (list, of) = (laid.target.list.name, laid.target.of.unwrap_or_default());
+            match list {
+                "materials" => {
+                    let known = self.materials.names();
+                    say_unknown_name(&mut self.notes, "material", of, known, laid.at);
+                }
+                "textures" => {
+                    let known = self.textures.names();
+                    say_unknown_name(&mut self.notes, "texture", of, known, laid.at);
+                }
+                _ => {
+                    let count = match list {
+                        "light" => self.light_count,
+                        _ => self.counts.get(list).copied().unwrap_or(0),
+                    };
+                    let message = format!("the scene has no {list} {of} to change");
+                    let help = format!("it has {count} of them, counted from 1");
+                    self.notes.error(laid.at, message).help = Some(help);
+                }
+            }
+        }
+    }
+
     /// `[image]`, `[camera]` or `[ambient]`.
     fn setting(&mut self, table: &'static Table, text: &DeTable<'_>, spot: Spot) {
-        let values = Values::read(table, text, spot, &mut self.notes);
+        let over = self.changes.over(table.name, &[]);
+        let values = Values::read_changed(table, text, spot, &over, &mut self.notes);
         match table.name {
             "camera" => self.camera = settings::camera(&values, &mut self.notes),
             "ambient" => self.ambient = values.color("color").unwrap_or(Rgb::WHITE),
@@ -239,7 +296,9 @@ impl<'a> Reader<'a> {
     fn item(&mut self, spot: Spot, item: &Item<'_>, path: &str) {
         match *item {
             Item::Material(name, text) => {
-                let values = Values::read(&keys::MATERIAL, text, spot, &mut self.notes);
+                let over = self.changes.over("materials", &[name]);
+                let notes = &mut self.notes;
+                let values = Values::read_changed(&keys::MATERIAL, text, spot, &over, notes);
                 let names = &mut self.texture_names;
                 let read = material::material(&values, name, names, &mut self.notes);
                 let declared = self.materials.declare("material", name, spot, &mut self.notes);
@@ -248,7 +307,9 @@ impl<'a> Reader<'a> {
                 }
             }
             Item::Texture(name, text) => {
-                let values = Values::read(&keys::TEXTURE, text, spot, &mut self.notes);
+                let over = self.changes.over("textures", &[name]);
+                let notes = &mut self.notes;
+                let values = Values::read_changed(&keys::TEXTURE, text, spot, &over, notes);
                 let read = texture::texture(&values, name, &mut self.notes);
                 let declared = self.textures.declare("texture", name, spot, &mut self.notes);
                 if let Some(number) = declared {
@@ -256,8 +317,10 @@ impl<'a> Reader<'a> {
                 }
             }
             Item::Light(text) => {
-                let values = Values::read(&keys::LIGHT, text, spot, &mut self.notes);
                 self.light_count += 1;
+                let over = self.changes.over("light", &[&self.light_count.to_string()]);
+                let notes = &mut self.notes;
+                let values = Values::read_changed(&keys::LIGHT, text, spot, &over, notes);
                 self.lights.extend(light::light(&values, self.light_count, &mut self.notes));
             }
             Item::Shape(table, text, group) => {
@@ -286,7 +349,10 @@ impl<'a> Reader<'a> {
         path: &str,
     ) -> Vec<Draft> {
         let numbered = self.numbered(table.name);
-        let v = Values::read(table, text, spot, &mut self.notes);
+        let number = numbered.rsplit(' ').next().unwrap_or_default();
+        let own = text.get("name").and_then(|name| name.get_ref().as_str()).unwrap_or_default();
+        let over = self.changes.over(table.name, &[number, own]);
+        let v = Values::read_changed(table, text, spot, &over, &mut self.notes);
         let transform = shape::transform(&v, &mut self.notes);
         let name = v.text("name").unwrap_or(numbered);
         // Kept apart, so that it is looked up even if the shape itself is faulty.

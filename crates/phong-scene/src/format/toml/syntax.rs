@@ -9,6 +9,7 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
+use toml::Spanned;
 use toml::de::DeTable;
 
 use super::notes::Notes;
@@ -20,15 +21,31 @@ const MOST: usize = 20;
 
 /// A text without its faulty statements.
 #[derive(Debug)]
-pub(super) struct Mended {
+struct Mended {
     /// The text; blanks stand where statements were taken out.
-    pub(super) text: String,
+    text: String,
     /// Where the tables begin that lost a statement: nothing can be said to be missing there.
-    pub(super) lost: BTreeSet<usize>,
+    lost: BTreeSet<usize>,
+}
+
+/// Parses the text of a file; one with syntax errors without what is faulty, as it is in `mended`.
+pub(super) fn parse<'t>(
+    text: &'t str,
+    file: u32,
+    mended: &'t mut String,
+    notes: &mut Notes,
+) -> Spanned<DeTable<'t>> {
+    if let Ok(document) = DeTable::parse(text) {
+        return document;
+    }
+    let Mended { text, lost } = mend(file, notes);
+    notes.lose(file, lost);
+    *mended = text;
+    DeTable::parse_recoverable(mended).0
 }
 
 /// Says the syntax errors of a text that does not parse, and takes the faulty statements out.
-pub(super) fn mend(file: u32, notes: &mut Notes) -> Mended {
+fn mend(file: u32, notes: &mut Notes) -> Mended {
     let text = std::sync::Arc::clone(notes.text(file));
     let text = text.text.as_str();
     let mut bytes = text.as_bytes().to_vec();

@@ -1,16 +1,19 @@
 //! A table of the text, read by its table of keys.
 
+use std::ops::Range;
+
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::change::Laid;
 use super::notes::Notes;
 use super::text::Spot;
 use super::value::{TexturedValue, Value, ValueReader};
 use crate::color::Rgb;
 use crate::diagnostic::Severity;
-use crate::keys::{BACKGROUND, Default, Key, Kind, TEXTURED, Table, of_key};
+use crate::keys::{BACKGROUND, Default, Key, Kind, TEXTURED, Table};
 use crate::scene::Background;
-use crate::wording::{closest, list};
+use crate::wording::list;
 use glam::{DAffine3, DVec2, DVec3, DVec4};
 
 /// What one table of the text says: every value checked, every default at hand.
@@ -25,7 +28,7 @@ pub(super) struct Values {
 }
 
 /// The value of a key, which may be a table of its own.
-fn read_value(
+pub(super) fn read_value(
     table: &'static Table,
     key: &'static Key,
     value: &Spanned<DeValue<'_>>,
@@ -76,37 +79,60 @@ impl Values {
         spot: Spot,
         notes: &mut Notes,
     ) -> Self {
+        Self::read_changed(table, text, spot, &[], notes)
+    }
+
+    /// Reads a table over whose keys these values are laid.
+    pub(super) fn read_changed(
+        table: &'static Table,
+        text: &DeTable<'_>,
+        spot: Spot,
+        over: &[&Laid<'_>],
+        notes: &mut Notes,
+    ) -> Self {
         let mut values = Self { table, spot, word: None, entries: Vec::with_capacity(text.len()) };
-        values.select(text, notes);
+        values.select(text, over, notes);
         for (name, value) in text {
-            if Some(name.get_ref().as_ref()) == table.select {
-                continue; // read above
+            let (name, at) = (name.get_ref(), Spot::new(spot.file, name.span()));
+            if !over.iter().any(|laid| laid.target.key.name == name) {
+                values.entry_of(name, at, value, notes);
             }
-            let at = Spot::new(spot.file, name.span());
-            match table.find(name.get_ref(), values.word) {
-                Some(key) => {
-                    let read = read_value(table, key, value, spot.file, notes);
-                    let spot = Spot::new(spot.file, value.span());
-                    values.entries.push(Entry { key, spot, value: read });
-                }
-                None => values.unknown(name.get_ref(), at, notes),
-            }
+        }
+        for laid in over {
+            values.entry_of(laid.target.key.name, laid.at, &laid.value, notes);
         }
         values.say_missing(notes);
         values
     }
 
+    /// Reads the value of the key that stands at a place.
+    fn entry_of(&mut self, name: &str, at: Spot, value: &Spanned<DeValue<'_>>, notes: &mut Notes) {
+        if Some(name) == self.table.select {
+            return; // read before
+        }
+        match self.table.find(name, self.word) {
+            Some(key) => {
+                let read = read_value(self.table, key, value, at.file, notes);
+                let spot = Spot::new(at.file, value.span());
+                self.entries.push(Entry { key, spot, value: read });
+            }
+            None => self.unknown(name, at, notes),
+        }
+    }
+
     /// Reads the key that decides which of the others apply.
-    fn select(&mut self, text: &DeTable<'_>, notes: &mut Notes) {
+    fn select(&mut self, text: &DeTable<'_>, over: &[&Laid<'_>], notes: &mut Notes) {
         let Some(key) = self.table.select.and_then(|name| self.table.find(name, None)) else {
             return;
         };
-        if let Some(value) = text.get(key.name) {
-            let read = read_value(self.table, key, value, self.spot.file, notes);
+        let laid = over.iter().find(|laid| laid.target.key.name == key.name);
+        let laid = laid.map(|laid| (&laid.value, laid.at.file));
+        if let Some((value, file)) = laid.or(text.get(key.name).map(|v| (v, self.spot.file))) {
+            let read = read_value(self.table, key, value, file, notes);
             if let Some(Value::Word(word)) = read {
                 self.word = Some(word);
             }
-            let spot = Spot::new(self.spot.file, value.span());
+            let spot = Spot::new(file, value.span());
             self.entries.push(Entry { key, spot, value: read });
         } else if let Default::Word(word) = key.default {
             self.word = Some(word);
@@ -245,6 +271,18 @@ impl Values {
         Some(word)
     }
 
+    /// Texts, each with its bytes in the file.
+    pub(super) fn texts(&self, name: &str) -> Option<Vec<(String, Range<usize>)>> {
+        let Value::Texts(texts) = self.get(name)? else { return None };
+        Some(texts)
+    }
+
+    /// One number or more.
+    pub(super) fn numbers(&self, name: &str) -> Option<Vec<f64>> {
+        let Value::Numbers(numbers) = self.get(name)? else { return None };
+        Some(numbers)
+    }
+
     pub(super) fn text(&self, name: &str) -> Option<String> {
         let Value::Text(text) = self.get(name)? else { return None };
         Some(text)
@@ -277,14 +315,8 @@ pub(super) fn say_unknown(
         notes.count(Severity::Error);
         return;
     }
-    let known = || table.keys().filter(|key| key.applies(word)).map(|key| key.name);
-    let help = match (of_key(table.name, name), closest(name, known())) {
-        (Some(hint), _) => hint.to_owned(),
-        (None, Some(meant)) => format!("did you mean `{meant}`?"),
-        (None, None) => format!("known here: {}", list(known(), "and")),
-    };
-    let name = crate::wording::quoted(name);
-    notes.error(at, format!("unknown key {name} in this `{}`", table.name)).help = Some(help);
+    let (message, help) = table.unknown(name, word);
+    notes.error(at, message).help = Some(help);
 }
 
 /// A colour that was most likely copied from a colour picker: three whole numbers up to 255.

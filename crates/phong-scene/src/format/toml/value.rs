@@ -32,6 +32,8 @@ pub(super) enum Value {
     Colors([Rgb; 2]),
     Stops(Vec<(f32, Rgb)>),
     Textured(TexturedValue),
+    Texts(Vec<(String, std::ops::Range<usize>)>),
+    Numbers(Vec<f64>),
 }
 
 /// What a texture stands for, as it is written.
@@ -125,7 +127,14 @@ impl ValueReader<'_> {
             Kind::Scale => self.scale(value).map(Value::Vector),
             Kind::Rotate => self.rotations(value).map(Value::Rotations),
             Kind::Matrix => self.matrix(value).map(Value::Matrix),
-            Kind::Table(_) | Kind::Tables(_) | Kind::Named(_) | Kind::NotYet => None,
+            Kind::Files => self.files(value).map(Value::Texts),
+            Kind::Numbers => self.some_numbers(value).map(Value::Numbers),
+            Kind::Table(_)
+            | Kind::Tables(_)
+            | Kind::Named(_)
+            | Kind::Values
+            | Kind::Options
+            | Kind::NotYet => None,
         }
     }
 
@@ -342,6 +351,38 @@ impl ValueReader<'_> {
             Some(text) => Some(Value::Text(text.to_owned())),
             None => self.mismatch(value),
         }
+    }
+
+    /// Texts, each with its place.
+    fn files(
+        &mut self,
+        value: &Spanned<DeValue<'_>>,
+    ) -> Option<Vec<(String, std::ops::Range<usize>)>> {
+        let DeValue::Array(items) = value.get_ref() else {
+            let Value::Text(text) = self.text(value)? else { return None };
+            return Some(vec![(text, value.span())]);
+        };
+        if items.is_empty() {
+            return self.wrong(value, "is empty");
+        }
+        let read = items.iter().map(|item| match self.text(item)? {
+            Value::Text(text) => Some((text, item.span())),
+            _ => None,
+        });
+        let read: Vec<_> = read.collect();
+        read.into_iter().collect()
+    }
+
+    /// One number or more.
+    fn some_numbers(&mut self, value: &Spanned<DeValue<'_>>) -> Option<Vec<f64>> {
+        let DeValue::Array(items) = value.get_ref() else {
+            return self.number(value).map(|number| vec![number]);
+        };
+        if items.is_empty() {
+            return self.mismatch(value);
+        }
+        let read: Vec<_> = items.iter().map(|item| self.number(item)).collect();
+        read.into_iter().collect()
     }
 
     fn size(&mut self, value: &Spanned<DeValue<'_>>) -> Option<[u32; 2]> {

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use glam::{DVec2, DVec3};
 
+use crate::change::toml_string;
 use crate::color::{Rgb, srgb_encode};
 use crate::format::toml::value::{TexturedValue, Value};
 use crate::keys::{BACKGROUND, Kind};
@@ -28,26 +29,28 @@ pub(super) fn value(value: &Value, kind: Kind) -> String {
         }
         Value::Size([width, height]) => format!("[{width}, {height}]"),
         Value::Color(color) | Value::Background(Background::Color(color)) => self::color(*color),
-        Value::Background(Background::Transparent) => quoted("transparent"),
+        Value::Background(Background::Transparent) => toml_string("transparent"),
         Value::Background(Background::Gradient { top, bottom }) => {
             let ends = BACKGROUND.keys().zip([top, bottom]);
             let ends = ends.map(|(key, end)| format!("{} = {}", key.name, color(*end)));
             format!("{{ {} }}", ends.collect::<Vec<_>>().join(", "))
         }
-        Value::Word(word) => quoted(word),
-        Value::Text(text) => quoted(text),
+        Value::Word(word) => toml_string(word),
+        Value::Text(text) => toml_string(text),
         Value::Colors(colors) => list(colors.iter().map(|&c| color(c))),
         Value::Stops(stops) => {
             list(stops.iter().map(|&(t, c)| format!("[{}, {}]", number(short(t)), color(c))))
         }
         Value::Textured(by) => textured(by),
+        Value::Texts(texts) => list(texts.iter().map(|(text, _)| toml_string(text))),
+        Value::Numbers(all) => numbers(all),
     }
 }
 
 /// What a texture stands for: the keys that are not as by default.
 fn textured(by: &TexturedValue) -> String {
     let TexturedValue { texture, scale, offset, channel } = by;
-    let mut text = format!("{{ texture = {}", quoted(texture));
+    let mut text = format!("{{ texture = {}", toml_string(texture));
     // Writing to a string does not fail.
     if *scale != 1.0 {
         let _ = write!(text, ", scale = {}", number(*scale));
@@ -56,7 +59,7 @@ fn textured(by: &TexturedValue) -> String {
         let _ = write!(text, ", offset = {}", number(*offset));
     }
     if let Some(channel) = channel {
-        let _ = write!(text, ", channel = {}", quoted(channel));
+        let _ = write!(text, ", channel = {}", toml_string(channel));
     }
     text + " }"
 }
@@ -111,25 +114,7 @@ fn color(color: Rgb) -> String {
 /// A part of a header: bare where that may be, else in quotes.
 pub(super) fn name(name: &str) -> String {
     let bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-    if !name.is_empty() && name.chars().all(bare) { name.to_owned() } else { quoted(name) }
-}
-
-/// A basic string.
-fn quoted(text: &str) -> String {
-    let mut quoted = String::with_capacity(text.len() + 2);
-    quoted.push('"');
-    for c in text.chars() {
-        match c {
-            '"' | '\\' => quoted.extend(['\\', c]),
-            '\n' => quoted.push_str("\\n"),
-            '\t' => quoted.push_str("\\t"),
-            // Writing to a string does not fail.
-            c if c.is_control() => drop(write!(quoted, "\\u{:04X}", u32::from(c))),
-            c => quoted.push(c),
-        }
-    }
-    quoted.push('"');
-    quoted
+    if !name.is_empty() && name.chars().all(bare) { name.to_owned() } else { toml_string(name) }
 }
 
 #[cfg(test)]
