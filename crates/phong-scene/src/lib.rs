@@ -35,6 +35,7 @@ pub use change::Change;
 pub use color::{ColorError, Rgb, srgb_decode, srgb_encode};
 pub use diagnostic::{Diagnostic, Label, Place, SceneError, Severity, Span};
 pub use format::export::{Account, File, PlyEncoding};
+pub use format::origin::origin_of;
 pub use format::table::Format;
 pub use format::toml::batch::read_batch;
 pub use format::{Export, ExportOptions, read, read_changed};
@@ -42,7 +43,7 @@ pub use fragment::Fragment;
 pub use frame::{Framing, Side};
 pub use keys::{batch_reference_markdown, batch_schema_json, reference_markdown, schema_json};
 pub use light::{Light, LightKind};
-pub use limits::Limits;
+pub use limits::{LARGEST, Limits};
 pub use material::{
     AmbientRule, ConstantMaterial, Dialect, Distribution, Fresnel, Material, MaterialId, Model,
     Shadowing, Tint, Viewer, WardForm,

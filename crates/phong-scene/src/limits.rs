@@ -1,7 +1,7 @@
 //! Limits of numbers, and what a reader may use at most, so that no input can exhaust the machine.
 
 /// The largest magnitude of any number in a scene: its square still fits an f32.
-pub(crate) const LARGEST: f64 = 1e18;
+pub const LARGEST: f64 = 1e18;
 
 /// An interval of numbers.
 #[derive(Clone, Copy, Debug)]

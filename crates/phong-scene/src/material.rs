@@ -210,7 +210,8 @@ impl Material {
     }
 
     /// The same with its textures numbered anew.
-    pub(crate) fn renumber_textures(&self, new: impl Fn(TextureId) -> TextureId) -> Self {
+    #[must_use]
+    pub fn renumber_textures(&self, new: impl Fn(TextureId) -> TextureId) -> Self {
         fn renumber<T>(parameter: Param<T>, new: &impl Fn(TextureId) -> TextureId) -> Param<T> {
             match parameter {
                 Param::Constant(_) => parameter,

@@ -5,7 +5,7 @@ pub(crate) mod export;
 pub(crate) mod input;
 pub(crate) mod mtl;
 pub(crate) mod obj;
-mod origin;
+pub(crate) mod origin;
 pub(crate) mod ply;
 pub(crate) mod table;
 mod text;

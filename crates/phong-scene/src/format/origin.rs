@@ -14,7 +14,7 @@ const FAR: f64 = 64.0;
 /// (along the axis in which they are farthest apart), which would cost 6 of the 24 bits of an
 /// f32. It is a multiple of a power of two about four times the samples' extent, so that it is a
 /// short number and subtracting it rounds nothing that matters.
-pub(crate) fn origin_of(samples: impl IntoIterator<Item = DVec3>) -> DVec3 {
+pub fn origin_of(samples: impl IntoIterator<Item = DVec3>) -> DVec3 {
     let (low, high) = samples
         .into_iter()
         .filter(|p| p.is_finite())

@@ -27,6 +27,7 @@ use thiserror::Error;
 use crate::film::LayerKind;
 use crate::finish::Finished;
 
+pub use self::png::srgb8;
 pub use picture::{Lossy, Picture, Plane, ReadError, Transfer};
 pub use save::{Draft, SaveError, WriteSeek, place, remove_abandoned, save};
 

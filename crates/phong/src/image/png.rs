@@ -96,6 +96,18 @@ pub(super) fn write(
     writer.finish().map_err(encoding_error)
 }
 
+/// What a PNG of 8 bits holds of the picture: red, green, blue and straight alpha of each pixel, rows
+/// from top to bottom, by the sRGB curve unless `encoding` is linear. Its `bits` are not looked at.
+pub fn srgb8(picture: &Finished<'_>, encoding: &Encoding) -> Vec<u8> {
+    let film = picture.film();
+    let values = |kind| picture.values(kind).unwrap_or_default();
+    let (values, alpha) = (values(LayerKind::Picture), values(LayerKind::Alpha));
+    let curve = (!encoding.linear).then(Curve::eight);
+    let gain = libm::exp2(encoding.exposure) as f32;
+    let tone = Tone { gain, bits: Bits::Eight, curve, alpha: Some(alpha) };
+    levels(values, 3, film.width() as usize, &tone)
+}
+
 /// The levels of all pixels, as the bytes a PNG holds.
 fn levels(values: &[f32], channels: usize, width: usize, tone: &Tone<'_>) -> Vec<u8> {
     let bytes = match tone.bits {

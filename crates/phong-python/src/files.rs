@@ -1,0 +1,46 @@
+//! Files as Python names them, and texts that have none.
+
+use phong_scene::{Folder, Format, Memory, Source};
+use pyo3::prelude::*;
+
+use crate::errors::{kind_of, type_error, value_error};
+
+/// The path that an argument means, as the readers take it.
+pub(crate) fn path_of(path: &Bound<'_, PyAny>) -> PyResult<String> {
+    let path: std::path::PathBuf = path.extract().map_err(|_| {
+        type_error(format!("path must be text or a pathlib.Path, not {}", kind_of(path)))
+    })?;
+    Ok(phong_scene::path_text(path.as_os_str()))
+}
+
+pub(crate) fn format_of(name: &str) -> PyResult<Format> {
+    Format::of_ending(name).ok_or_else(|| {
+        let names: Vec<_> = Format::readable().into_iter().map(Format::ending).collect();
+        value_error(format!("format = {name:?}: there are {}", names.join(", ")))
+    })
+}
+
+/// Bytes that reading may take.
+pub(crate) fn memory() -> u64 {
+    phong_lab::measure::memory::total().unwrap_or(u64::MAX)
+}
+
+/// What a text that has no file is called.
+pub(crate) const TEXT: &str = "<text>";
+
+/// A text, and the folder that the files it names are in.
+#[derive(Debug)]
+pub(crate) struct Beside {
+    pub(crate) text: String,
+    pub(crate) folder: String,
+}
+
+impl Source for Beside {
+    fn open(&self, path: &str) -> std::io::Result<Box<dyn phong_scene::Blob>> {
+        if path == TEXT {
+            return Memory::new().with(TEXT, self.text.as_bytes()).open(TEXT);
+        }
+        let path = phong_scene::path_of(&self.folder).join(phong_scene::path_of(path));
+        Folder.open(&phong_scene::path_text(path.as_os_str()))
+    }
+}

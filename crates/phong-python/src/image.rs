@@ -1,0 +1,333 @@
+//! `phong.Image`: a picture that was rendered.
+
+use std::io::Cursor;
+use std::sync::{Arc, OnceLock};
+
+use phong::film::{Film, LayerKind};
+use phong::finish::{Finished, Finishing, finish};
+use phong::image::{Bits, Content, Encoding, Format, SaveError, save, write};
+use phong::part::{self, Join, Part, Settings};
+use phong::render::RenderOptions;
+use phong_scene::{Diagnostic, Scene};
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::{PyBytes, PyDict, PyList, PyTuple};
+
+use crate::arrays::frozen;
+use crate::errors::{diagnostics, os_error, value_error};
+use crate::files::path_of;
+
+/// A picture that was rendered.
+#[pyclass(module = "phong", frozen, weakref)]
+pub(crate) struct Image {
+    film: Arc<Film>,
+    made: Made,
+    seconds: Vec<(String, f64)>,
+    warnings: Vec<Diagnostic>,
+    samples: u32,
+    array: PyOnceLock<Py<PyAny>>,
+    layers: PyOnceLock<Py<PyDict>>,
+}
+
+/// What picture it is.
+enum Made {
+    /// Rendered here: of this scene.
+    Here(Arc<Scene>, RenderOptions, OnceLock<Settings>),
+    /// Put together, or unpickled.
+    Elsewhere(Settings),
+}
+
+impl Image {
+    /// A picture that was rendered here.
+    pub(crate) fn rendered(
+        film: Film,
+        scene: Arc<Scene>,
+        options: RenderOptions,
+        seconds: Vec<(String, f64)>,
+        warnings: Vec<Diagnostic>,
+    ) -> Self {
+        let samples = options.samples();
+        let made = Made::Here(scene, options, OnceLock::new());
+        Self::of(Arc::new(film), made, seconds, warnings, samples)
+    }
+
+    fn of(
+        film: Arc<Film>,
+        made: Made,
+        seconds: Vec<(String, f64)>,
+        warnings: Vec<Diagnostic>,
+        samples: u32,
+    ) -> Self {
+        let (array, layers) = (PyOnceLock::new(), PyOnceLock::new());
+        Self { film, made, seconds, warnings, samples, array, layers }
+    }
+
+    /// A picture that parts were put together to.
+    fn joined(film: Film, settings: Settings, seconds: Vec<(String, f64)>) -> Self {
+        let samples = settings.picture.iter().find(|(name, _)| name == "samples");
+        let samples = samples.and_then(|(_, text)| text.parse().ok()).unwrap_or(0);
+        Self::of(Arc::new(film), Made::Elsewhere(settings), seconds, Vec::new(), samples)
+    }
+
+    fn settings(&self) -> &Settings {
+        match &self.made {
+            Made::Here(scene, options, settings) => {
+                settings.get_or_init(|| Settings::of(scene, options, Encoding::default()))
+            }
+            Made::Elsewhere(settings) => settings,
+        }
+    }
+
+    /// Its film, finished as files hold it.
+    fn finished(&self) -> Finished<'_> {
+        let finishing = match self.settings().scene() {
+            Some(sum) => Finishing::default().of_scene(sum),
+            None => Finishing::default(),
+        };
+        finish(&self.film, &finishing)
+    }
+
+    fn sides(&self) -> [usize; 2] {
+        [self.film.height() as usize, self.film.width() as usize]
+    }
+
+    fn png(&self, encoding: &Encoding) -> PyResult<Vec<u8>> {
+        let mut out = Cursor::new(Vec::new());
+        let content = Content::Layer(LayerKind::Picture);
+        write(&self.finished(), content, Format::Png, encoding, &mut out)
+            .map_err(|error| value_error(error.to_string()))?;
+        Ok(out.into_inner())
+    }
+}
+
+/// Encoding of a PNG by its keywords.
+fn encoding(bits: u32, exposure: f64, linear: bool) -> PyResult<Encoding> {
+    let bits = match bits {
+        8 => Bits::Eight,
+        16 => Bits::Sixteen,
+        _ => return Err(value_error(format!("bits = {bits}: it must be 8 or 16"))),
+    };
+    if !(exposure.abs() <= 100.0) {
+        return Err(value_error(format!(
+            "exposure = {exposure}: it must be from -100 to 100 stops"
+        )));
+    }
+    Ok(Encoding { bits, linear, exposure })
+}
+
+/// Red, green, blue and alpha of every pixel, side by side.
+fn interleaved(film: &Film) -> Vec<f32> {
+    let picture = film.layer(LayerKind::Picture).map_or(&[][..], |layer| &layer.values);
+    let alpha = film.layer(LayerKind::Alpha).map_or(&[][..], |layer| &layer.values);
+    let pixels = picture.as_chunks::<3>().0.iter().zip(alpha);
+    let mut all = Vec::with_capacity(4 * alpha.len());
+    pixels.for_each(|(&[r, g, b], &a)| all.extend_from_slice(&[r, g, b, a]));
+    all
+}
+
+#[pymethods]
+impl Image {
+    /// The pixels, of shape (H, W, 4), as `numpy.asarray` asks for them.
+    #[pyo3(signature = (dtype = None, copy = None))]
+    fn __array__<'py>(
+        slf: &Bound<'py, Self>,
+        dtype: Option<&Bound<'py, PyAny>>,
+        copy: Option<bool>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let py = slf.py();
+        let this = slf.get();
+        let [height, width] = this.sides();
+        let array = this.array.get_or_try_init(py, || {
+            let film = Arc::clone(&this.film);
+            let values = py.detach(move || interleaved(&film));
+            frozen(py, values, &[height, width, 4]).map(Bound::unbind)
+        })?;
+        let array = array.bind(py);
+        let keys = PyDict::new(py);
+        if let Some(dtype) = dtype {
+            keys.set_item("dtype", dtype)?;
+        }
+        // `copy = None` leaves it to numpy whether one is needed.
+        keys.set_item("copy", copy)?;
+        let numpy = py.import("numpy")?;
+        match copy {
+            Some(false) | None if dtype.is_none() => Ok(array.clone()),
+            None => numpy.getattr("asarray")?.call((array, dtype), None),
+            _ => numpy.getattr("array")?.call((array,), Some(&keys)),
+        }
+    }
+
+    /// Width and height, pixels.
+    #[getter]
+    fn size(&self) -> (u32, u32) {
+        (self.film.width(), self.film.height())
+    }
+
+    /// (height, width, 4), as of the array.
+    #[getter]
+    fn shape(&self) -> (u32, u32, u32) {
+        (self.film.height(), self.film.width(), 4)
+    }
+
+    /// Samples a pixel.
+    #[getter]
+    fn samples(&self) -> u32 {
+        self.samples
+    }
+
+    /// The layers that were asked for, by name: arrays of shape (H, W) or (H, W, channels).
+    #[getter]
+    fn layers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let layers = self.layers.get_or_try_init(py, || -> PyResult<Py<PyDict>> {
+            let all = PyDict::new(py);
+            let [height, width] = self.sides();
+            for layer in &self.film.layers {
+                if matches!(layer.kind, LayerKind::Picture | LayerKind::Alpha) {
+                    continue;
+                }
+                let channels = layer.kind.channels();
+                let shape = [height, width, channels];
+                let shape = if channels == 1 { &shape[..2] } else { &shape[..] };
+                all.set_item(layer.kind.name(), frozen(py, layer.values.to_vec(), shape)?)?;
+            }
+            Ok(all.unbind())
+        })?;
+        layers.bind(py).copy()
+    }
+
+    /// What was said of the scene and of the picture.
+    #[getter]
+    fn warnings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        diagnostics(py, &self.warnings)
+    }
+
+    /// Seconds by stage.
+    #[getter]
+    fn seconds<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let all = PyDict::new(py);
+        for (stage, seconds) in &self.seconds {
+            all.set_item(stage, seconds)?;
+        }
+        Ok(all)
+    }
+
+    /// Writes it, and beside it its layers where the format does not hold them.
+    #[pyo3(signature = (path, bits = 8, exposure = 0.0, *, linear = false))]
+    fn save(
+        &self,
+        py: Python<'_>,
+        path: &Bound<'_, PyAny>,
+        bits: u32,
+        exposure: f64,
+        linear: bool,
+    ) -> PyResult<()> {
+        let encoding = encoding(bits, exposure, linear)?;
+        let path = phong_scene::path_of(&path_of(path)?);
+        let saved = py.detach(|| save(&self.finished(), &path, &encoding));
+        saved.map_err(|error| match error {
+            SaveError::Unsuitable(message) => {
+                value_error(format!("path: {message}; end it in .png, .pfm or .exr"))
+            }
+            error => os_error(error.to_string()),
+        })
+    }
+
+    /// What a PNG of 8 bits holds: (H, W, 4) uint8, the sRGB curve, straight alpha.
+    #[pyo3(signature = (exposure = 0.0))]
+    fn to_srgb8<'py>(&self, py: Python<'py>, exposure: f64) -> PyResult<Bound<'py, PyAny>> {
+        let encoding = encoding(8, exposure, false)?;
+        let bytes = py.detach(|| phong::image::srgb8(&self.finished(), &encoding));
+        let [height, width] = self.sides();
+        use numpy::PyArrayMethods as _;
+        Ok(numpy::PyArray1::from_vec(py, bytes).reshape([height, width, 4])?.into_any())
+    }
+
+    fn _repr_png_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let png = py.detach(|| self.png(&Encoding::default()))?;
+        Ok(PyBytes::new(py, &png))
+    }
+
+    fn __repr__(&self) -> String {
+        let (width, height) = self.size();
+        let layers: Vec<_> = self.film.layers.iter().skip(2).map(|l| l.kind.name()).collect();
+        let layers = if layers.is_empty() {
+            String::new()
+        } else {
+            format!(", layers {}", layers.join(" "))
+        };
+        format!("<phong.Image {width} × {height}, samples {}{layers}>", self.samples)
+    }
+
+    /// The fingerprint of what it is a picture of.
+    #[getter]
+    fn scene_fingerprint(&self) -> Option<u32> {
+        self.settings().scene()
+    }
+
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        other.cast::<Self>().is_ok_and(|other| {
+            let other = other.get();
+            Arc::ptr_eq(&self.film, &other.film) || self.film == other.film
+        })
+    }
+
+    fn __hash__(slf: &Bound<'_, Self>) -> usize {
+        Arc::as_ptr(&slf.get().film).addr()
+    }
+
+    /// A part file that holds all of it.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyTuple>> {
+        let py = slf.py();
+        let this = slf.get();
+        let bytes = py.detach(|| part_bytes(&this.film, this.settings()))?;
+        let restore = py.import("phong._phong")?.getattr("_image_of_part")?;
+        let seconds: Vec<_> = this.seconds.clone();
+        (restore, (PyBytes::new(py, &bytes), seconds)).into_pyobject(py)
+    }
+}
+
+/// A film as a part file.
+pub(crate) fn part_bytes(film: &Film, settings: &Settings) -> PyResult<Vec<u8>> {
+    let mut bytes = Vec::new();
+    part::write(film.film_tiles(), settings, &mut bytes)
+        .map_err(|error| os_error(error.to_string()))?;
+    Ok(bytes)
+}
+
+/// Undoes the pickling of an image.
+#[pyfunction]
+pub(crate) fn _image_of_part(bytes: &[u8], seconds: Vec<(String, f64)>) -> PyResult<Image> {
+    let mut bytes = bytes;
+    let part = Part::read(&mut bytes, u64::MAX).map_err(|error| value_error(error.to_string()))?;
+    Ok(Image::joined(part.film, part.settings, seconds))
+}
+
+/// Puts the shares of a picture together. See `phong.merge`.
+#[pyfunction]
+pub(crate) fn merge(py: Python<'_>, parts: &Bound<'_, PyAny>) -> PyResult<Image> {
+    let mut join = Join::default();
+    for (index, item) in parts.try_iter()?.enumerate() {
+        let item = item?;
+        let name = format!("parts[{index}]");
+        let bytes: Vec<u8> = match item.extract::<Vec<u8>>() {
+            Ok(bytes) if !item.is_instance_of::<PyList>() => bytes,
+            _ => {
+                let path = phong_scene::path_of(&path_of(&item)?);
+                std::fs::read(&path).map_err(|error| {
+                    os_error(format!(
+                        "{name}: {}: {}",
+                        path.display(),
+                        phong_scene::trouble(&error)
+                    ))
+                })?
+            }
+        };
+        let limit = phong_lab::measure::memory::total().unwrap_or(u64::MAX);
+        let part = py.detach(|| Part::read(&mut bytes.as_slice(), limit));
+        let part = part.map_err(|error| value_error(format!("{name}: {error}")))?;
+        let added = py.detach(|| join.add(&name, part));
+        added.map_err(|error| value_error(error.to_string()))?;
+    }
+    let (film, settings) = join.finish().map_err(|error| value_error(error.to_string()))?;
+    Ok(Image::joined(film, settings, Vec::new()))
+}

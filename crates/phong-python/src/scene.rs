@@ -1,0 +1,563 @@
+//! `phong.Scene`: what is drawn, and what it looks like.
+
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use glam::{DAffine3, DVec3};
+use phong_scene::{
+    Export, ExportOptions, Folder, Format, Framing, Limits, MaterialId, Object, Points, Reading,
+    Scene as SceneText, Shape, Shared, closest, read,
+};
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict, PyList, PyString, PyTuple, PyType};
+use toml::Table;
+
+use crate::arrays::{neither, transforms};
+use crate::errors::{diagnostics, os_error, scene_error, value_error};
+use crate::files::{Beside, TEXT, format_of, memory, path_of};
+use crate::keys::{Said, Text};
+use crate::look::{image_with, side, tables};
+use crate::part::Part;
+use crate::state::{Automatic, State};
+use crate::{bulk, content, look};
+
+/// What is drawn, and what it looks like.
+#[pyclass(module = "phong", frozen, subclass)]
+pub(crate) struct Scene {
+    state: Mutex<State>,
+}
+
+impl Scene {
+    pub(crate) fn of(state: State) -> Self {
+        Self { state: Mutex::new(state) }
+    }
+
+    /// Its state. Nobody may wait for the interpreter while it is held.
+    pub(crate) fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Where a part stands.
+    fn place(&self, part: &Part) -> PyResult<usize> {
+        self.state().place(part.number).ok_or_else(|| {
+            value_error(format!("part: {:?} is no part of this scene, or was removed", part.name))
+        })
+    }
+
+    /// The material that an argument means.
+    fn material(&self, given: Option<&Bound<'_, PyAny>>) -> PyResult<MaterialId> {
+        let Some(given) = given.filter(|given| !given.is_none()) else {
+            return Ok(self.state().default_material());
+        };
+        if let Ok(name) = given.cast::<PyString>() {
+            let name = name.to_cow()?;
+            let state = self.state();
+            return state.material_named(&name).ok_or_else(|| {
+                let names = state.scene.materials.iter().map(|material| material.name.as_str());
+                let meant = closest(&name, names).map(|name| format!(": did you mean {name:?}?"));
+                let meant = meant.unwrap_or_default();
+                value_error(format!("material: the scene has none called {name:?}{meant}"))
+            });
+        }
+        let said = Said::expect(given, "material", "material")?;
+        let (material, textures) = self.read_material(given.py(), &said)?;
+        Ok(self.state().material(material, &textures))
+    }
+
+    /// A material, and the textures by which its own are numbered.
+    fn read_material(
+        &self,
+        py: Python<'_>,
+        said: &Said<'_>,
+    ) -> PyResult<(phong_scene::Material, Vec<phong_scene::Texture>)> {
+        let name = said.name.clone().unwrap_or_else(|| "material".to_owned());
+        let mut text = Text::default();
+        let table = text.table(&said.keys)?;
+        if table.values().any(toml::Value::is_table) {
+            let known = self.text()?.remove("textures");
+            if let Some(toml::Value::Table(known)) = known {
+                text.know_textures(known);
+            }
+        }
+        text.name("materials", &name, table);
+        let read = text.read(py, "Material", &Folder)?;
+        let material = read.materials.into_iter().find(|material| material.name == name);
+        Ok((material.unwrap_or_default(), read.textures))
+    }
+
+    /// All but its objects, as the tables of a text.
+    fn text(&self) -> PyResult<Table> {
+        let framed = self.state().framed();
+        tables(SceneText { objects: Vec::new(), groups: Vec::new(), ..framed })
+    }
+
+    /// Adds a shape, called `name` or by its kind and a number.
+    fn put(
+        &self,
+        shape: Shape,
+        material: MaterialId,
+        name: Option<String>,
+        transform: DAffine3,
+    ) -> Part {
+        let mut state = self.state();
+        let name = name.unwrap_or_else(|| state.free_object_name(shape.kind()));
+        let object = Object { name: name.clone(), shape, material, transform, ..Object::default() };
+        let number = state.add(object);
+        Part { number, name }
+    }
+}
+
+#[pymethods]
+impl Scene {
+    /// A scene with nothing in it. See `phong.Scene`.
+    #[new]
+    #[pyo3(signature = (camera = None, lights = None, ambient = None, background = None))]
+    fn new(
+        py: Python<'_>,
+        camera: Option<&Bound<'_, PyAny>>,
+        lights: Option<&Bound<'_, PyAny>>,
+        ambient: Option<&Bound<'_, PyAny>>,
+        background: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        let framing = camera.is_none().then(Framing::default);
+        let automatic = Automatic { lights: lights.is_none(), bare: false };
+        let scene = Self::of(State::new(SceneText::default(), framing, automatic));
+        if let Some(camera) = camera {
+            scene.set_camera(camera)?;
+        }
+        if let Some(lights) = lights {
+            scene.set_lights(lights)?;
+        }
+        if let Some(ambient) = ambient {
+            scene.set_ambient(ambient)?;
+        }
+        if let Some(background) = background {
+            let keys = PyDict::new(py);
+            keys.set_item("background", background)?;
+            scene.set_image(&keys)?;
+        }
+        Ok(scene)
+    }
+
+    /// Reads a scene or a bare model. See `phong.Scene.read`.
+    #[classmethod]
+    #[pyo3(signature = (path, format = None, lenient = false))]
+    fn read(
+        class: &Bound<'_, PyType>,
+        path: &Bound<'_, PyAny>,
+        format: Option<&str>,
+        lenient: bool,
+    ) -> PyResult<Py<PyAny>> {
+        let path = path_of(path)?;
+        let format = format.map(format_of).transpose()?;
+        let limits = Limits { lenient, bytes: memory(), ..Limits::default() };
+        let work = move |_: &_| read(&path, format, &Folder, &limits);
+        let reading = crate::work::quietly(class.py(), None, work)?;
+        made(class, of_reading(class.py(), reading)?)
+    }
+
+    /// Reads the text of a scene. See `phong.Scene.parse`.
+    #[classmethod]
+    #[pyo3(signature = (text, folder = None))]
+    fn parse(
+        class: &Bound<'_, PyType>,
+        text: String,
+        folder: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Py<PyAny>> {
+        let folder = folder.map(path_of).transpose()?.unwrap_or_else(|| ".".to_owned());
+        let work = move |_: &_| {
+            let files = Beside { text, folder };
+            read(TEXT, Some(Format::Toml), &files, &Limits { bytes: memory(), ..Limits::default() })
+        };
+        let reading = crate::work::quietly(class.py(), None, work)?;
+        made(class, of_reading(class.py(), reading)?)
+    }
+
+    /// Adds a sphere at every centre. See `phong.Scene.add_spheres`.
+    #[pyo3(signature = (centers, radii, colors = None, material = None, name = None))]
+    fn add_spheres(
+        &self,
+        centers: &Bound<'_, PyAny>,
+        radii: &Bound<'_, PyAny>,
+        colors: Option<&Bound<'_, PyAny>>,
+        material: Option<&Bound<'_, PyAny>>,
+        name: Option<String>,
+    ) -> PyResult<Part> {
+        let points = bulk::spheres(centers, radii, colors)?;
+        let material = self.material(material)?;
+        Ok(self.put(points.into(), material, name, DAffine3::IDENTITY))
+    }
+
+    /// Moves the spheres of a part. See `phong.Scene.update_spheres`.
+    #[pyo3(signature = (part, centers = None, radii = None, colors = None))]
+    fn update_spheres(
+        &self,
+        part: &Part,
+        centers: Option<&Bound<'_, PyAny>>,
+        radii: Option<&Bound<'_, PyAny>>,
+        colors: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<()> {
+        let place = self.place(part)?;
+        let old = match &self.state().scene.objects[place].shape {
+            Shape::Points(points) => Points::clone(points),
+            other => {
+                let kind = other.kind();
+                return Err(value_error(format!("part: {:?} is a {kind}, no spheres", part.name)));
+            }
+        };
+        let points = bulk::moved(old, centers, radii, colors)?;
+        self.replace(part, points.into())
+    }
+
+    /// Adds triangles. See `phong.Scene.add_mesh`.
+    #[pyo3(signature = (vertices, faces, normals = None, uv = None, colors = None, material = None,
+                        *, smooth = None, name = None))]
+    #[expect(clippy::too_many_arguments, reason = "they are the keywords of a Python function")]
+    fn add_mesh(
+        &self,
+        vertices: &Bound<'_, PyAny>,
+        faces: &Bound<'_, PyAny>,
+        normals: Option<&Bound<'_, PyAny>>,
+        uv: Option<&Bound<'_, PyAny>>,
+        colors: Option<&Bound<'_, PyAny>>,
+        material: Option<&Bound<'_, PyAny>>,
+        smooth: Option<&Bound<'_, PyAny>>,
+        name: Option<String>,
+    ) -> PyResult<Part> {
+        let mesh = bulk::mesh(vertices, faces, normals, uv, colors, smooth)?;
+        let material = self.material(material)?;
+        Ok(self.put(mesh.into(), material, name, DAffine3::IDENTITY))
+    }
+
+    /// Adds cylinders. See `phong.Scene.add_cylinders`.
+    #[pyo3(signature = (starts, ends, radii, colors = None, material = None, *, caps = "round",
+                        name = None))]
+    #[expect(clippy::too_many_arguments, reason = "they are the keywords of a Python function")]
+    fn add_cylinders(
+        &self,
+        starts: &Bound<'_, PyAny>,
+        ends: &Bound<'_, PyAny>,
+        radii: &Bound<'_, PyAny>,
+        colors: Option<&Bound<'_, PyAny>>,
+        material: Option<&Bound<'_, PyAny>>,
+        caps: &str,
+        name: Option<String>,
+    ) -> PyResult<Part> {
+        let cylinders = bulk::cylinders(starts, ends, radii, colors, caps)?;
+        let material = self.material(material)?;
+        Ok(self.put(cylinders.into(), material, name, DAffine3::IDENTITY))
+    }
+
+    /// Adds a shape. See `phong.Scene.add`.
+    #[pyo3(signature = (shape, transform = None))]
+    fn add(
+        &self,
+        shape: &Bound<'_, PyAny>,
+        transform: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Part> {
+        let py = shape.py();
+        let place = match transform {
+            None => DAffine3::IDENTITY,
+            Some(transform) => match transforms("transform", transform)?[..] {
+                [one] => one,
+                _ => return Err(value_error("transform must be of shape (4, 4)")),
+            },
+        };
+        let said = Said::of(shape).filter(|said| {
+            !matches!(said.kind.as_str(), "camera" | "light" | "material" | "texture" | "image")
+        });
+        let Some(said) = said else {
+            return Err(neither("shape", "a shape like phong.Sphere", shape));
+        };
+        let keys = said.keys.copy()?;
+        let material = keys.get_item("material")?;
+        if material.is_some() {
+            keys.del_item("material")?;
+        }
+        let material = self.material(material.as_ref())?;
+        let mut text = Text::default();
+        let table = text.table(&keys)?;
+        let named = table.contains_key("name");
+        text.push(&said.kind, table);
+        let read = text.read(py, &said.kind, &Folder)?;
+        let mut objects = read.objects.into_iter();
+        let (Some(object), None) = (objects.next(), objects.next()) else {
+            return Err(value_error(format!(
+                "{}: its file holds several things; read it with phong.Scene.read",
+                said.kind
+            )));
+        };
+        let name = named.then_some(object.name);
+        Ok(self.put(object.shape, material, name, place * object.transform))
+    }
+
+    /// Draws a part at other places as well. See `phong.Scene.instance`.
+    #[pyo3(signature = (part, transforms, *, keep = true))]
+    fn instance(
+        &self,
+        part: &Part,
+        transforms: &Bound<'_, PyAny>,
+        keep: bool,
+    ) -> PyResult<Vec<Part>> {
+        let all = self::transforms("transforms", transforms)?;
+        let place = self.place(part)?;
+        let mut state = self.state();
+        let original = state.scene.objects[place].clone();
+        let mut parts = Vec::with_capacity(all.len());
+        for (index, transform) in all.into_iter().enumerate() {
+            let name = format!("{} / {}", original.name, index + 1);
+            let transform = transform * original.transform;
+            let number = state.add(Object { name: name.clone(), transform, ..original.clone() });
+            parts.push(Part { number, name });
+        }
+        if !keep {
+            state.remove(place);
+        }
+        Ok(parts)
+    }
+
+    /// Takes a part away.
+    fn remove(&self, part: &Part) -> PyResult<()> {
+        let place = self.place(part)?;
+        self.state().remove(place);
+        Ok(())
+    }
+
+    /// Every part, in order.
+    #[getter]
+    fn parts(&self) -> Vec<Part> {
+        let state = self.state();
+        let objects = state.parts.iter().zip(&state.scene.objects);
+        objects.map(|(&number, object)| Part { number, name: object.name.clone() }).collect()
+    }
+
+    /// Looks at it from a side. See `phong.Scene.frame`.
+    #[pyo3(signature = (view = "iso", up = None, *, fov = None))]
+    fn frame(&self, view: &str, up: Option<&Bound<'_, PyAny>>, fov: Option<f64>) -> PyResult<()> {
+        if let Some(fov) = fov.filter(|fov| !(*fov > 0.0 && *fov < 180.0)) {
+            return Err(value_error(format!(
+                "fov = {fov}: it must be above 0 and below 180 degrees"
+            )));
+        }
+        let up = up.map(look::up).transpose()?.unwrap_or(DVec3::Y);
+        let framing = Framing { side: side(view)?, up, fov, ..Framing::default() };
+        let mut state = self.state();
+        state.framing = Some(framing);
+        state.look();
+        Ok(())
+    }
+
+    /// What is wrong with it, and what can hardly be meant.
+    fn check<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
+        let (scene, said) = {
+            let state = self.state();
+            (state.framed(), state.warnings.clone())
+        };
+        let mut all = said;
+        let found = crate::work::quietly(py, None, move |_: &_| scene.check())?;
+        all.extend(found.into_iter().filter(|one| !all.contains(one)).collect::<Vec<_>>());
+        diagnostics(py, &all)
+    }
+
+    /// Its text, without its arrays. See `phong.Scene.to_toml`.
+    fn to_toml(&self) -> PyResult<String> {
+        let framed = self.state().framed();
+        let export = framed.export(&ExportOptions::default(), "scene.toml");
+        let Export { files, .. } = export.map_err(|error| value_error(error.to_string()))?;
+        let mut text = Vec::new();
+        if let Some(file) = files.first() {
+            file.write(&mut text).map_err(|error| os_error(error.to_string()))?;
+        }
+        Ok(String::from_utf8_lossy(&text).into_owned())
+    }
+
+    /// A look by its name: not yet.
+    fn look(&self, name: &str) -> PyResult<()> {
+        Err(pyo3::exceptions::PyNotImplementedError::new_err(format!(
+            "scene.look({name:?}): not yet; looks come with a later version"
+        )))
+    }
+
+    /// The tables of its text but for the objects, as a dictionary made of it.
+    fn _tables(&self) -> PyResult<String> {
+        Ok(self.text()?.to_string())
+    }
+
+    fn set_camera(&self, camera: &Bound<'_, PyAny>) -> PyResult<()> {
+        let said = Said::expect(camera, "camera", "camera")?;
+        let mut text = Text::default();
+        let table = text.table(&said.keys)?;
+        text.put("camera", table);
+        let read = text.read(camera.py(), "Camera", &Folder)?;
+        let mut state = self.state();
+        state.look().camera = read.camera;
+        state.framing = None;
+        Ok(())
+    }
+
+    fn set_lights(&self, lights: &Bound<'_, PyAny>) -> PyResult<()> {
+        let py = lights.py();
+        let mut text = Text::default();
+        let several = if Said::of(lights).is_some() {
+            vec![lights.clone()]
+        } else {
+            let all = lights
+                .try_iter()
+                .map_err(|_| neither("lights", "a list of phong.Light", lights))?;
+            all.collect::<PyResult<_>>()?
+        };
+        for (index, light) in several.iter().enumerate() {
+            let said = Said::expect(light, "light", &format!("lights[{index}]"))?;
+            let table = text.table(&said.keys)?;
+            text.push("light", table);
+        }
+        let read = text.read(py, "lights", &Folder)?;
+        let mut state = self.state();
+        state.look().lights = read.lights;
+        state.automatic.lights = false;
+        if state.automatic.bare {
+            // The rest stays as the model was shown.
+            let framed = state.framed();
+            state.look().image.background = framed.image.background;
+            state.automatic.bare = false;
+        }
+        Ok(())
+    }
+
+    fn set_ambient(&self, ambient: &Bound<'_, PyAny>) -> PyResult<()> {
+        let keys = PyDict::new(ambient.py());
+        keys.set_item("color", ambient)?;
+        let mut text = Text::default();
+        let table = text.table(&keys)?;
+        text.put("ambient", table);
+        let read = text.read(ambient.py(), "ambient", &Folder)?;
+        self.state().look().ambient = read.ambient;
+        Ok(())
+    }
+
+    /// Lays keys of `[image]` over the scene's own.
+    fn set_image(&self, keys: &Bound<'_, PyDict>) -> PyResult<()> {
+        let image = self.state().scene.image.clone();
+        let image = image_with(keys.py(), &image, keys)?;
+        self.state().look().image = image;
+        Ok(())
+    }
+
+    /// Another material for a name or a part. See `phong.Scene.set_material`.
+    fn set_material(&self, which: &Bound<'_, PyAny>, material: &Bound<'_, PyAny>) -> PyResult<()> {
+        let number = if let Ok(name) = which.cast::<PyString>() {
+            Some(self.material(Some(name.as_any()))?)
+        } else {
+            let part: Part = which
+                .extract()
+                .map_err(|_| neither("which", "the name of a material or a part", which))?;
+            let place = self.place(&part)?;
+            let old = self.state().scene.objects[place].material;
+            let alone = {
+                let state = self.state();
+                let of_old = |object: &Object| is_of(object, old);
+                let inside = state.scene.groups.iter().flat_map(|group| &group.objects);
+                let users = state.scene.objects.iter().chain(inside).filter(|o| of_old(o)).count();
+                let own = !matches!(&state.scene.objects[place].shape, Shape::Mesh(mesh) if !mesh.face_materials.is_empty());
+                users == 1 && own
+            };
+            if !alone {
+                let new = self.material(Some(material))?;
+                let mut state = self.state();
+                let object = &mut state.objects().objects[place];
+                object.material = new;
+                if let Shape::Mesh(mesh) = &mut object.shape {
+                    mesh.face_materials = Shared::default();
+                }
+                return Ok(());
+            }
+            Some(old)
+        };
+        let Some(number) = number else { return Ok(()) };
+        let new = if material.is_instance_of::<PyString>() {
+            let other = self.material(Some(material))?;
+            self.state().scene.materials[other.0 as usize].clone()
+        } else {
+            let said = Said::expect(material, "material", "material")?;
+            let (material, textures) = self.read_material(material.py(), &said)?;
+            self.state().with_textures(material, &textures)
+        };
+        let mut state = self.state();
+        let slot = &mut state.look().materials[number.0 as usize];
+        let name = std::mem::take(&mut slot.name);
+        *slot = phong_scene::Material { name, ..new };
+        Ok(())
+    }
+
+    /// The text of everything but bulk arrays, those as bytes, and what only Python knows.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyTuple>> {
+        let py = slf.py();
+        let packed = content::pack(&slf.get().state())?;
+        let arrays: Vec<_> = packed.arrays.iter().map(|bytes| PyBytes::new(py, bytes)).collect();
+        let arguments = (slf.get_type(), packed.text, PyList::new(py, arrays)?);
+        let restore = py.import("phong._scene")?.getattr("_restore")?;
+        (restore, arguments).into_pyobject(py)
+    }
+
+    /// Undoes `__reduce__`.
+    #[classmethod]
+    fn _unpack(
+        class: &Bound<'_, PyType>,
+        text: &str,
+        arrays: Vec<Bound<'_, PyBytes>>,
+    ) -> PyResult<Py<PyAny>> {
+        let arrays: Vec<&[u8]> = arrays.iter().map(|bytes| bytes.as_bytes()).collect();
+        made(class, content::unpack(text, &arrays)?)
+    }
+
+    /// All that the digest is of, as bytes.
+    fn _content<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        let packed = content::pack(&self.state())?;
+        let arrays: Vec<_> = packed.arrays.iter().map(|bytes| PyBytes::new(py, bytes)).collect();
+        (packed.text, PyList::new(py, arrays)?).into_pyobject(py)
+    }
+
+    fn __copy__(slf: &Bound<'_, Self>) -> PyResult<Py<PyAny>> {
+        let state = slf.get().state().clone();
+        made(&slf.get_type(), state)
+    }
+
+    fn __deepcopy__(slf: &Bound<'_, Self>, _memo: &Bound<'_, PyAny>) -> PyResult<Py<PyAny>> {
+        Self::__copy__(slf)
+    }
+}
+
+impl Scene {
+    /// Gives a part another shape.
+    fn replace(&self, part: &Part, shape: Shape) -> PyResult<()> {
+        let place = self.place(part)?;
+        self.state().objects().objects[place].shape = shape;
+        Ok(())
+    }
+}
+
+/// Whether anything of an object is of a material.
+fn is_of(object: &Object, material: MaterialId) -> bool {
+    match &object.shape {
+        Shape::Mesh(mesh) if !mesh.face_materials.is_empty() => {
+            mesh.face_materials.contains(&material.0)
+        }
+        _ => object.material == material,
+    }
+}
+
+/// The scene that was read, with what was said of it.
+fn of_reading(py: Python<'_>, reading: Reading) -> PyResult<State> {
+    let Reading { scene, bare, diagnostics } = reading;
+    let Some(scene) = scene else { return Err(scene_error(py, &diagnostics)) };
+    let framing = bare.then(Framing::default);
+    let mut state = State::new(scene, framing, Automatic { lights: bare, bare });
+    state.warnings = diagnostics;
+    Ok(state)
+}
+
+/// A scene of this class.
+fn made(class: &Bound<'_, PyType>, state: State) -> PyResult<Py<PyAny>> {
+    let made = class.call0()?;
+    *made.cast::<Scene>()?.get().state() = state;
+    Ok(made.unbind())
+}

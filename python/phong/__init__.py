@@ -1,0 +1,69 @@
+"""A ray tracer for the Phong reflection model that can explain every pixel.
+
+    import phong
+
+    scene = phong.Scene(camera=phong.Camera(eye=(0, 2, 8), look_at=(0, 1, 0)))
+    scene.add_spheres([(0, 1, 0)], radii=1, colors="tomato")
+    image = phong.render(scene, size=(640, 360))
+    image.save("ball.png")
+    print(phong.explain(scene, 320, 180))
+
+Arrays are read when they are given, and nothing of them is kept or changed. The interpreter is
+free for other threads while a picture is rendered, and Ctrl-C stops it.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+from phong._errors import Cancelled, Diagnostic, SceneError
+from phong._explain import Explanation, explain
+from phong._keys import (
+    Box,
+    Camera,
+    Cone,
+    Cylinder,
+    Disc,
+    Light,
+    Material,
+    Plane,
+    Sphere,
+    Texture,
+    Torus,
+    Triangle,
+)
+from phong._phong import Cancel, Image, Part, __version__, merge
+from phong._render import render, render_part
+from phong._scene import Scene
+
+if TYPE_CHECKING:
+    from phong import dask as dask
+
+__all__ = [
+    "Box",
+    "Camera",
+    "Cancel",
+    "Cancelled",
+    "Cone",
+    "Cylinder",
+    "Diagnostic",
+    "Disc",
+    "Explanation",
+    "Image",
+    "Light",
+    "Material",
+    "Part",
+    "Plane",
+    "Scene",
+    "SceneError",
+    "Sphere",
+    "Texture",
+    "Torus",
+    "Triangle",
+    "__version__",
+    "explain",
+    "merge",
+    "render",
+    "render_part",
+]
