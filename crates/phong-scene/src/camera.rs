@@ -23,6 +23,7 @@
 use glam::DVec3;
 
 use crate::limits::Range;
+use crate::wording::words;
 
 /// Where the picture is taken from.
 ///
@@ -86,6 +87,13 @@ impl CameraKind {
     /// The angles of a fisheye's image circle, degrees.
     pub(crate) const FISHEYE: Range = Range::above(0.0, 360.0);
 }
+
+words!(CameraKind {
+    "perspective" = Perspective { fov: 40.0 },
+    "orthographic" = Orthographic { height: 1.0 },
+    "fisheye" = Fisheye { fov: 180.0 },
+    "panorama" = Panorama,
+});
 
 impl Default for CameraKind {
     /// Perspective, 40° high.

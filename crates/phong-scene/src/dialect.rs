@@ -31,17 +31,7 @@
 //! `k_s` × `specular_color`. It becomes that as it is read, and its switches cannot be set.
 
 use crate::material::{AmbientRule, Dialect, Distribution, Model, Shadowing, Tint, Viewer};
-
-/// The dialects' names in the scene text, in the order of [`Dialect::ALL`].
-pub(crate) const NAMES: [&str; 14] = {
-    let mut names = [""; 14];
-    let mut i = 0;
-    while i < names.len() {
-        names[i] = Dialect::ALL[i].name();
-        i += 1;
-    }
-    names
-};
+use crate::wording::{Word, words};
 
 /// The five switches that a dialect presets.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -57,6 +47,23 @@ pub struct Switches {
     /// Where highlights are seen from.
     pub viewer: Viewer,
 }
+
+words!(Dialect {
+    "lecture" = Lecture,
+    "mtl" = Mtl,
+    "pov-ray" = PovRay,
+    "tachyon" = Tachyon,
+    "tachyon-metal" = TachyonMetal,
+    "vtk" = Vtk,
+    "opengl" = OpenGl,
+    "direct3d9" = Direct3d9,
+    "ospray" = Ospray,
+    "three-js" = ThreeJs,
+    "pymol" = Pymol,
+    "x3d" = X3d,
+    "collada" = Collada,
+    "rtc" = Rtc,
+});
 
 impl Dialect {
     /// Every dialect, the lecture's first.
@@ -79,29 +86,14 @@ impl Dialect {
 
     /// Its name in the scene text.
     #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Lecture => "lecture",
-            Self::Mtl => "mtl",
-            Self::PovRay => "pov-ray",
-            Self::Tachyon => "tachyon",
-            Self::TachyonMetal => "tachyon-metal",
-            Self::Vtk => "vtk",
-            Self::OpenGl => "opengl",
-            Self::Direct3d9 => "direct3d9",
-            Self::Ospray => "ospray",
-            Self::ThreeJs => "three-js",
-            Self::Pymol => "pymol",
-            Self::X3d => "x3d",
-            Self::Collada => "collada",
-            Self::Rtc => "rtc",
-        }
+    pub fn name(self) -> &'static str {
+        self.word()
     }
 
     /// The dialect of this name.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|dialect| dialect.name() == name)
+        Self::of_word(name)
     }
 
     /// The switches it presets.
@@ -152,7 +144,7 @@ impl Dialect {
                 shadowing: Shadowing::Implicit,
                 ..
             } => self == Self::ThreeJs,
-            Model::Microfacet { .. } | Model::OrenNayar { .. } | Model::Ward { .. } => false,
+            _ => false,
         }
     }
 }

@@ -40,6 +40,7 @@ use glam::DVec3;
 use crate::color::Rgb;
 use crate::diagnostic::Place;
 use crate::limits::Range;
+use crate::wording::words;
 
 /// One light of the sum over lights.
 #[derive(Clone, Debug, PartialEq)]
@@ -115,7 +116,54 @@ impl LightKind {
     pub(crate) const EDGE: Range = Range::above(0.0, 90.0);
     /// Angles across a luminous disc, degrees.
     pub(crate) const ANGLE: Range = Range { max_included: false, ..Range::closed(0.0, 180.0) };
+
+    /// The way its light travels, if that is the same everywhere; else it comes from a
+    /// [`position`](Self::position).
+    pub fn direction(&self) -> Option<DVec3> {
+        match self {
+            Self::Distant { direction, .. } => Some(*direction),
+            Self::Point { .. } | Self::Spot { .. } => None,
+        }
+    }
+
+    /// Where its light comes from; `None`: from infinitely far away.
+    pub fn position(&self) -> Option<DVec3> {
+        match self {
+            Self::Point { position, .. } | Self::Spot { position, .. } => Some(*position),
+            Self::Distant { .. } => None,
+        }
+    }
+
+    /// `[c, l, q]`, by whose `c + l·d + q·d²` its light is divided; `None`: by nothing.
+    pub fn attenuation(&self) -> Option<[f64; 3]> {
+        match self {
+            Self::Point { attenuation, .. } | Self::Spot { attenuation, .. } => Some(*attenuation),
+            Self::Distant { .. } => None,
+        }
+    }
+
+    /// Radius of the luminous sphere or, of light from infinitely far away, degrees across of the
+    /// luminous disc; 0: hard shadows.
+    pub fn extent(&self) -> f64 {
+        match self {
+            Self::Point { radius, .. } | Self::Spot { radius, .. } => *radius,
+            Self::Distant { angle, .. } => *angle,
+        }
+    }
 }
+
+words!(LightKind {
+    "point" = Point { position: DVec3::ZERO, attenuation: [1.0, 0.0, 0.0], radius: 0.0 },
+    "distant" = Distant { direction: -DVec3::Y, angle: 0.0 },
+    "spot" = Spot {
+        position: DVec3::ZERO,
+        target: -DVec3::Y,
+        cone: 30.0,
+        edge: 30.0,
+        attenuation: [1.0, 0.0, 0.0],
+        radius: 0.0,
+    },
+});
 
 impl Default for LightKind {
     /// Distant, with hard shadows, travelling along (−1, −2, −1): from above, right and behind.

@@ -63,6 +63,7 @@ use crate::color::Rgb;
 use crate::diagnostic::Place;
 use crate::limits::Range;
 use crate::texture::{Param, TextureId, TextureRef};
+use crate::wording::{Word, words};
 
 /// Index into [`Scene::materials`](crate::Scene::materials).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -325,6 +326,88 @@ impl Model {
     pub(crate) const ROUGHNESS: Range = Range::above(0.0, 10.0);
     /// Standard deviations of slopes, degrees.
     pub(crate) const SIGMA: Range = Range::closed(0.0, 90.0);
+}
+
+impl Word for Model {
+    const WORDS: &'static [&'static str] = &[
+        "phong",
+        "lambert",
+        "blinn-phong",
+        "blinn-fast",
+        "cook-torrance",
+        "ggx",
+        "oren-nayar",
+        "ward",
+    ];
+
+    fn word(&self) -> &'static str {
+        match self {
+            Self::Phong => "phong",
+            Self::Lambert => "lambert",
+            Self::BlinnPhong => "blinn-phong",
+            Self::BlinnFast => "blinn-fast",
+            Self::Microfacet { distribution: Distribution::Ggx, .. } => "ggx",
+            Self::Microfacet { .. } => "cook-torrance",
+            Self::OrenNayar { .. } => "oren-nayar",
+            Self::Ward { .. } => "ward",
+        }
+    }
+
+    fn of_word(word: &str) -> Option<Self> {
+        let facets = |distribution, shadowing| {
+            let fresnel = Fresnel::Schlick { f0: Rgb::grey(0.04) };
+            Self::Microfacet { distribution, roughness: Param::Constant(0.3), shadowing, fresnel }
+        };
+        let roughness = Param::Constant(0.2);
+        Some(match word {
+            "phong" => Self::Phong,
+            "lambert" => Self::Lambert,
+            "blinn-phong" => Self::BlinnPhong,
+            "blinn-fast" => Self::BlinnFast,
+            "cook-torrance" => facets(Distribution::Beckmann, Shadowing::VCavity),
+            "ggx" => facets(Distribution::Ggx, Shadowing::Correlated),
+            "oren-nayar" => Self::OrenNayar { sigma: 20_f32.to_radians(), full: false },
+            "ward" => {
+                Self::Ward { roughness_x: roughness, roughness_y: roughness, form: WardForm::Ward }
+            }
+            _ => return None,
+        })
+    }
+}
+
+words!(Distribution { "beckmann" = Beckmann, "blinn" = Blinn, "ggx" = Ggx });
+
+words!(Shadowing {
+    "v-cavity" = VCavity,
+    "separable" = Separable,
+    "correlated" = Correlated,
+    "implicit" = Implicit,
+});
+
+words!(WardForm { "ward" = Ward, "gmd" = Gmd });
+
+words!(Tint { "light" = Light, "object" = Object, "metallic" = Metallic });
+
+words!(AmbientRule { "once" = Once, "per-light" = PerLight, "both" = Both });
+
+words!(Viewer { "local" = Local, "distant" = Distant });
+
+impl<N> Model<N> {
+    /// Whether its diffuse part is Lambert's.
+    pub fn is_lambertian(&self) -> bool {
+        !matches!(self, Self::OrenNayar { .. })
+    }
+
+    /// Whether it has a highlight, beside what it scatters.
+    pub fn is_glossy(&self) -> bool {
+        !matches!(self, Self::Lambert | Self::OrenNayar { .. })
+    }
+
+    /// Whether its highlight is a power of a cosine, or what stands for one, which the switches of
+    /// dialects are about.
+    pub fn is_power(&self) -> bool {
+        matches!(self, Self::Phong | Self::BlinnPhong | Self::BlinnFast)
+    }
 }
 
 /// The distribution of microfacet normals.

@@ -99,6 +99,7 @@ use crate::limits::Range;
 use crate::material::{Material, MaterialId};
 use crate::shape::Shape;
 use crate::texture::Texture;
+use crate::wording::words;
 
 /// A whole scene, resolved: what the renderer takes.
 ///
@@ -245,6 +246,13 @@ impl Default for Background {
         Self::Color(Rgb::BLACK)
     }
 }
+
+words!(FilterKind {
+    "box" = Box,
+    "tent" = Tent,
+    "gaussian" = Gaussian,
+    "mitchell" = Mitchell,
+});
 
 /// The pixel filter: how a sample's place in (or around) its pixel is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -193,6 +193,7 @@
 use glam::{DVec2, DVec3};
 
 use crate::mesh::{Cylinders, Mesh, Points};
+use crate::wording::{Word, words};
 
 /// Index into [`Scene::groups`](crate::Scene::groups).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -310,23 +311,25 @@ impl From<Cylinders> for Shape {
     }
 }
 
+words!(Shape {
+    "sphere" = Sphere { center: DVec3::ZERO, radius: 1.0 },
+    "plane" = Plane { point: DVec3::ZERO, normal: DVec3::Y },
+    "triangle" = Triangle { points: [DVec3::ZERO, DVec3::X, DVec3::Y], normals: None, uv: None },
+    "disc" = Disc { center: DVec3::ZERO, normal: DVec3::Y, radius: 1.0 },
+    "box" = Box { min: -DVec3::ONE, max: DVec3::ONE },
+    "cylinder" = Cylinder { from: DVec3::ZERO, to: DVec3::Y, radius: 1.0, capped: true },
+    "cone" = Cone { from: DVec3::ZERO, to: DVec3::Y, radius: 1.0, radius_to: 0.0, capped: true },
+    "torus" = Torus { center: DVec3::ZERO, axis: DVec3::Y, radius: 1.0, tube: 0.25 },
+    "mesh" = Mesh(Box::default()),
+    "points" = Points(Box::default()),
+    "cylinders" = Cylinders(Box::default()),
+    "instance" = Instance(GroupId::default()),
+});
+
 impl Shape {
     /// The name of its table in the scene text: `sphere`, `mesh`, ….
     #[must_use]
     pub fn kind(&self) -> &'static str {
-        match self {
-            Self::Sphere { .. } => "sphere",
-            Self::Plane { .. } => "plane",
-            Self::Triangle { .. } => "triangle",
-            Self::Disc { .. } => "disc",
-            Self::Box { .. } => "box",
-            Self::Cylinder { .. } => "cylinder",
-            Self::Cone { .. } => "cone",
-            Self::Torus { .. } => "torus",
-            Self::Mesh(_) => "mesh",
-            Self::Points(_) => "points",
-            Self::Cylinders(_) => "cylinders",
-            Self::Instance(_) => "instance",
-        }
+        self.word()
     }
 }

@@ -50,6 +50,7 @@ use glam::{DAffine3, DVec3};
 
 use crate::color::Rgb;
 use crate::diagnostic::Place;
+use crate::wording::words;
 
 /// Index into [`Scene::textures`](crate::Scene::textures).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -258,24 +259,21 @@ impl Textured for Rgb {
     }
 }
 
+words!(Channel { "r" = Red, "g" = Green, "b" = Blue });
+
+words!(TextureSpace { "object" = Object, "world" = World, "uv" = Uv });
+
+words!(TextureKind {
+    "checker" = Checker { colors: [Rgb::WHITE, Rgb::BLACK], scale: 1.0 },
+    "gradient" = Gradient {
+        axis: DVec3::Y,
+        from: 0.0,
+        to: 1.0,
+        stops: vec![(0.0, Rgb::BLACK), (1.0, Rgb::WHITE)],
+    },
+});
+
 impl Channel {
-    /// The words of the channels in the text.
-    pub(crate) const NAMES: [&'static str; 3] = ["r", "g", "b"];
-
-    /// The channel of that word.
-    pub(crate) fn from_name(name: &str) -> Option<Self> {
-        [Self::Red, Self::Green, Self::Blue].into_iter().find(|channel| channel.name() == name)
-    }
-
-    /// Its word in the text.
-    pub(crate) const fn name(self) -> &'static str {
-        match self {
-            Self::Red => "r",
-            Self::Green => "g",
-            Self::Blue => "b",
-        }
-    }
-
     fn of(self, Rgb { r, g, b }: Rgb) -> f32 {
         match self {
             Self::Red => r,

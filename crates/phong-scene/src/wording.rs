@@ -27,6 +27,41 @@ pub fn closest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
         .map(|(_, candidate)| candidate)
 }
 
+/// What is one of some words in the scene text.
+pub(crate) trait Word: Sized + 'static {
+    /// All of them, in the order that they are listed.
+    const WORDS: &'static [&'static str];
+
+    /// Its word.
+    fn word(&self) -> &'static str;
+
+    /// What a word means; of a kind that holds more, with values for the reader to replace.
+    fn of_word(word: &str) -> Option<Self>;
+}
+
+/// Gives each kind of an enum its word: `words!(Viewer { "local" = Local, "distant" = Distant })`.
+macro_rules! words {
+    ($type:ty { $($word:literal = $kind:ident $({ $($field:ident: $value:expr),+ $(,)? })? $(($inner:expr))?),+ $(,)? }) => {
+        impl $crate::wording::Word for $type {
+            const WORDS: &'static [&'static str] = &[$($word),+];
+
+            fn word(&self) -> &'static str {
+                match self {
+                    $(Self::$kind { .. } => $word),+
+                }
+            }
+
+            fn of_word(word: &str) -> Option<Self> {
+                Some(match word {
+                    $($word => Self::$kind $({ $($field: $value),+ })? $(($inner))?,)+
+                    _ => return None,
+                })
+            }
+        }
+    };
+}
+pub(crate) use words;
+
 /// `text` between quotes, cut to a sane length.
 pub(crate) fn quoted(text: &str) -> String {
     match text.char_indices().nth(LONGEST) {

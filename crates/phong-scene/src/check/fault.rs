@@ -30,6 +30,11 @@ impl Faults {
         &mut self.all[last]
     }
 
+    /// Whether nothing was said of these fields.
+    pub(super) fn spare(&self, fields: &[&str]) -> bool {
+        !self.all.iter().any(|fault| fields.contains(&fault.field))
+    }
+
     /// Whether a number is one that a scene may hold.
     pub(crate) fn finite(&mut self, field: &'static str, value: f64) -> bool {
         if let Some(wrong) = not_held(value) {

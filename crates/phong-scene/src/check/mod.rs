@@ -1,5 +1,6 @@
 //! The only judge of a scene, wherever it came from: text, a file, or code.
 //!
+//! What a value may be by itself is in its row of `keys`; here stands what several must be together.
 //! Readers ask the same judges of single things while they know the place of each key.
 
 mod bulk;
@@ -12,6 +13,7 @@ pub(crate) mod settings;
 pub(crate) mod shape;
 mod suspicion;
 pub(crate) mod texture;
+mod value;
 
 use self::fault::{Fault, Faults};
 pub(crate) use self::groups::MOST_OBJECTS;

@@ -3,71 +3,39 @@
 use glam::{DAffine3, DVec3};
 
 use super::fault::Faults;
-use crate::limits::Range;
+use super::value::values;
 use crate::shape::Shape;
 use crate::transform::is_regular;
 
 /// Judges a shape by itself; what meshes, points and bundles of cylinders hold is judged elsewhere.
 pub(crate) fn shape(shape: &Shape, faults: &mut Faults) {
+    values(shape, None, faults);
     match *shape {
-        Shape::Sphere { center, radius } => {
-            faults.vector("center", center);
-            faults.number("radius", radius, &Range::POSITIVE);
+        Shape::Triangle { points: [a, b, c], .. }
+            if faults.spare(&["points"]) && (b - a).cross(c - a) == DVec3::ZERO =>
+        {
+            faults.say("points", "the corners lie on one line: a triangle without area");
         }
-        Shape::Plane { point, normal } => {
-            faults.vector("point", point);
-            faults.direction("normal", normal);
-        }
-        Shape::Triangle { points, normals, uv } => {
-            let all = points.iter().fold(true, |all, p| faults.vector("points", *p) & all);
-            let [a, b, c] = points;
-            if all && (b - a).cross(c - a) == DVec3::ZERO {
-                faults.say("points", "the corners lie on one line: a triangle without area");
-            }
-            for normal in normals.iter().flatten() {
-                faults.direction("normals", *normal);
-            }
-            for uv in uv.iter().flatten() {
-                faults.vector("uv", uv.extend(0.0));
-            }
-        }
-        Shape::Disc { center, normal, radius } => {
-            faults.vector("center", center);
-            faults.direction("normal", normal);
-            faults.number("radius", radius, &Range::POSITIVE);
-        }
-        Shape::Box { min, max } => cuboid(min, max, faults),
-        Shape::Cylinder { from, to, radius, .. } => {
-            axis(from, to, faults);
-            faults.number("radius", radius, &Range::POSITIVE);
-        }
+        Shape::Box { min, max } if faults.spare(&["min", "max"]) => cuboid(min, max, faults),
+        Shape::Cylinder { from, to, .. } => axis(from, to, faults),
         Shape::Cone { from, to, radius, radius_to, .. } => {
             axis(from, to, faults);
-            let both = faults.number("radius", radius, &Range::NOT_NEGATIVE)
-                & faults.number("radius_to", radius_to, &Range::NOT_NEGATIVE);
-            if both && radius == 0.0 && radius_to == 0.0 {
+            if radius == 0.0 && radius_to == 0.0 {
                 faults.say("radius", "`radius` and `radius_to` are both 0: only a line");
             }
         }
-        Shape::Torus { center, axis, radius, tube } => {
-            faults.vector("center", center);
-            faults.direction("axis", axis);
-            let both = faults.number("radius", radius, &Range::POSITIVE)
-                & faults.number("tube", tube, &Range::POSITIVE);
-            if both && tube >= radius {
-                let message = format!("`tube` is not below `radius`, which is {radius}");
-                let help = "the ring must have a hole: `radius` is to the middle of the tube";
-                faults.say("tube", message).help = Some(help.to_owned());
-            }
+        Shape::Torus { radius, tube, .. }
+            if faults.spare(&["radius", "tube"]) && tube >= radius =>
+        {
+            let message = format!("`tube` is not below `radius`, which is {radius}");
+            let help = "the ring must have a hole: `radius` is to the middle of the tube";
+            faults.say("tube", message).help = Some(help.to_owned());
         }
-        Shape::Mesh(_) | Shape::Points(_) | Shape::Cylinders(_) | Shape::Instance(_) => {}
+        _ => {}
     }
 }
 
 fn cuboid(min: DVec3, max: DVec3, faults: &mut Faults) {
-    if !(faults.vector("min", min) & faults.vector("max", max)) {
-        return;
-    }
     let axes = ['x', 'y', 'z'].into_iter().zip(min.to_array().into_iter().zip(max.to_array()));
     for (axis, (min, max)) in axes {
         if min >= max {
@@ -80,8 +48,7 @@ fn cuboid(min: DVec3, max: DVec3, faults: &mut Faults) {
 
 /// `from` and `to`, which must differ.
 fn axis(from: DVec3, to: DVec3, faults: &mut Faults) {
-    let both = faults.vector("from", from) & faults.vector("to", to);
-    if both && (to - from).try_normalize().is_none() {
+    if faults.spare(&["from", "to"]) && (to - from).try_normalize().is_none() {
         faults.say("to", "`to` is where `from` is: no axis");
     }
 }

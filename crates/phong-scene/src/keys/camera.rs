@@ -1,8 +1,12 @@
 //! The camera's keys.
 
+use super::field::{field, keyed};
 use super::{Default, Key, Kind, Table};
-use crate::camera::CameraKind;
+use crate::camera::{Camera, CameraKind};
 use crate::limits::Range;
+use crate::wording::Word;
+
+keyed!(Camera, |_| &CAMERA);
 
 /// `[camera]`.
 pub(crate) static CAMERA: Table = Table {
@@ -12,29 +16,34 @@ pub(crate) static CAMERA: Table = Table {
     keys: &[&[
         Key::new(
             "kind",
-            Kind::Word(&["perspective", "orthographic", "fisheye", "panorama"]),
+            Kind::Word(CameraKind::WORDS),
             Default::Word("perspective"),
             "The projection.",
-        ),
-        Key::new("eye", Kind::Point, Default::Required, "Position of the eye, in scene units."),
+        )
+        .of(field!(Camera.kind)),
+        Key::new("eye", Kind::Point, Default::Required, "Position of the eye, in scene units.")
+            .of(field!(Camera.eye)),
         Key::new(
             "look_at",
             Kind::Point,
             Default::Required,
             "The point in the middle of the picture.",
-        ),
+        )
+        .of(field!(Camera.look_at)),
         Key::new(
             "up",
             Kind::Direction,
             Default::Vector([0.0, 1.0, 0.0]),
             "The direction that points up in the picture; any length.",
-        ),
+        )
+        .of(field!(Camera.up)),
         Key::new(
             "fov",
             Kind::Number(CameraKind::PERSPECTIVE),
             Default::Number(40.0),
             "Vertical field of view, degrees.",
         )
+        .of(field!(Camera.kind = CameraKind::{Perspective}.fov))
         .only(&["perspective"]),
         Key::new(
             "height",
@@ -42,6 +51,7 @@ pub(crate) static CAMERA: Table = Table {
             Default::Required,
             "The picture's height in scene units.",
         )
+        .of(field!(Camera.kind = CameraKind::{Orthographic}.height))
         .only(&["orthographic"]),
         Key::new(
             "fov",
@@ -49,6 +59,7 @@ pub(crate) static CAMERA: Table = Table {
             Default::Number(180.0),
             "Full angle of the image circle, degrees; it touches the nearer edges.",
         )
+        .of(field!(Camera.kind = CameraKind::{Fisheye}.fov))
         .only(&["fisheye"]),
         Key::new(
             "aperture",
@@ -56,6 +67,7 @@ pub(crate) static CAMERA: Table = Table {
             Default::Number(0.0),
             "Radius of the lens in scene units; 0 is a pinhole.",
         )
+        .of(field!(Camera.aperture))
         .only(&["perspective", "orthographic"]),
         Key::new(
             "focus",
@@ -63,6 +75,7 @@ pub(crate) static CAMERA: Table = Table {
             Default::Said("the distance of `look_at`"),
             "Distance along forward that is sharp.",
         )
+        .of(field!(Camera.focus))
         .only(&["perspective", "orthographic"]),
     ]],
 };

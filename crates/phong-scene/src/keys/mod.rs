@@ -1,11 +1,14 @@
 //! The one table of keys of the scene text: names, kinds of value, ranges, defaults, meanings. Batch
 //! files have theirs beside it.
 //!
-//! The reader, the editor schema and the reference in the book are all made from it, so what is
-//! read, what is suggested and what is documented cannot drift apart.
+//! The reader, the writer, the check, the editor schema and the reference in the book are all made
+//! from it, so what is read, written, suggested and documented cannot drift apart. Most rows say in
+//! which field of what the table describes their value is kept; of such a key nothing else is written
+//! anywhere.
 
 mod batch;
 mod camera;
+mod field;
 mod hint;
 mod kind;
 mod light;
@@ -15,8 +18,10 @@ mod scene;
 mod schema;
 mod shape;
 mod texture;
+mod value;
 
 pub(crate) use batch::{BATCH, FILES, RANGE};
+pub(crate) use field::{Access, Field, Keyed};
 pub(crate) use hint::of_word;
 pub(crate) use kind::{Default, Kind};
 pub(crate) use light::LIGHT;
@@ -26,6 +31,7 @@ pub(crate) use scene::{BACKGROUND, INCLUDE, SCENE};
 pub use schema::{batch_schema_json, schema_json};
 pub(crate) use shape::GROUP;
 pub(crate) use texture::{TEXTURE, TEXTURED};
+pub(crate) use value::{Stored, Value, short};
 
 use crate::wording::{closest, list, quoted};
 
@@ -59,12 +65,14 @@ pub(crate) struct Key {
     pub(crate) varies: bool,
     /// Words that are known but not built yet.
     pub(crate) later: &'static [&'static str],
+    /// Where the value is kept.
+    pub(crate) field: Field,
 }
 
 impl Key {
     /// A key for all kinds of its table.
     const fn new(name: &'static str, kind: Kind, default: Default, doc: &'static str) -> Self {
-        Self { name, kind, default, only: &[], doc, varies: false, later: &[] }
+        Self { name, kind, default, only: &[], doc, varies: false, later: &[], field: Field::None }
     }
 
     /// The same, for these kinds alone.
@@ -80,6 +88,11 @@ impl Key {
     /// The same, of whose words these are not built yet.
     const fn later(self, later: &'static [&'static str]) -> Self {
         Self { later, ..self }
+    }
+
+    /// The same, whose value is kept there.
+    const fn of(self, field: Field) -> Self {
+        Self { field, ..self }
     }
 
     /// What may stand as its value, for the reference.

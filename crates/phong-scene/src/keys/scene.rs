@@ -1,12 +1,14 @@
 //! The scene's own keys: the file as a whole, the picture, the ambient light.
 
 use super::camera::CAMERA;
+use super::field::{field, keyed};
 use super::light::LIGHT;
 use super::material::MATERIAL;
 use super::shape::{GROUP, SHAPES};
 use super::texture::TEXTURE;
 use super::{Default, Key, Kind, Table};
-use crate::scene::Image;
+use crate::scene::{FilterKind, Image};
+use crate::wording::Word;
 
 /// A scene file as a whole.
 pub(crate) static SCENE: Table = Table {
@@ -75,58 +77,68 @@ pub(crate) static SCENE: Table = Table {
     ],
 };
 
+keyed!(Image, |_| &IMAGE);
+
 /// `[image]`.
 pub(crate) static IMAGE: Table = Table {
     name: "image",
     doc: "The picture's own settings; the command line overrides them.",
     select: None,
     keys: &[&[
-        Key::new("size", Kind::Size, Default::Size([960, 540]), "Width and height in pixels."),
+        Key::new("size", Kind::Size, Default::Size([960, 540]), "Width and height in pixels.")
+            .of(field!(Image.size)),
         Key::new(
             "samples",
             Kind::Integer(1, Image::MOST_SAMPLES as u64),
             Default::Integer(16),
             "Samples a pixel; 1 is the pixel's centre.",
-        ),
+        )
+        .of(field!(Image.samples)),
         Key::new(
             "background",
             Kind::Background,
             Default::Number(0.0),
             "What rays see that hit nothing; a table `{ top, bottom }` runs along the \
              picture's height.",
-        ),
+        )
+        .of(field!(Image.background)),
         Key::new(
             "filter",
-            Kind::Word(&["box", "tent", "gaussian", "mitchell"]),
+            Kind::Word(FilterKind::WORDS),
             Default::Word("box"),
             "How samples are weighted into a pixel.",
-        ),
+        )
+        .of(field!(Image.filter)),
         Key::new(
             "seed",
             Kind::Integer(0, u64::MAX),
             Default::Integer(0),
             "Seed of the sampling pattern.",
-        ),
+        )
+        .of(field!(Image.seed)),
         Key::new(
             "depth",
             Kind::Integer(0, Image::DEEPEST as u64),
             Default::Integer(8),
             "Mirror and glass bounces; beyond it a ray brings black.",
-        ),
+        )
+        .of(field!(Image.depth)),
         Key::new(
             "min_weight",
             Kind::Number(Image::MIN_WEIGHT),
             Default::Number(1e-4),
             "Mirror and glass rays whose light would count less than this in every channel are \
              not followed; 0: all are.",
-        ),
+        )
+        .of(field!(Image.min_weight)),
         Key::new(
             "terminator",
             Kind::Flag,
             Default::Flag(true),
             "Whether shadow rays from meshes with smooth normals start above the face, so that \
              faces do not show where light ends.",
-        ),
+        )
+        .of(field!(Image.terminator)),
     ]],
 };
 

@@ -1,7 +1,14 @@
 //! The shapes' keys.
 
+use super::field::{Access, Field, field, keyed};
+use super::value::Stored;
 use super::{Default, Key, Kind, Table};
 use crate::limits::Range;
+use crate::mesh::Caps;
+use crate::shape::Shape;
+use crate::wording::Word;
+
+keyed!(Shape, |shape| table_of(shape.word()));
 
 /// Where any shape is placed: scale, then rotate, then translate; or a matrix alone.
 pub(super) static PLACED: [Key; 5] = [
@@ -55,13 +62,15 @@ pub(crate) static SPHERE: Table = Table {
     select: None,
     keys: &[
         &[
-            Key::new("center", Kind::Point, Default::Required, "The middle."),
+            Key::new("center", Kind::Point, Default::Required, "The middle.")
+                .of(field!(Shape = Shape::{Sphere}.center)),
             Key::new(
                 "radius",
                 Kind::Number(Range::POSITIVE),
                 Default::Required,
                 "Distance of the surface from the middle.",
-            ),
+            )
+            .of(field!(Shape = Shape::{Sphere}.radius)),
         ],
         &MADE_OF,
         &PLACED,
@@ -75,8 +84,10 @@ pub(crate) static PLANE: Table = Table {
     select: None,
     keys: &[
         &[
-            Key::new("point", Kind::Point, Default::Required, "Any point on it."),
-            Key::new("normal", Kind::Direction, Default::Required, "Its normal; any length."),
+            Key::new("point", Kind::Point, Default::Required, "Any point on it.")
+                .of(field!(Shape = Shape::{Plane}.point)),
+            Key::new("normal", Kind::Direction, Default::Required, "Its normal; any length.")
+                .of(field!(Shape = Shape::{Plane}.normal)),
         ],
         &MADE_OF,
         &PLACED,
@@ -90,19 +101,22 @@ pub(crate) static TRIANGLE: Table = Table {
     select: None,
     keys: &[
         &[
-            Key::new("points", Kind::Points, Default::Required, "The corners, not on one line."),
+            Key::new("points", Kind::Points, Default::Required, "The corners, not on one line.")
+                .of(field!(Shape = Shape::{Triangle}.points)),
             Key::new(
                 "normals",
                 Kind::Directions,
                 Default::Said("the geometric normal"),
                 "Shading normals at the corners; any length.",
-            ),
+            )
+            .of(field!(Shape = Shape::{Triangle}.normals)),
             Key::new(
                 "uv",
                 Kind::Uvs,
                 Default::Said("(0, 0), (1, 0), (1, 1)"),
                 "Texture coordinates at the corners.",
-            ),
+            )
+            .of(field!(Shape = Shape::{Triangle}.uv)),
         ],
         &MADE_OF,
         &PLACED,
@@ -116,9 +130,12 @@ pub(crate) static DISC: Table = Table {
     select: None,
     keys: &[
         &[
-            Key::new("center", Kind::Point, Default::Required, "The middle."),
-            Key::new("normal", Kind::Direction, Default::Required, "Its normal; any length."),
-            Key::new("radius", Kind::Number(Range::POSITIVE), Default::Required, "Radius."),
+            Key::new("center", Kind::Point, Default::Required, "The middle.")
+                .of(field!(Shape = Shape::{Disc}.center)),
+            Key::new("normal", Kind::Direction, Default::Required, "Its normal; any length.")
+                .of(field!(Shape = Shape::{Disc}.normal)),
+            Key::new("radius", Kind::Number(Range::POSITIVE), Default::Required, "Radius.")
+                .of(field!(Shape = Shape::{Disc}.radius)),
         ],
         &MADE_OF,
         &PLACED,
@@ -137,13 +154,15 @@ pub(crate) static BOX: Table = Table {
                 Kind::Point,
                 Default::Required,
                 "The corner with the smallest coordinates.",
-            ),
+            )
+            .of(field!(Shape = Shape::{Box}.min)),
             Key::new(
                 "max",
                 Kind::Point,
                 Default::Required,
                 "The corner with the largest; above `min` in each.",
-            ),
+            )
+            .of(field!(Shape = Shape::{Box}.max)),
         ],
         &MADE_OF,
         &PLACED,
@@ -157,10 +176,14 @@ pub(crate) static CYLINDER: Table = Table {
     select: None,
     keys: &[
         &[
-            Key::new("from", Kind::Point, Default::Required, "One end of the axis."),
-            Key::new("to", Kind::Point, Default::Required, "The other end."),
-            Key::new("radius", Kind::Number(Range::POSITIVE), Default::Required, "Radius."),
-            Key::new("capped", Kind::Flag, Default::Flag(true), "Whether discs close the ends."),
+            Key::new("from", Kind::Point, Default::Required, "One end of the axis.")
+                .of(field!(Shape = Shape::{Cylinder}.from)),
+            Key::new("to", Kind::Point, Default::Required, "The other end.")
+                .of(field!(Shape = Shape::{Cylinder}.to)),
+            Key::new("radius", Kind::Number(Range::POSITIVE), Default::Required, "Radius.")
+                .of(field!(Shape = Shape::{Cylinder}.radius)),
+            Key::new("capped", Kind::Flag, Default::Flag(true), "Whether discs close the ends.")
+                .of(field!(Shape = Shape::{Cylinder}.capped)),
         ],
         &MADE_OF,
         &PLACED,
@@ -174,21 +197,26 @@ pub(crate) static CONE: Table = Table {
     select: None,
     keys: &[
         &[
-            Key::new("from", Kind::Point, Default::Required, "One end of the axis."),
-            Key::new("to", Kind::Point, Default::Required, "The other end."),
+            Key::new("from", Kind::Point, Default::Required, "One end of the axis.")
+                .of(field!(Shape = Shape::{Cone}.from)),
+            Key::new("to", Kind::Point, Default::Required, "The other end.")
+                .of(field!(Shape = Shape::{Cone}.to)),
             Key::new(
                 "radius",
                 Kind::Number(Range::NOT_NEGATIVE),
                 Default::Required,
                 "Radius at `from`.",
-            ),
+            )
+            .of(field!(Shape = Shape::{Cone}.radius)),
             Key::new(
                 "radius_to",
                 Kind::Number(Range::NOT_NEGATIVE),
                 Default::Number(0.0),
                 "Radius at `to`; not both are 0.",
-            ),
-            Key::new("capped", Kind::Flag, Default::Flag(true), "Whether discs close the ends."),
+            )
+            .of(field!(Shape = Shape::{Cone}.radius_to)),
+            Key::new("capped", Kind::Flag, Default::Flag(true), "Whether discs close the ends.")
+                .of(field!(Shape = Shape::{Cone}.capped)),
         ],
         &MADE_OF,
         &PLACED,
@@ -202,25 +230,29 @@ pub(crate) static TORUS: Table = Table {
     select: None,
     keys: &[
         &[
-            Key::new("center", Kind::Point, Default::Required, "The middle."),
+            Key::new("center", Kind::Point, Default::Required, "The middle.")
+                .of(field!(Shape = Shape::{Torus}.center)),
             Key::new(
                 "axis",
                 Kind::Direction,
                 Default::Required,
                 "The axis it runs around; any length.",
-            ),
+            )
+            .of(field!(Shape = Shape::{Torus}.axis)),
             Key::new(
                 "radius",
                 Kind::Number(Range::POSITIVE),
                 Default::Required,
                 "From the middle to the middle of the tube.",
-            ),
+            )
+            .of(field!(Shape = Shape::{Torus}.radius)),
             Key::new(
                 "tube",
                 Kind::Number(Range::POSITIVE),
                 Default::Required,
                 "Radius of the tube; below `radius`.",
-            ),
+            )
+            .of(field!(Shape = Shape::{Torus}.tube)),
         ],
         &MADE_OF,
         &PLACED,
@@ -291,10 +323,11 @@ pub(crate) static CYLINDERS: Table = Table {
             ),
             Key::new(
                 "caps",
-                Kind::Word(&["round", "flat", "none"]),
+                Kind::Word(Caps::WORDS),
                 Default::Word("round"),
                 "What the ends look like: half spheres, discs, or open.",
-            ),
+            )
+            .of(CAPS),
         ],
         &FILE_MATERIAL,
         &PLACED,
@@ -327,6 +360,28 @@ pub(crate) const SHAPES: &[Key] = &[
     shapes(&CYLINDERS),
     shapes(&INSTANCE),
 ];
+
+const CAPS: Field = Field::Shape(Access {
+    get: |shape| match shape {
+        Shape::Cylinders(cylinders) => cylinders.caps.value(),
+        _ => None,
+    },
+    set: |shape, value| {
+        if let Shape::Cylinders(cylinders) = shape {
+            cylinders.caps = Stored::of(value)?;
+        }
+        Some(())
+    },
+});
+
+/// The table of the shapes of this word.
+fn table_of(word: &str) -> &'static Table {
+    let tables = SHAPES.iter().filter_map(|key| match key.kind {
+        Kind::Tables(table) => Some(table),
+        _ => None,
+    });
+    tables.into_iter().find(|table| table.name == word).unwrap_or(&SPHERE)
+}
 
 /// `[groups.NAME]`.
 pub(crate) static GROUP: Table = Table {

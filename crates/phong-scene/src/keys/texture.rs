@@ -1,7 +1,12 @@
 //! The textures' keys, and those of what names one.
 
+use super::field::{field, keyed};
 use super::{Default, Key, Kind, Table};
 use crate::limits::Range;
+use crate::texture::{Channel, Texture, TextureKind, TextureSpace};
+use crate::wording::Word;
+
+keyed!(Texture, |_| &TEXTURE);
 
 /// `[textures.NAME]`.
 pub(crate) static TEXTURE: Table = Table {
@@ -9,7 +14,8 @@ pub(crate) static TEXTURE: Table = Table {
     doc: "Values that vary over a surface.",
     select: Some("kind"),
     keys: &[&[
-        Key::new("kind", Kind::Word(&["checker", "gradient"]), Default::Required, "What it is.")
+        Key::new("kind", Kind::Word(TextureKind::WORDS), Default::Required, "What it is.")
+            .of(field!(Texture.kind))
             .later(&["image", "noise", "marble", "wood", "bricks"]),
         Key::new(
             "colors",
@@ -18,8 +24,10 @@ pub(crate) static TEXTURE: Table = Table {
             "A where ⌊x⌋ + ⌊y⌋ + ⌊z⌋ is even, B where it is odd; a coordinate less than 1e-4 \
              below a border counts as above it.",
         )
+        .of(field!(Texture.kind = TextureKind::{Checker}.colors))
         .only(&["checker"]),
         Key::new("scale", Kind::Number(Range::POSITIVE), Default::Number(1.0), "Squares a unit.")
+            .of(field!(Texture.kind = TextureKind::{Checker}.scale))
             .only(&["checker"]),
         Key::new(
             "axis",
@@ -27,6 +35,7 @@ pub(crate) static TEXTURE: Table = Table {
             Default::Vector([0.0, 1.0, 0.0]),
             "Along which it runs; any length.",
         )
+        .of(field!(Texture.kind = TextureKind::{Gradient}.axis))
         .only(&["gradient"]),
         Key::new(
             "from",
@@ -34,8 +43,10 @@ pub(crate) static TEXTURE: Table = Table {
             Default::Number(0.0),
             "Where t is 0: a distance along the axis.",
         )
+        .of(field!(Texture.kind = TextureKind::{Gradient}.from))
         .only(&["gradient"]),
         Key::new("to", Kind::Number(Range::ANY), Default::Number(1.0), "Where t is 1.")
+            .of(field!(Texture.kind = TextureKind::{Gradient}.to))
             .only(&["gradient"]),
         Key::new(
             "stops",
@@ -43,6 +54,7 @@ pub(crate) static TEXTURE: Table = Table {
             Default::Required,
             "Its colours; between two stops they run linearly, beyond the last they stay.",
         )
+        .of(field!(Texture.kind = TextureKind::{Gradient}.stops))
         .only(&["gradient"]),
         Key::new(
             "scale",
@@ -53,10 +65,11 @@ pub(crate) static TEXTURE: Table = Table {
         .only(&["gradient"]),
         Key::new(
             "space",
-            Kind::Word(&["object", "world", "uv"]),
+            Kind::Word(TextureSpace::WORDS),
             Default::Word("object"),
             "The space it lies in.",
-        ),
+        )
+        .of(field!(Texture.space)),
         Key::new(
             "rotate",
             Kind::Rotate,
@@ -89,7 +102,7 @@ pub(crate) static TEXTURED: Table = Table {
         Key::new("offset", Kind::Number(Range::ANY), Default::Number(0.0), "What is added then."),
         Key::new(
             "channel",
-            Kind::Word(&crate::texture::Channel::NAMES),
+            Kind::Word(Channel::WORDS),
             Default::Said("all three; of a number `r`"),
             "The channel that is taken.",
         ),

@@ -4,6 +4,7 @@ use glam::{DVec3, Vec3};
 
 use super::Shared;
 use crate::color::Rgb;
+use crate::wording::words;
 
 /// A cylinder along every segment. Radii > 0, every number finite; unless the ends are round, no
 /// segment is without length.
@@ -33,21 +34,7 @@ pub enum Caps {
     Open,
 }
 
-impl Caps {
-    /// Each with its word in the scene text.
-    pub(crate) const WORDS: [(&str, Self); 3] =
-        [("round", Self::Round), ("flat", Self::Flat), ("none", Self::Open)];
-
-    /// Its word in the scene text.
-    pub(crate) fn word(self) -> &'static str {
-        Self::WORDS.iter().find(|(_, caps)| *caps == self).map_or("round", |(word, _)| word)
-    }
-
-    /// What a word of the scene text means.
-    pub(crate) fn from_word(word: &str) -> Option<Self> {
-        Self::WORDS.iter().find(|(known, _)| *known == word).map(|(_, caps)| *caps)
-    }
-}
+words!(Caps { "round" = Round, "flat" = Flat, "none" = Open });
 
 impl Cylinders {
     /// Bytes that the arrays take in memory.
@@ -91,13 +78,5 @@ mod tests {
             (cylinders.segments, cylinders.colors),
             ([segment(1.0)].into(), [[Rgb::WHITE; 2]].into())
         );
-    }
-
-    #[test]
-    fn every_word_for_ends_is_read_back() {
-        for (word, caps) in Caps::WORDS {
-            assert_eq!((caps.word(), Caps::from_word(word)), (word, Some(caps)));
-        }
-        assert_eq!(Caps::from_word("square"), None);
     }
 }

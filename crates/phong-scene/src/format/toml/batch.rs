@@ -273,7 +273,8 @@ impl Reader {
 
     /// Whether a value is one of the key's; else that is said.
     fn is_good(&mut self, target: Target<'_>, value: &Spanned<DeValue<'_>>) -> bool {
-        read_value(target.table, target.key, value, self.file, &mut self.notes).is_some()
+        let Target { table, key, .. } = target;
+        read_value(table, key, value, self.file, &mut Vec::new(), &mut self.notes).is_some()
     }
 }
 

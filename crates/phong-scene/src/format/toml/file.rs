@@ -11,7 +11,7 @@ use crate::mesh::{Caps, Mesh, Points, Shared};
 use crate::scene::Object;
 use crate::shape::{GroupId, Shape};
 use crate::source::trouble;
-use crate::wording;
+use crate::wording::{self, Word};
 
 /// Most files that a scene may include, those included by others too: a file that includes the
 /// next one twice, and so on, would otherwise double the work at every step.
@@ -147,7 +147,7 @@ impl Reader<'_> {
     /// `[[cylinders]]`: the segments of its file.
     pub(super) fn cylinders(&mut self, v: &Values, path: &str) -> Vec<Part> {
         let radius = v.number("radius").map(|radius| radius as f32);
-        let caps = v.word("caps").and_then(Caps::from_word).unwrap_or_default();
+        let caps = v.word("caps").and_then(Caps::of_word).unwrap_or_default();
         let Some((file, fragment, number)) = self.fragment(v, path, Wanted::Segments, radius)
         else {
             return Vec::new();

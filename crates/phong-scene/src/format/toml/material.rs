@@ -5,9 +5,7 @@ use super::table::Values;
 use super::texture::TextureNames;
 use crate::check::material as judge;
 use crate::color::Rgb;
-use crate::material::{
-    AmbientRule, Dialect, Distribution, Fresnel, Material, Model, Shadowing, Tint, Viewer, WardForm,
-};
+use crate::material::{Dialect, Distribution, Fresnel, Material, Model, Shadowing};
 use crate::texture::Param;
 
 /// A material; what is wrong with it has been said.
@@ -17,78 +15,21 @@ pub(super) fn material(
     textures: &mut TextureNames,
     notes: &mut Notes,
 ) -> Option<Material> {
-    let model = match v.word("model")? {
-        "lambert" => Model::Lambert,
-        "blinn-phong" => Model::BlinnPhong,
-        "blinn-fast" => Model::BlinnFast,
-        "cook-torrance" => cook_torrance(v, textures, notes)?,
-        "ggx" => Model::Microfacet {
-            distribution: Distribution::Ggx,
-            roughness: textures.number(v, "roughness")?,
-            shadowing: shadowing(v)?,
-            fresnel: fresnel(v, notes)?,
-        },
-        "oren-nayar" => Model::OrenNayar {
-            sigma: v.number("sigma")?.to_radians() as f32,
-            full: v.word("form")? == "full",
-        },
-        "ward" => {
-            let roughness_x = textures.number(v, "roughness_x")?;
-            Model::Ward {
-                roughness_x,
-                roughness_y: textures.number(v, "roughness_y").unwrap_or(roughness_x),
-                form: if v.word("form")? == "gmd" { WardForm::Gmd } else { WardForm::Ward },
-            }
-        }
-        _ => Model::Phong,
-    };
-    let dialect = dialect(v, &model, notes)?;
-    let preset = dialect.switches();
-    let plain = Material::default();
-    let transmission = textures.color(v, "transmission")?;
-    let material = Material {
-        name: name.to_owned(),
-        model,
-        color: textures.color(v, "color")?,
-        ambient_color: textures.color(v, "ambient_color"),
-        // White where a model has no highlight, which the key is then an error for.
-        specular_color: match v.word("specular_color") {
-            Some(_) => None,
-            None => Some(textures.color(v, "specular_color").unwrap_or(Rgb::WHITE.into())),
-        },
-        k_a: textures.number(v, "k_a")?,
-        k_d: textures.number(v, "k_d")?,
-        k_s: textures.number(v, "k_s").unwrap_or(Param::Constant(0.0)),
-        k_e: textures.number(v, "k_e")?,
-        emission_color: textures.color(v, "emission_color"),
-        shininess: textures.number(v, "shininess").unwrap_or(plain.shininess),
-        reflection: textures.color(v, "reflection")?,
-        transmission,
-        ior: v.number("ior")? as f32,
-        priority: v.integer("priority")? as u32,
-        fresnel: v.flag("fresnel").unwrap_or(!transmission.is_black()),
-        dialect,
-        times_cosine: v.flag("times_cosine").unwrap_or(preset.times_cosine),
-        normalize: v.flag("normalize").unwrap_or(preset.normalize),
-        tint: match v.word("tint") {
-            Some("object") => Tint::Object,
-            Some("metallic") => Tint::Metallic,
-            Some(_) => Tint::Light,
-            None => preset.tint,
-        },
-        ambient_rule: match v.word("ambient_rule") {
-            Some("per-light") => AmbientRule::PerLight,
-            Some("both") => AmbientRule::Both,
-            Some(_) => AmbientRule::Once,
-            None => preset.ambient_rule,
-        },
-        viewer: match v.word("viewer") {
-            Some("distant") => Viewer::Distant,
-            Some(_) => Viewer::Local,
-            None => preset.viewer,
-        },
-        place: notes.place(v.spot),
-    };
+    let (name, place) = (name.to_owned(), notes.place(v.spot));
+    let mut material = Material { name, place, ..Material::default() };
+    v.fill_textured(&mut material, |by, name, spot| textures.take(by, name, spot))?;
+    model(v, &mut material, notes)?;
+    let Material { dialect, .. } = material;
+    if !dialect.allows(&material.model) {
+        say_contradiction(v, dialect, notes);
+        return None;
+    }
+    if !v.takes("k_s") {
+        material.k_s = Param::Constant(0.0);
+    }
+    if !v.has("fresnel") {
+        material.fresnel = !material.transmission.is_black();
+    }
     if material.fresnel && !material.transmission.is_black() && material.reflection.is_black() {
         let message = "Fresnel's factor takes from what is let through what `reflection` \
                        would mirror, but that is 0: the light is lost";
@@ -135,36 +76,33 @@ fn three_js(v: &Values, material: Material, notes: &mut Notes) -> Option<Materia
     Some(Material { model, k_s, specular_color: Some(white), ..material })
 }
 
-/// Cook and Torrance's model: the exponent goes with Blinn's distribution, the roughness with
-/// the others.
-fn cook_torrance(v: &Values, textures: &mut TextureNames, notes: &mut Notes) -> Option<Model> {
-    let (distribution, takes, other) = match v.word("distribution")? {
-        "blinn" => (Distribution::Blinn, "shininess", "roughness"),
-        "ggx" => (Distribution::Ggx, "roughness", "shininess"),
-        _ => (Distribution::Beckmann, "roughness", "shininess"),
-    };
-    if v.has(other) {
-        let message = format!("`{other}` means nothing to this distribution");
-        let word = v.word("distribution")?;
-        let help = format!("`distribution = \"{word}\"` takes `{takes}`");
-        notes.error(v.spot_of(other), message).help = Some(help);
+/// What stands in several keys of a model.
+fn model(v: &Values, material: &mut Material, notes: &mut Notes) -> Option<()> {
+    match &mut material.model {
+        Model::Microfacet { distribution, roughness, fresnel, .. } => {
+            // The exponent goes with Blinn's distribution, the roughness with the others.
+            if let Some(word) = v.word("distribution") {
+                let (takes, other) = match distribution {
+                    Distribution::Blinn => ("shininess", "roughness"),
+                    Distribution::Beckmann | Distribution::Ggx => ("roughness", "shininess"),
+                };
+                if v.has(other) {
+                    let message = format!("`{other}` means nothing to this distribution");
+                    let help = format!("`distribution = \"{word}\"` takes `{takes}`");
+                    notes.error(v.spot_of(other), message).help = Some(help);
+                }
+            }
+            if *distribution == Distribution::Blinn {
+                *roughness = material.shininess;
+            }
+            *fresnel = self::fresnel(v, notes)?;
+        }
+        Model::Ward { roughness_x, roughness_y, .. } if !v.has("roughness_y") => {
+            *roughness_y = *roughness_x;
+        }
+        _ => {}
     }
-    let roughness = textures.number(v, takes)?;
-    Some(Model::Microfacet {
-        distribution,
-        roughness,
-        shadowing: shadowing(v)?,
-        fresnel: fresnel(v, notes)?,
-    })
-}
-
-fn shadowing(v: &Values) -> Option<Shadowing> {
-    Some(match v.word("shadowing")? {
-        "separable" => Shadowing::Separable,
-        "correlated" => Shadowing::Correlated,
-        "implicit" => Shadowing::Implicit,
-        _ => Shadowing::VCavity,
-    })
+    Some(())
 }
 
 /// `f0`, or `eta` alone, or `eta` with `k`.
@@ -197,13 +135,9 @@ fn fresnel(v: &Values, notes: &mut Notes) -> Option<Fresnel> {
     Some(Fresnel::Dielectric { eta: eta.r })
 }
 
-/// The dialect, if the model's lobe is one of its.
-fn dialect(v: &Values, model: &Model, notes: &mut Notes) -> Option<Dialect> {
-    let dialect = Dialect::from_name(v.word("dialect")?)?;
-    if dialect.allows(model) {
-        return Some(dialect);
-    }
-    let (name, word) = (dialect.name(), v.word("model")?);
+/// Says that the model's lobe is none of the dialect's.
+fn say_contradiction(v: &Values, dialect: Dialect, notes: &mut Notes) {
+    let (name, word) = (dialect.name(), v.word("model").unwrap_or_default());
     let lobes = [
         (Model::Phong, "phong"),
         (Model::BlinnPhong, "blinn-phong"),
@@ -218,5 +152,4 @@ fn dialect(v: &Values, model: &Model, notes: &mut Notes) -> Option<Dialect> {
     let message = format!("the dialect `{name}` contradicts the model, {word}");
     notes.error(v.spot_of("dialect"), message).help =
         Some(format!("the model fixes the lobe; {name}'s is that of {fits}"));
-    None
 }

@@ -12,7 +12,6 @@ mod change;
 mod draft;
 mod file;
 mod groups;
-mod light;
 mod material;
 mod notes;
 mod path;

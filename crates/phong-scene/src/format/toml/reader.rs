@@ -14,7 +14,7 @@ use super::path::normal;
 use super::table::{Values, say_unknown};
 use super::text::{Spot, Text};
 use super::texture::{self, TextureNames};
-use super::{light, material, reuse, settings, shape, syntax};
+use super::{material, reuse, settings, shape, syntax};
 use crate::camera::Camera;
 use crate::change::Change;
 use crate::color::Rgb;
@@ -321,7 +321,7 @@ impl<'a> Reader<'a> {
                 let over = self.changes.over("light", &[&self.light_count.to_string()]);
                 let notes = &mut self.notes;
                 let values = Values::read_changed(&keys::LIGHT, text, spot, &over, notes);
-                self.lights.extend(light::light(&values, self.light_count, &mut self.notes));
+                self.lights.extend(settings::light(&values, self.light_count, &mut self.notes));
             }
             Item::Shape(table, text, group) => {
                 let drafts = self.shape(table, text, spot, path);

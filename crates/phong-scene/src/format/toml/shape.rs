@@ -7,50 +7,14 @@ use super::table::Values;
 use crate::check::shape as judge;
 use crate::shape::Shape;
 use crate::transform::is_regular;
+use crate::wording::Word;
 
 /// A shape of this kind; `None`: something is wrong, which has been said.
 pub(super) fn shape(kind: &str, v: &Values, notes: &mut Notes) -> Option<Shape> {
-    let shape = read(kind, v)?;
+    let mut shape = Shape::of_word(kind)?;
+    v.fill(&mut shape)?;
     let sound = notes.judge(|key| v.spot_of(key), |faults| judge::shape(&shape, faults));
     sound.then_some(shape)
-}
-
-fn read(kind: &str, v: &Values) -> Option<Shape> {
-    Some(match kind {
-        "sphere" => Shape::Sphere { center: v.vector("center")?, radius: v.number("radius")? },
-        "plane" => Shape::Plane { point: v.vector("point")?, normal: v.vector("normal")? },
-        "triangle" => Shape::Triangle {
-            points: v.vectors("points")?,
-            normals: v.vectors("normals"),
-            uv: v.uvs("uv"),
-        },
-        "disc" => Shape::Disc {
-            center: v.vector("center")?,
-            normal: v.vector("normal")?,
-            radius: v.number("radius")?,
-        },
-        "box" => Shape::Box { min: v.vector("min")?, max: v.vector("max")? },
-        "cylinder" => Shape::Cylinder {
-            from: v.vector("from")?,
-            to: v.vector("to")?,
-            radius: v.number("radius")?,
-            capped: v.flag("capped")?,
-        },
-        "cone" => Shape::Cone {
-            from: v.vector("from")?,
-            to: v.vector("to")?,
-            radius: v.number("radius")?,
-            radius_to: v.number("radius_to")?,
-            capped: v.flag("capped")?,
-        },
-        "torus" => Shape::Torus {
-            center: v.vector("center")?,
-            axis: v.vector("axis")?,
-            radius: v.number("radius")?,
-            tube: v.number("tube")?,
-        },
-        _ => return None,
-    })
 }
 
 /// Scale, then rotate, then translate; or the matrix alone.

@@ -8,13 +8,14 @@ use toml::de::{DeTable, DeValue};
 use super::change::Laid;
 use super::notes::Notes;
 use super::text::Spot;
-use super::value::{TexturedValue, Value, ValueReader};
+use super::value::ValueReader;
 use crate::color::Rgb;
 use crate::diagnostic::Severity;
-use crate::keys::{BACKGROUND, Default, Key, Kind, TEXTURED, Table};
+use crate::keys::{BACKGROUND, Default, Field, Key, Keyed, Kind, TEXTURED, Table, Value};
 use crate::scene::Background;
-use crate::wording::list;
-use glam::{DAffine3, DVec2, DVec3, DVec4};
+use crate::texture::{Channel, TextureId, TextureRef};
+use crate::wording::{Word, list};
+use glam::{DAffine3, DVec3, DVec4};
 
 /// What one table of the text says: every value checked, every default at hand.
 #[derive(Debug)]
@@ -25,6 +26,8 @@ pub(super) struct Values {
     /// What the selecting key says; `None`: it says nothing valid.
     word: Option<&'static str>,
     entries: Vec<Entry>,
+    /// The textures that stand for values, which are numbered by this list.
+    textures: Vec<String>,
 }
 
 /// The value of a key, which may be a table of its own.
@@ -33,6 +36,7 @@ pub(super) fn read_value(
     key: &'static Key,
     value: &Spanned<DeValue<'_>>,
     file: u32,
+    textures: &mut Vec<String>,
     notes: &mut Notes,
 ) -> Option<Value> {
     match (key.kind, value.get_ref()) {
@@ -45,12 +49,11 @@ pub(super) fn read_value(
         (_, DeValue::Table(inside)) if key.varies => {
             let spot = Spot::new(file, value.span());
             let by = Values::read(&TEXTURED, inside, spot, notes);
-            Some(Value::Textured(TexturedValue {
-                texture: by.text("texture")?,
-                scale: by.number("scale")?,
-                offset: by.number("offset")?,
-                channel: by.word("channel"),
-            }))
+            let (name, texture) = (by.text("texture")?, TextureId(textures.len() as u32));
+            let (scale, offset) = (by.number("scale")? as f32, by.number("offset")? as f32);
+            let channel = by.word("channel").and_then(Channel::of_word);
+            textures.push(name);
+            Some(Value::Textured(TextureRef { texture, scale, offset, channel }))
         }
         _ => {
             let read = ValueReader { notes, file, table: table.name, key }.read(value)?;
@@ -90,7 +93,8 @@ impl Values {
         over: &[&Laid<'_>],
         notes: &mut Notes,
     ) -> Self {
-        let mut values = Self { table, spot, word: None, entries: Vec::with_capacity(text.len()) };
+        let entries = Vec::with_capacity(text.len());
+        let mut values = Self { table, spot, word: None, entries, textures: Vec::new() };
         values.select(text, over, notes);
         for (name, value) in text {
             let (name, at) = (name.get_ref(), Spot::new(spot.file, name.span()));
@@ -112,7 +116,8 @@ impl Values {
         }
         match self.table.find(name, self.word) {
             Some(key) => {
-                let read = read_value(self.table, key, value, at.file, notes);
+                let names = &mut self.textures;
+                let read = read_value(self.table, key, value, at.file, names, notes);
                 let spot = Spot::new(at.file, value.span());
                 self.entries.push(Entry { key, spot, value: read });
             }
@@ -128,7 +133,7 @@ impl Values {
         let laid = over.iter().find(|laid| laid.target.key.name == key.name);
         let laid = laid.map(|laid| (&laid.value, laid.at.file));
         if let Some((value, file)) = laid.or(text.get(key.name).map(|v| (v, self.spot.file))) {
-            let read = read_value(self.table, key, value, file, notes);
+            let read = read_value(self.table, key, value, file, &mut self.textures, notes);
             if let Some(Value::Word(word)) = read {
                 self.word = Some(word);
             }
@@ -191,6 +196,47 @@ impl Values {
         }
     }
 
+    /// Puts the value of every key, or its default, where it is kept; a default that is worked out
+    /// is left to the caller. `None`: something is wrong or missing, which has been said.
+    pub(super) fn fill<T: Keyed>(&self, to: &mut T) -> Option<()> {
+        self.fill_textured(to, |by, _, _| by)
+    }
+
+    /// The same of what textures may vary: `texture` numbers the one of this name, which stands there.
+    pub(super) fn fill_textured<T: Keyed>(
+        &self,
+        to: &mut T,
+        mut texture: impl FnMut(TextureRef, &str, Spot) -> TextureRef,
+    ) -> Option<()> {
+        let mut whole = Some(());
+        for key in self.table.keys().filter(|key| key.applies(self.word)) {
+            let Some(access) = T::access(&key.field) else { continue };
+            let set = match self.get(key.name) {
+                Some(Value::Textured(by)) => {
+                    let name = &self.textures[by.texture.0 as usize];
+                    let by = texture(by, name, self.spot_of(key.name));
+                    (access.set)(to, Value::Textured(by))
+                }
+                Some(value) => (access.set)(to, value),
+                None if self.has(key.name) || matches!(key.default, Default::Required) => None,
+                None => Some(()),
+            };
+            whole = whole.and(set);
+        }
+        whole
+    }
+
+    /// Whether a key of this name applies whose value is kept in a field.
+    pub(super) fn has_own(&self, name: &str) -> bool {
+        let key = self.table.find(name, self.word);
+        key.is_some_and(|key| !matches!(key.field, Field::None))
+    }
+
+    /// Whether a key of this name applies.
+    pub(super) fn takes(&self, name: &str) -> bool {
+        self.table.find(name, self.word).is_some()
+    }
+
     pub(super) fn flag(&self, name: &str) -> Option<bool> {
         let Value::Flag(flag) = self.get(name)? else { return None };
         Some(flag)
@@ -211,16 +257,6 @@ impl Values {
         Some(v)
     }
 
-    pub(super) fn vectors(&self, name: &str) -> Option<[DVec3; 3]> {
-        let Value::Vectors(v) = self.get(name)? else { return None };
-        Some(v)
-    }
-
-    pub(super) fn uvs(&self, name: &str) -> Option<[DVec2; 3]> {
-        let Value::Uvs(uvs) = self.get(name)? else { return None };
-        Some(uvs)
-    }
-
     pub(super) fn rotations(&self, name: &str) -> Option<Vec<DVec4>> {
         let Value::Rotations(rotations) = self.get(name)? else { return None };
         Some(rotations)
@@ -231,39 +267,9 @@ impl Values {
         Some(matrix)
     }
 
-    pub(super) fn size(&self, name: &str) -> Option<[u32; 2]> {
-        let Value::Size(size) = self.get(name)? else { return None };
-        Some(size)
-    }
-
     pub(super) fn color(&self, name: &str) -> Option<Rgb> {
         let Value::Color(color) = self.get(name)? else { return None };
         Some(color)
-    }
-
-    pub(super) fn background(&self, name: &str) -> Option<Background> {
-        match self.get(name)? {
-            Value::Background(background) => Some(background),
-            Value::Color(color) => Some(Background::Color(color)),
-            _ => None,
-        }
-    }
-
-    pub(super) fn colors(&self, name: &str) -> Option<[Rgb; 2]> {
-        let Value::Colors(colors) = self.get(name)? else { return None };
-        Some(colors)
-    }
-
-    pub(super) fn stops(&self, name: &str) -> Option<Vec<(f32, Rgb)>> {
-        let Value::Stops(stops) = self.get(name)? else { return None };
-        Some(stops)
-    }
-
-    /// The texture that stands for the value, and where; `None`: none does.
-    pub(super) fn textured(&self, name: &str) -> Option<(TexturedValue, Spot)> {
-        let entry = self.entry(name)?;
-        let Some(Value::Textured(by)) = &entry.value else { return None };
-        Some((by.clone(), entry.spot))
     }
 
     pub(super) fn word(&self, name: &str) -> Option<&'static str> {

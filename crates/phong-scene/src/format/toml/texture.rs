@@ -9,52 +9,35 @@ use super::notes::Notes;
 use super::shape;
 use super::table::Values;
 use super::text::Spot;
-use super::value::TexturedValue;
 use crate::check::{material as judge, texture as texture_judge};
-use crate::color::Rgb;
 use crate::material::Material;
-use crate::texture::{Channel, Param, Texture, TextureId, TextureKind, TextureRef, TextureSpace};
+use crate::texture::{Texture, TextureId, TextureRef};
 
 /// A texture; what is wrong with it has been said.
 pub(super) fn texture(v: &Values, name: &str, notes: &mut Notes) -> Option<Texture> {
-    let kind = match v.word("kind")? {
-        "checker" => {
-            TextureKind::Checker { colors: v.colors("colors")?, scale: v.number("scale")? }
-        }
-        _ => TextureKind::Gradient {
-            axis: v.vector("axis")?,
-            from: v.number("from")?,
-            to: v.number("to")?,
-            stops: v.stops("stops")?,
-        },
-    };
-    let space = match v.word("space")? {
-        "world" => TextureSpace::World,
-        "uv" => TextureSpace::Uv,
-        _ => TextureSpace::Object,
-    };
-    let transform = place(v, &kind, notes)?;
-    let place = notes.place(v.spot);
-    let texture = Texture { name: name.to_owned(), kind, space, transform, place };
+    let mut texture =
+        Texture { name: name.to_owned(), place: notes.place(v.spot), ..Texture::default() };
+    v.fill(&mut texture)?;
+    texture.transform = place(v, notes)?;
     let sound =
         notes.judge(|key| v.spot_of(key), |faults| texture_judge::texture(&texture, faults));
     sound.then_some(texture)
 }
 
-/// Where it lies in its space. The `scale` of a checker counts squares and is none of it.
-fn place(v: &Values, kind: &TextureKind, notes: &mut Notes) -> Option<DAffine3> {
-    match kind {
-        TextureKind::Gradient { .. } => shape::transform(v, notes),
-        TextureKind::Checker { .. } if v.has("matrix") => {
-            if let Some(other) = ["rotate", "translate"].into_iter().find(|key| v.has(key)) {
-                notes.error(v.spot_of(other), format!("`{other}` stands beside `matrix`")).help =
-                    Some("write the matrix alone, or none".to_owned());
-                return None;
-            }
-            v.matrix("matrix")
-        }
-        TextureKind::Checker { .. } => shape::placement(v, DVec3::ONE, notes),
+/// Where it lies in its space. A `scale` that is the kind's own is none of it.
+fn place(v: &Values, notes: &mut Notes) -> Option<DAffine3> {
+    if !v.has_own("scale") {
+        return shape::transform(v, notes);
     }
+    if v.has("matrix") {
+        if let Some(other) = ["rotate", "translate"].into_iter().find(|key| v.has(key)) {
+            notes.error(v.spot_of(other), format!("`{other}` stands beside `matrix`")).help =
+                Some("write the matrix alone, or none".to_owned());
+            return None;
+        }
+        return v.matrix("matrix");
+    }
+    shape::placement(v, DVec3::ONE, notes)
 }
 
 /// The textures that materials name, in the order of the text. Until they are looked up, a
@@ -69,32 +52,11 @@ struct TextureName {
 }
 
 impl TextureNames {
-    /// A material's number, or its default; `None` as [`Values::number`] has it.
-    pub(super) fn number(&mut self, v: &Values, key: &str) -> Option<Param<f32>> {
-        match v.textured(key) {
-            Some(textured) => Some(self.take(textured).into()),
-            None => v.number(key).map(|number| (number as f32).into()),
-        }
-    }
-
-    /// A material's colour, or its default; `None` as [`Values::color`] has it.
-    pub(super) fn color(&mut self, v: &Values, key: &str) -> Option<Param<Rgb>> {
-        match v.textured(key) {
-            Some(textured) => Some(self.take(textured).into()),
-            None => v.color(key).map(Param::Constant),
-        }
-    }
-
-    fn take(&mut self, (value, spot): (TexturedValue, Spot)) -> TextureRef {
-        let TexturedValue { texture: name, scale, offset, channel } = value;
-        let by = TextureRef {
-            texture: TextureId(self.0.len() as u32),
-            scale: scale as f32,
-            offset: offset as f32,
-            channel: channel.and_then(Channel::from_name),
-        };
-        self.0.push(TextureName { name, spot });
-        by
+    /// The texture of this name, which stands there.
+    pub(super) fn take(&mut self, by: TextureRef, name: &str, spot: Spot) -> TextureRef {
+        let texture = TextureId(self.0.len() as u32);
+        self.0.push(TextureName { name: name.to_owned(), spot });
+        TextureRef { texture, ..by }
     }
 
     /// Says of every texture named that is not there; which of them are named.

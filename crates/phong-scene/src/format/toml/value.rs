@@ -7,44 +7,11 @@ use toml::de::DeValue;
 use super::notes::Notes;
 use super::text::Spot;
 use crate::color::Rgb;
-use crate::keys::{Key, Kind, of_word};
+use crate::keys::{Key, Kind, Value, of_word};
 use crate::limits::{LARGEST, Range};
 use crate::scene::{Background, Image};
 use crate::transform::is_regular;
 use crate::wording::{closest, quoted};
-
-/// A value, read or to be written.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Value {
-    Flag(bool),
-    Integer(u64),
-    Number(f64),
-    Vector(DVec3),
-    Vectors([DVec3; 3]),
-    Uvs([DVec2; 3]),
-    Rotations(Vec<DVec4>),
-    Matrix(DAffine3),
-    Size([u32; 2]),
-    Color(Rgb),
-    Background(Background),
-    Word(&'static str),
-    Text(String),
-    Colors([Rgb; 2]),
-    Stops(Vec<(f32, Rgb)>),
-    Textured(TexturedValue),
-    Texts(Vec<(String, std::ops::Range<usize>)>),
-    Numbers(Vec<f64>),
-}
-
-/// What a texture stands for, as it is written.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct TexturedValue {
-    pub(super) texture: String,
-    pub(super) scale: f64,
-    pub(super) offset: f64,
-    /// `None`: it is not written.
-    pub(super) channel: Option<&'static str>,
-}
 
 /// What was found, as the end of "…; this is …".
 fn found(value: &DeValue<'_>) -> String {

@@ -13,10 +13,9 @@ use std::fmt::Write as _;
 use glam::DVec3;
 
 use super::table::default;
-use super::value::Value;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::format::export::{Account, File, PlyEncoding, Writing, free_name, split_all};
-use crate::keys::{self, Kind, Table};
+use crate::keys::{self, Key, Kind, Table, Value};
 use crate::limits::LARGEST;
 use crate::material::{Material, MaterialId};
 use crate::mesh::{Cylinders, Mesh};
@@ -63,16 +62,16 @@ pub(crate) fn write_toml(
     }) {
         let header = format!("[{}]", key.name);
         match table.name {
-            "image" => out.setting(&header, table, None, |key| concepts::image(&image, key)),
+            "image" => out.setting(&header, table, None, |key| key.get(&image)),
             "camera" => {
-                let kind = Some(concepts::camera_kind(&camera));
-                out.setting(&header, table, kind, |key| concepts::camera(&camera, key));
+                let kind = table.word_of(&camera);
+                out.setting(&header, table, kind, |key| key.get(&camera));
             }
             _ => out.setting(&header, table, None, |_| Some(Value::Color(ambient))),
         }
     }
     for (i, light) in lights.iter().enumerate() {
-        let kind = Some(concepts::light_kind(light));
+        let kind = keys::LIGHT.word_of(light);
         out.table("[[light]]", &keys::LIGHT, kind, |key| concepts::light(light, i + 1, key));
     }
     out.account.carry("light", lights.len());
@@ -120,7 +119,7 @@ impl Writer<'_> {
         header: &str,
         table: &'static Table,
         word: Option<&str>,
-        say: impl Fn(&str) -> Option<Value>,
+        say: impl Fn(&Key) -> Option<Value>,
     ) {
         let before = self.text.len();
         self.table(header, table, word, say);
@@ -135,14 +134,14 @@ impl Writer<'_> {
         header: &str,
         table: &'static Table,
         word: Option<&str>,
-        say: impl Fn(&str) -> Option<Value>,
+        say: impl Fn(&Key) -> Option<Value>,
     ) {
         self.text.extend(["\n", header, "\n"]);
         for key in table.keys().filter(|key| key.applies(word)) {
-            let Some(mut value) = say(key.name) else { continue };
+            let Some(mut value) = say(key) else { continue };
             self.fit(header, key, &mut value);
             if default(key).as_ref() != Some(&value) {
-                let value = text::value(&value, key.kind);
+                let value = text::value(&value, key.kind, &self.texture_names);
                 // Writing to a string does not fail.
                 let _ = writeln!(self.text, "{} = {value}", key.name);
             }
@@ -150,7 +149,7 @@ impl Writer<'_> {
     }
 
     /// Brings a value into its key's range, which foreign formats may have left, and says so.
-    fn fit(&mut self, header: &str, key: &keys::Key, value: &mut Value) {
+    fn fit(&mut self, header: &str, key: &Key, value: &mut Value) {
         let most = if matches!(key.kind, Kind::Reflectance) { 1.0 } else { LARGEST };
         let beyond = |v: &DVec3| v.abs().max_element() > LARGEST;
         match (value, key.kind) {
@@ -185,7 +184,7 @@ impl Writer<'_> {
     fn textures(&mut self, textures: &[Texture]) {
         for (number, texture) in textures.iter().enumerate() {
             let header = format!("[textures.{}]", text::name(&self.texture_names[number]));
-            let kind = Some(concepts::texture_kind(texture));
+            let kind = keys::TEXTURE.word_of(texture);
             self.table(&header, &keys::TEXTURE, kind, |key| concepts::texture(texture, key));
             self.account.carry("texture", 1);
         }
@@ -198,11 +197,8 @@ impl Writer<'_> {
                 continue;
             }
             let header = format!("[materials.{}]", text::name(&self.materials.names[i]));
-            let model = Some(concepts::material_model(material));
-            let names = std::mem::take(&mut self.texture_names);
-            let say = |key: &str| concepts::material(material, &names, key);
-            self.table(&header, &keys::MATERIAL, model, say);
-            self.texture_names = names;
+            let model = keys::MATERIAL.word_of(material);
+            self.table(&header, &keys::MATERIAL, model, |key| concepts::material(material, key));
             self.account.carry("material", 1);
         }
     }
@@ -231,13 +227,13 @@ impl Writer<'_> {
                 _ => None,
             };
             let has_file = beside.is_some();
-            self.table(&format!("[[{prefix}{kind}]]"), table, None, |key| match key {
+            self.table(&format!("[[{prefix}{kind}]]"), table, None, |key| match key.name {
                 "file" if has_file => Some(Value::Text(file.clone())),
                 "group" => group.clone().map(Value::Text),
                 "material" => material.clone().map(Value::Text),
                 "name" => concepts::name(&object.name, &format!("{kind} {number}")),
                 "scale" | "rotate" | "translate" | "matrix" => {
-                    concepts::placed(&object.transform, key)
+                    concepts::placed(&object.transform, key.name)
                 }
                 _ => concepts::shape(&object.shape, key),
             });
