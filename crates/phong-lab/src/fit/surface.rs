@@ -189,7 +189,6 @@ fn highlight(material: &ConstantMaterial) -> Option<Lobe> {
         return None;
     }
     let (model, number) = match material.model {
-        scene::Model::Lambert | scene::Model::OrenNayar { .. } => return None,
         scene::Model::Phong => (Model::Phong, material.shininess),
         scene::Model::BlinnPhong | scene::Model::BlinnFast => {
             (Model::BlinnPhong, material.shininess)
@@ -206,6 +205,7 @@ fn highlight(material: &ConstantMaterial) -> Option<Lobe> {
         scene::Model::Ward { roughness_x, roughness_y, .. } => {
             (Model::Ward, (roughness_x * roughness_y).sqrt())
         }
+        _ => return None,
     };
     let [least, most] = model.range();
     Some(Lobe { model, number: f64::from(number).clamp(least, most) })

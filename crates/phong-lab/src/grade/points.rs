@@ -13,7 +13,7 @@ use phong::texture::TexturePoint;
 use phong::view::View;
 use phong::witness::{Branch, Cut, LightContribution, Witness};
 use phong_bvh::Ray;
-use phong_scene::{ConstantMaterial, FilterKind, LightKind, Rgb};
+use phong_scene::{ConstantMaterial, FilterKind, Rgb};
 use rayon::prelude::*;
 
 /// What one pixel is made of.
@@ -107,8 +107,7 @@ impl Casting<'_> {
         [above, visible]: [bool; 2],
     ) -> LightPoint {
         let (l, distance) = (sample.l, sample.distance);
-        let point_light =
-            !matches!(self.view.written_lights()[number].kind, LightKind::Distant { .. });
+        let point_light = self.view.written_lights()[number].kind.position().is_some();
         let free = |dir, far| self.free(number, at, dir, far);
         let away = free(-l, distance);
         LightPoint {

@@ -7,7 +7,7 @@ use phong::light::LightSample;
 use phong::math::{Dir3, lobe, pow};
 use phong::reflectance::{blinn_phong, phong as phong_model};
 use phong::terms::Terms;
-use phong_scene::{LightKind, Model, Rgb, Scene, Shape};
+use phong_scene::{Model, Rgb, Scene, Shape};
 
 use super::fault::Fault;
 use super::points::{LightPoint, MaterialHere, Point, Surface};
@@ -33,12 +33,6 @@ pub(super) struct Facts {
 
 impl Facts {
     pub(super) fn new(scene: &Scene, backward: Dir3) -> Self {
-        let attenuation = |light: &phong_scene::Light| match light.kind {
-            LightKind::Distant { .. } => None,
-            LightKind::Point { attenuation, .. } | LightKind::Spot { attenuation, .. } => {
-                Some(attenuation)
-            }
-        };
         let length = |object: &phong_scene::Object| {
             let length = match &object.shape {
                 Shape::Sphere { radius, .. } => *radius,
@@ -52,7 +46,7 @@ impl Facts {
             eye: scene.camera.eye,
             backward,
             lights: scene.lights.len(),
-            attenuation: scene.lights.iter().map(attenuation).collect(),
+            attenuation: scene.lights.iter().map(|light| light.kind.attenuation()).collect(),
             colors: scene.lights.iter().map(|l| [l.color, l.specular_color]).collect(),
             normal_lengths: scene.objects.iter().filter(|_| known).map(length).collect(),
         }

@@ -184,13 +184,9 @@ impl Shared<'_> {
 /// Where a light is, or which way it shines.
 fn where_from(kind: &LightKind) -> String {
     let triple = |v: DVec3| format!("({}, {}, {})", v.x, v.y, v.z);
-    match kind {
-        LightKind::Distant { direction, .. } => {
-            format!("distant, shines along {}", triple(*direction))
-        }
-        LightKind::Point { position, .. } | LightKind::Spot { position, .. } => {
-            format!("at {}", triple(*position))
-        }
+    match kind.direction() {
+        Some(direction) => format!("distant, shines along {}", triple(direction)),
+        None => format!("at {}", triple(kind.position().unwrap_or_default())),
     }
 }
 
@@ -237,16 +233,14 @@ fn light(s: &Surface, lit: &Lit) -> Value {
             put("pw", number(power));
         }
         // Of the models that are π f (N·L), the page knows no more.
-        match s.material.model {
-            Model::OrenNayar { .. } => {
-                put("dp", written(&product::diffuse(s, lit)));
-            }
-            Model::Microfacet { .. } | Model::Ward { .. } => {
-                if let Some(term) = product::specular(s, lit) {
-                    put("sp", written(&term));
-                }
-            }
-            Model::Lambert | Model::Phong | Model::BlinnPhong | Model::BlinnFast => {}
+        let model = s.material.model;
+        if !model.is_lambertian() {
+            put("dp", written(&product::diffuse(s, lit)));
+        }
+        if !model.is_power()
+            && let Some(term) = product::specular(s, lit)
+        {
+            put("sp", written(&term));
         }
     }
     Value::Object(out)

@@ -84,7 +84,7 @@ pub(super) fn ambient_of_light(s: &Surface, lit: &Lit) -> Option<Product> {
 pub(super) fn diffuse(s: &Surface, lit: &Lit) -> Product {
     let k_d = s.material.k_d;
     let mut factors = vec![one("k_d", "k_d", k_d)];
-    if matches!(s.material.model, Model::OrenNayar { .. }) {
+    if !s.material.model.is_lambertian() {
         factors.push(brdf(lit.white.diffuse, k_d * lit.n_dot_l));
     }
     factors.push(one("(N·L)", r"(N \cdot L)", lit.n_dot_l));
@@ -95,25 +95,23 @@ pub(super) fn diffuse(s: &Surface, lit: &Lit) -> Product {
 /// The specular term of a light that adds to it; `None` for models that have no highlight.
 pub(super) fn specular(s: &Surface, lit: &Lit) -> Option<Product> {
     let m = &s.material;
+    if !m.model.is_glossy() {
+        return None;
+    }
     let c_s = color("C_s", "C_s", lit.c_s);
     let mut factors = vec![one("k_s", "k_s", m.k_s)];
-    match m.model {
-        Model::Lambert | Model::OrenNayar { .. } => return None,
-        Model::Microfacet { .. } | Model::Ward { .. } => {
-            factors.push(brdf(lit.white.specular, m.k_s * lit.n_dot_l));
-            factors.push(one("(N·L)", r"(N \cdot L)", lit.n_dot_l));
-            factors.push(c_s);
+    if m.model.is_power() {
+        factors.push(highlight(m, lit));
+        factors.push(c_s);
+        factors
+            .extend(normalization(m).map(|n| one("× normalisation", r"\text{normalisation}", n)));
+        if m.times_cosine {
+            factors.push(one("× N·L", r"(N \cdot L)", lit.n_dot_l));
         }
-        Model::Phong | Model::BlinnPhong | Model::BlinnFast => {
-            factors.push(highlight(m, lit));
-            factors.push(c_s);
-            factors.extend(
-                normalization(m).map(|n| one("× normalisation", r"\text{normalisation}", n)),
-            );
-            if m.times_cosine {
-                factors.push(one("× N·L", r"(N \cdot L)", lit.n_dot_l));
-            }
-        }
+    } else {
+        factors.push(brdf(lit.white.specular, m.k_s * lit.n_dot_l));
+        factors.push(one("(N·L)", r"(N \cdot L)", lit.n_dot_l));
+        factors.push(c_s);
     }
     Some(Product { factors, value: lit.specular })
 }
@@ -147,9 +145,8 @@ fn highlight(m: &ConstantMaterial, lit: &Lit) -> Factor {
 /// The value of the lobe's power, `(R·E)^α` or `(N·H)^α`; `None` for models without one, and of a
 /// light that adds nothing.
 pub(super) fn power(s: &Surface, lit: &Lit) -> Option<f32> {
-    let lobes = matches!(s.material.model, Model::Phong | Model::BlinnPhong | Model::BlinnFast);
     match highlight(&s.material, lit).number {
-        Number::One(value) if lobes && lit.visible => Some(value),
+        Number::One(value) if s.material.model.is_power() && lit.visible => Some(value),
         _ => None,
     }
 }

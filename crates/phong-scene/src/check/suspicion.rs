@@ -8,7 +8,7 @@ use super::at;
 use crate::bounds::Bounds;
 use crate::camera::CameraKind;
 use crate::diagnostic::{Diagnostic, Label};
-use crate::light::{Light, LightKind};
+use crate::light::Light;
 use crate::material::Material;
 use crate::scene::{Object, Scene};
 use crate::shape::{GroupId, Shape};
@@ -104,7 +104,7 @@ fn edges(scene: &Scene) -> Option<[DVec3; 5]> {
 fn shut_in(scene: &Scene, object: &Object, say: &mut dyn FnMut(Diagnostic)) {
     let to_own_space = object.transform.inverse();
     let within = |p: DVec3| contains(&object.shape, to_own_space.transform_point3(p));
-    let lights = || scene.lights.iter().filter_map(|light| Some((light, position(light)?)));
+    let lights = || scene.lights.iter().filter_map(|light| Some((light, light.kind.position()?)));
     if within(scene.camera.eye) {
         // A closed room or a dome is lit from within; a ball that the camera fell into is not.
         let lit = lights().any(|(_, position)| within(position));
@@ -129,13 +129,6 @@ fn dark(light: &Light, object: &Object) -> Diagnostic {
     let mut warning = Diagnostic::warning(message, at(&light.place));
     warning.labels.extend(label);
     warning.with_help("move it out, or give the light `shadows = false`")
-}
-
-fn position(light: &Light) -> Option<DVec3> {
-    match light.kind {
-        LightKind::Point { position, .. } | LightKind::Spot { position, .. } => Some(position),
-        LightKind::Distant { .. } => None,
-    }
 }
 
 /// Whether `p` lies inside a shape that is closed all round, both in its own space. Meshes and

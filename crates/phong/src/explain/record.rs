@@ -1,7 +1,7 @@
 //! Writes down what the integrator tells.
 
 use phong_bvh::Ray;
-use phong_scene::{LightKind, Rgb, TextureRef};
+use phong_scene::{Rgb, TextureRef};
 
 use super::{Blocker, End, LightFrom, Lit, Onward, RayTold, Surface, TextureTold};
 use crate::interaction::SurfaceInteraction;
@@ -147,15 +147,15 @@ impl Witness for Recorder<'_> {
             }
             _ => Terms::default(),
         };
-        let from = match written.kind {
-            LightKind::Distant { direction, .. } => LightFrom::Direction(direction),
-            LightKind::Point { position, radius, .. }
-            | LightKind::Spot { position, radius, .. } => {
+        let from = match written.kind.direction() {
+            Some(direction) => LightFrom::Direction(direction),
+            None => {
+                let soft = written.kind.extent() > 0.0;
                 let sampled = light
                     .sample
-                    .filter(|_| radius > 0.0)
+                    .filter(|_| soft)
                     .map(|sample| at.p + f64::from(sample.distance) * sample.l.to_vec().as_dvec3());
-                LightFrom::Point(sampled.unwrap_or(position))
+                LightFrom::Point(sampled.or(written.kind.position()).unwrap_or(at.p))
             }
         };
         let lit = Lit {

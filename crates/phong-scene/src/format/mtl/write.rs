@@ -114,7 +114,6 @@ fn dissolve(m: &ConstantMaterial) -> f32 {
 fn exponent(m: &ConstantMaterial, differences: &mut Vec<Difference>) -> Option<f32> {
     let of_roughness = |a2: f32| (2.0 / a2 - 2.0).max(0.0);
     let (exponent, how) = match m.model {
-        Model::Lambert | Model::OrenNayar { .. } => return None,
         Model::BlinnPhong | Model::BlinnFast => return Some(m.shininess),
         Model::Phong => (4.0 * m.shininess, "(R·E)^n becomes (N·H)^4n"),
         Model::Microfacet { distribution: Distribution::Blinn, roughness: n, .. } => {
@@ -127,6 +126,8 @@ fn exponent(m: &ConstantMaterial, differences: &mut Vec<Difference>) -> Option<f
             of_roughness(roughness_x * roughness_y),
             "Ward's lobe becomes (N·H)^n with n = 2/(α_x α_y) − 2, the same all round",
         ),
+        // What is lost of it is told, as all that reads back otherwise.
+        _ => return None,
     };
     if m.k_s > 0.0 {
         differences.push(Difference::Mapped(format!("{how} = {exponent}")));
