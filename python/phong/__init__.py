@@ -36,9 +36,18 @@ from phong._keys import (
 from phong._phong import Cancel, Image, Part, __version__, merge
 from phong._render import render, render_part
 from phong._scene import Scene
+from phong.adapters import ADAPTERS
 
 if TYPE_CHECKING:
     from phong import dask as dask
+    from phong._widget import widget as widget
+    from phong.adapters.ase import from_ase as from_ase
+    from phong.adapters.matplotlib import from_matplotlib_colormap as from_matplotlib_colormap
+    from phong.adapters.mdanalysis import from_mdanalysis as from_mdanalysis
+    from phong.adapters.meshio import from_meshio as from_meshio
+    from phong.adapters.ovito import from_ovito as from_ovito
+    from phong.adapters.pyvista import from_pyvista as from_pyvista
+    from phong.adapters.trimesh import from_trimesh as from_trimesh
 
 __all__ = [
     "Box",
@@ -67,3 +76,18 @@ __all__ = [
     "render",
     "render_part",
 ]
+
+#: What is imported when it is first asked for, and where it is.
+_LATER = {"widget": "phong._widget", **{n: f"phong.adapters.{m}" for n, m in ADAPTERS.items()}}
+
+
+def __getattr__(name: str) -> Any:
+    if name == "dask":
+        return importlib.import_module("phong.dask")
+    if name in _LATER:
+        return getattr(importlib.import_module(_LATER[name]), name)
+    raise AttributeError(f"module 'phong' has no attribute {name!r}", name=name)
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_LATER, "dask"})
