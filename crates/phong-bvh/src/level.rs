@@ -33,6 +33,14 @@ impl Level {
     pub fn is_available(self) -> bool {
         Token::of(self).is_some()
     }
+
+    /// Runs `kernel` compiled for this level; where it is not available, for the scalar one.
+    pub fn run<K: Kernel>(self, kernel: K) -> K::Output {
+        match Token::of(self) {
+            Some(token) => token.run(kernel),
+            None => Token::Scalar(Fallback::new()).run(kernel),
+        }
+    }
 }
 
 /// The proof that the machine has a level, which the vector types ask for.

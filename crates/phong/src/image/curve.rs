@@ -6,6 +6,8 @@
 
 use std::sync::OnceLock;
 
+use fearless_simd::{Simd, f32x8, i32x8, prelude::*, u16x16};
+use phong_bvh::Kernel;
 use phong_scene::{srgb_decode, srgb_encode};
 use rayon::prelude::*;
 
@@ -89,8 +91,51 @@ pub(super) fn linear_level(v: f32, levels: u16) -> u16 {
     (f64::from(v.clamp(0.0, 1.0)) * f64::from(levels) + 0.5) as i32 as u16
 }
 
+/// [`linear_level`] of many values, of 255 levels: what a row of the usual picture takes.
+pub(super) struct LinearLevels<'a> {
+    pub(super) values: &'a [f32],
+    /// What the values are multiplied by first.
+    pub(super) gain: f32,
+    /// As many.
+    pub(super) to: &'a mut [u8],
+}
+
+impl Kernel for LinearLevels<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let Self { values, gain, to } = self;
+        let (values, last) = values.as_chunks::<32>();
+        let (to, last_to) = to.as_chunks_mut::<32>();
+        for (values, to) in values.iter().zip(to) {
+            let [a, b, c, d] = [0, 8, 16, 24].map(|from| &values[from..from + 8]);
+            let low = levels8(simd, a, gain).saturating_narrow(levels8(simd, b, gain));
+            let high = levels8(simd, c, gain).saturating_narrow(levels8(simd, d, gain));
+            let (low, high): (u16x16<S>, u16x16<S>) = (low.bitcast(), high.bitcast());
+            low.narrow(high).store_slice(to);
+        }
+        for (value, to) in last.iter().zip(last_to) {
+            *to = linear_level(value * gain, 255) as u8;
+        }
+    }
+}
+
+#[inline(always)]
+fn levels8<S: Simd>(simd: S, values: &[f32], gain: f32) -> i32x8<S> {
+    let v = f32x8::from_slice(simd, values) * gain;
+    let (zero, one) = (f32x8::splat(simd, 0.0), f32x8::splat(simd, 1.0));
+    // In this order NaN becomes 0.
+    let v = v.simd_gt(zero).select(v, zero);
+    let v = v.simd_lt(one).select(v, one);
+    let (low, high) = v.widen();
+    i32x8::truncate_from((low * 255.0 + 0.5).floor().narrow((high * 255.0 + 0.5).floor()))
+}
+
 #[cfg(test)]
 mod tests {
+    use phong_bvh::Level;
+
     use super::*;
 
     fn holds_around_every_step(curve: &Curve) {
@@ -132,6 +177,23 @@ mod tests {
         assert_eq!(linear_level(f32::NAN, 255), 0);
         assert_eq!(linear_level(-1.0, 255), 0);
         assert_eq!(linear_level(2.0, 65535), 65535);
+    }
+
+    #[test]
+    fn linear_levels_of_many_are_those_of_each() {
+        let mut values: Vec<f32> = (-100..2000).map(|i| i as f32 / 510.0 / 3.0).collect();
+        values.extend([f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -0.0, 1e-40]);
+        values.extend((0..=255).map(|i| ((f64::from(i) + 0.5) / 255.0) as f32));
+        values.extend((0..=255).map(|i| ((f64::from(i) + 0.5) / 255.0) as f32).map(f32::next_down));
+        for level in Level::ALL.into_iter().filter(|level| level.is_available()) {
+            for gain in [1.0, 1.7] {
+                let mut found = vec![7; values.len()];
+                level.run(LinearLevels { values: &values, gain, to: &mut found });
+                for (value, found) in values.iter().zip(found) {
+                    assert_eq!(u16::from(found), linear_level(value * gain, 255), "{value}");
+                }
+            }
+        }
     }
 
     #[test]

@@ -3,10 +3,11 @@
 use std::borrow::Cow;
 use std::io::{Cursor, Write};
 
+use phong_bvh::Level;
 use png::{BitDepth, ColorType, Compression, ScaledFloat, SrgbRenderingIntent, Transformations};
 use rayon::prelude::*;
 
-use super::curve::{Curve, linear_level};
+use super::curve::{Curve, LinearLevels, linear_level};
 use super::picture::{MAX_VALUES, Picture, Plane, ReadError, Transfer, count, within};
 use super::{Bits, Encoding, WriteError, layer};
 use crate::aov::Aov;
@@ -49,7 +50,9 @@ pub(super) fn write(
         LayerKind::Picture => {
             let gain = libm::exp2(encoding.exposure) as f32;
             let alpha = layer(picture, LayerKind::Alpha).ok();
-            let alpha = alpha.filter(|alpha| alpha.iter().any(|&a| a != 1.0));
+            // All of a piece, without a branch for each.
+            let is_whole = |piece: &[f32]| piece.iter().fold(true, |all, &a| all & (a == 1.0));
+            let alpha = alpha.filter(|alpha| !alpha.chunks(4096).all(is_whole));
             (values.into(), Tone { gain, curve, alpha, ..plain })
         }
         LayerKind::Term(_) | LayerKind::Aov(Aov::Albedo) => {
@@ -122,14 +125,13 @@ fn levels(values: &[f32], channels: usize, width: usize, tone: &Tone<'_>) -> Vec
         let first = y * width;
         if tone.alpha.is_none() && bytes == 1 {
             // The usual picture: nothing to divide, and a byte a value.
-            let levels = values[first * channels..].iter().map(|value| value * tone.gain);
+            let values = &values[first * channels..][..row.len()];
             match tone.curve {
                 Some(curve) => {
+                    let levels = values.iter().map(|value| value * tone.gain);
                     row.iter_mut().zip(levels).for_each(|(to, v)| *to = curve.level(v) as u8);
                 }
-                None => {
-                    row.iter_mut().zip(levels).for_each(|(to, v)| *to = linear_level(v, 255) as u8);
-                }
+                None => Level::detect().run(LinearLevels { values, gain: tone.gain, to: row }),
             }
             return;
         }

@@ -3,7 +3,6 @@
 use std::fmt::{self, Write as _};
 
 use crc32fast::Hasher;
-use glam::{Vec2, Vec3};
 use phong_scene::{Cylinders, Group, Material, Mesh, Object, Place, Points, Scene, Shape, Texture};
 
 /// A checksum of everything in a scene but its picture settings and the places it was written at:
@@ -31,6 +30,9 @@ pub fn fingerprint(scene: &Scene) -> u32 {
     }
     sum.0.finalize()
 }
+
+/// Values that are copied side by side before they are summed.
+const PIECE: usize = 4096;
 
 struct Sum(Hasher);
 
@@ -74,43 +76,39 @@ impl Sum {
             face_materials,
         } = mesh;
         self.debug(origin);
-        self.words(positions.iter().flat_map(Vec3::to_array).map(f32::to_bits));
-        self.words(indices.iter().flatten().copied());
-        self.words(normals.iter().flat_map(Vec3::to_array).map(f32::to_bits));
-        self.words(normal_indices.iter().flatten().copied());
-        self.words(uvs.iter().flat_map(Vec2::to_array).map(f32::to_bits));
-        self.words(uv_indices.iter().flatten().copied());
-        self.words(colors.iter().flat_map(|c| c.to_array()).map(f32::to_bits));
-        self.words(face_materials.iter().copied());
+        self.words(positions, |v| v.to_array().map(f32::to_bits));
+        self.words(indices, |corners| *corners);
+        self.words(normals, |v| v.to_array().map(f32::to_bits));
+        self.words(normal_indices, |corners| *corners);
+        self.words(uvs, |uv| uv.to_array().map(f32::to_bits));
+        self.words(uv_indices, |corners| *corners);
+        self.words(colors, |c| c.to_array().map(f32::to_bits));
+        self.words(face_materials, |material| [*material]);
     }
 
     fn points(&mut self, points: &Points) {
         let Points { origin, spheres, colors, .. } = points;
         self.debug(origin);
-        self.words(spheres.iter().flatten().map(|v| v.to_bits()));
-        self.words(colors.iter().flat_map(|c| c.to_array()).map(f32::to_bits));
+        self.words(spheres, |sphere| sphere.map(f32::to_bits));
+        self.words(colors, |c| c.to_array().map(f32::to_bits));
     }
 
     fn cylinders(&mut self, cylinders: &Cylinders) {
         let Cylinders { origin, segments, colors, caps } = cylinders;
         self.debug(&(origin, caps));
-        self.words(segments.iter().flatten().flatten().map(|v| v.to_bits()));
-        self.words(colors.iter().flatten().flat_map(|c| c.to_array()).map(f32::to_bits));
+        self.words(segments.as_flattened(), |end| end.map(f32::to_bits));
+        self.words(colors.as_flattened(), |c| c.to_array().map(f32::to_bits));
     }
 
     /// Bulk numbers, then how many there were, so that neighbouring arrays cannot trade places.
-    fn words(&mut self, words: impl Iterator<Item = u32>) {
-        let mut buffer = Vec::with_capacity(64 << 10);
-        let mut count = 0_u64;
-        for word in words {
-            buffer.extend_from_slice(&word.to_le_bytes());
-            count += 1;
-            if buffer.len() == buffer.capacity() {
-                self.0.update(&buffer);
-                buffer.clear();
-            }
+    fn words<T, const N: usize>(&mut self, values: &[T], words_of: impl Fn(&T) -> [u32; N]) {
+        let mut words = Vec::with_capacity(PIECE.min(values.len()));
+        for piece in values.chunks(PIECE) {
+            words.clear();
+            words.extend(piece.iter().map(|value| words_of(value).map(u32::to_le)));
+            self.0.update(bytemuck::cast_slice(words.as_flattened()));
         }
-        self.0.update(&buffer);
+        let count = (N * values.len()) as u64;
         self.0.update(&count.to_le_bytes());
     }
 }
