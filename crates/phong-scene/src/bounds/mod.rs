@@ -73,6 +73,9 @@ impl Bounds {
     }
 }
 
+/// Values that are looked through as a piece.
+const PIECE: usize = 1 << 12;
+
 impl Mesh {
     /// The smallest box that holds every triangle; positions that no triangle uses do not count.
     pub fn bounds(&self) -> Bounds {
@@ -82,15 +85,51 @@ impl Mesh {
 
     /// The same relative to the origin.
     fn extremes(&self) -> (Vec3, Vec3) {
+        let all = self
+            .positions
+            .par_chunks(PIECE)
+            .map(|piece| piece.iter().fold(empty(), |b, p| (b.0.min(*p), b.1.max(*p))))
+            .reduce(empty, join);
+        // Most meshes use all their positions. Then it is the box of these, as it is if only those on its
+        // sides are used, and the corners need not be looked up one by one.
+        if self.reaches_sides(all) { all } else { self.extremes_of_corners() }
+    }
+
+    /// Whether a triangle has a corner on each side of a box around all positions.
+    fn reaches_sides(&self, (min, max): (Vec3, Vec3)) -> bool {
+        let first = |on_side: &(dyn Fn(&Vec3) -> bool + Sync)| {
+            let number = self.positions.iter().position(on_side)?;
+            u32::try_from(number).ok()
+        };
+        let sides = [
+            first(&|p| p.x == min.x),
+            first(&|p| p.y == min.y),
+            first(&|p| p.z == min.z),
+            first(&|p| p.x == max.x),
+            first(&|p| p.y == max.y),
+            first(&|p| p.z == max.z),
+        ];
+        let corners = self.indices.as_flattened();
+        sides.into_iter().all(|side| side.is_some_and(|number| is_among(number, corners)))
+    }
+
+    /// The box of all corners.
+    fn extremes_of_corners(&self) -> (Vec3, Vec3) {
         self.indices
             .par_iter()
-            .with_min_len(1 << 12)
+            .with_min_len(PIECE)
             .fold(empty, |b, triangle| {
                 let corners = triangle.iter().filter_map(|&i| self.positions.get(i as usize));
                 corners.fold(b, |(min, max), p| (min.min(*p), max.max(*p)))
             })
             .reduce(empty, join)
     }
+}
+
+/// Whether `number` is one of `all`.
+fn is_among(number: u32, all: &[u32]) -> bool {
+    // Pieces without a branch for each.
+    all.chunks(PIECE).any(|piece| piece.iter().fold(false, |any, &n| any | (n == number)))
 }
 
 impl Points {

@@ -169,7 +169,9 @@ fn corners(
         let message = format!("`{field}` holds {} for {triangles} triangles", indices.len());
         faults.say(field, message);
     }
-    let is_right = |i: u32| ((i as usize) < count) | (optional & (i == NO_INDEX));
+    // No index is as high as `u32::MAX`, which is none.
+    let most = u32::try_from(count).unwrap_or(u32::MAX);
+    let is_right = |i: u32| (i < most) | (optional & (i == NO_INDEX));
     let right = |corners: &[u32; 3]| corners.iter().fold(true, |all, &i| all & is_right(i));
     let wrong = |corners: &[u32; 3]| {
         let index = corners.iter().find(|&&i| !is_right(i))?;
