@@ -77,11 +77,12 @@ impl Camera {
         let dir = match self.kind {
             CameraKind::Perspective { .. } | CameraKind::Orthographic { .. } => {
                 let lens = self.has_lens().then(|| concentric_disc(lens.map(f64::from)));
-                let [origin, dir] = self.projective(place.to_array(), size, lens);
+                let [x, y] = on_screen(place.to_array(), size);
+                let [origin, dir] = self.projective([x, y], lens);
                 return Some([origin, dir].map(DVec3::from_array));
             }
             CameraKind::Fisheye { .. } => {
-                let [x, y] = on_screen(place.to_array(), width, height);
+                let [x, y] = on_screen(place.to_array(), size);
                 // The circle touches the nearer edges.
                 let circle = (width / height).min(1.0);
                 self.fisheye(x / circle, y / circle)?
@@ -114,48 +115,38 @@ impl Camera {
 
     /// The rays of [`Camera::ray`] through eight places, of a camera that
     /// [is projective](Camera::is_projective); of one that [has a lens](Camera::has_lens) with places there.
+    /// Places are [on screen](on_screen), x and y, in two halves.
     #[inline(always)]
     pub(crate) fn projective_rays<S: Simd>(
         &self,
         simd: S,
         [x, y]: [[f64x4<S>; 2]; 2],
-        size: [u32; 2],
         lens: Option<&[[f32; 8]; 2]>,
-    ) -> Rays8 {
+        to: &mut Rays8,
+    ) {
         let [low_lens, high_lens] = match lens {
             Some(lens) => concentric_disc8(simd, lens).map(Some),
             None => [None, None],
         };
-        let [low_o, low] = self.projective([x[0], y[0]], size, low_lens);
-        let [high_o, high] = self.projective([x[1], y[1]], size, high_lens);
-        Rays8 {
-            origin: [
-                whole(low_o[0], high_o[0]),
-                whole(low_o[1], high_o[1]),
-                whole(low_o[2], high_o[2]),
-            ],
-            dir: [
-                low[0].narrow(high[0]).into(),
-                low[1].narrow(high[1]).into(),
-                low[2].narrow(high[2]).into(),
-            ],
-            there: 0xff,
-            ..Rays8::NONE
+        let [low_o, low] = self.projective([x[0], y[0]], low_lens);
+        let [high_o, high] = self.projective([x[1], y[1]], high_lens);
+        for axis in 0..3 {
+            to.origin[axis] = whole(low_o[axis], high_o[axis]);
+            to.dir[axis] = low[axis].narrow(high[axis]).into();
         }
+        (to.t_min, to.t_max, to.there) = (Rays8::NONE.t_min, Rays8::NONE.t_max, 0xff);
     }
 
-    /// Origin and unit direction of the ray through a place of a projective picture. `lens`: a point of
-    /// the unit disc; the ray starts there on the lens, and meets the plane of focus where it would
-    /// have from the middle.
+    /// Origin and unit direction of the ray through a place of a projective picture, [on
+    /// screen](on_screen). `lens`: a point of the unit disc; the ray starts there on the lens, and meets
+    /// the plane of focus where it would have from the middle.
     #[inline(always)]
     fn projective<F: Lanes<Scalar = f64>>(
         &self,
-        place: [F; 2],
-        size: [u32; 2],
+        [x, y]: [F; 2],
         lens: Option<[F; 2]>,
     ) -> [[F; 3]; 2] {
         let Self { eye, right, up, forward, half, aperture, focus, .. } = *self;
-        let [x, y] = on_screen(place, f64::from(size[0]), f64::from(size[1]));
         let off = [
             (x * right.x + y * up.x) * half,
             (x * right.y + y * up.y) * half,
@@ -201,10 +192,22 @@ impl Camera {
     }
 }
 
-/// A place from the picture's middle, in half heights; y up.
+/// A place from the middle of a picture of `size` pixels, in half heights; y up.
 #[inline(always)]
-fn on_screen<F: Lanes<Scalar = f64>>([x, y]: [F; 2], width: f64, height: f64) -> [F; 2] {
-    [(x * 2.0 + -width) / height, (y * -2.0 + height) / height]
+pub(crate) fn on_screen<F: Lanes<Scalar = f64>>([x, y]: [F; 2], size: [u32; 2]) -> [F; 2] {
+    [across_screen(x, size), up_screen(y, size)]
+}
+
+/// The same of x alone.
+#[inline(always)]
+pub(crate) fn across_screen<F: Lanes<Scalar = f64>>(x: F, [width, height]: [u32; 2]) -> F {
+    (x * 2.0 + -f64::from(width)) / f64::from(height)
+}
+
+/// The same of y alone.
+#[inline(always)]
+pub(crate) fn up_screen<F: Lanes<Scalar = f64>>(y: F, [_, height]: [u32; 2]) -> F {
+    (y * -2.0 + f64::from(height)) / f64::from(height)
 }
 
 /// A point of the unit disc from one of the unit square, areas kept (Shirley and Chiu 1997).
@@ -282,7 +285,11 @@ mod tests {
                 let on_lens = |lane: usize| [0.5 - 0.06 * lane as f32, 0.5 + 0.08 * i as f32];
                 let lens = [0, 1].map(|axis| std::array::from_fn(|lane| on_lens(lane)[axis]));
                 let lens8 = camera.has_lens().then_some(&lens);
-                let rays = camera.projective_rays(simd, places, SIZE, lens8);
+                let [x, y] = places;
+                let [low, high] = [on_screen([x[0], y[0]], SIZE), on_screen([x[1], y[1]], SIZE)];
+                let places = [[low[0], high[0]], [low[1], high[1]]];
+                let mut rays = Rays8::NONE;
+                camera.projective_rays(simd, places, lens8, &mut rays);
                 for lane in 0..8 {
                     let one = camera.ray(place(lane), SIZE, on_lens(lane));
                     assert_eq!(Some(rays.get(lane)), one, "{kind:?}, {aperture}");

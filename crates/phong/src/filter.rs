@@ -38,7 +38,13 @@ impl Filter {
     /// [`Filter::sample`] of eight points: the offsets across, those down, and the weights.
     #[inline(always)]
     pub(crate) fn sample8(&self, [u, v]: [[f32; 8]; 2]) -> [[f32; 8]; 3] {
-        let mut out = [[0.0; 8]; 3];
+        let mut out = [[1.0; 8]; 3];
+        if self.shape.is_none() {
+            for lane in 0..8 {
+                (out[0][lane], out[1][lane]) = (u[lane] - 0.5, v[lane] - 0.5);
+            }
+            return out;
+        }
         for lane in 0..8 {
             let FilterSample { offset: [x, y], weight } = self.sample([u[lane], v[lane]]);
             (out[0][lane], out[1][lane], out[2][lane]) = (x, y, weight);

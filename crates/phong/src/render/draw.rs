@@ -8,7 +8,7 @@ use phong_bvh::{Kernel, Rays8, lanes};
 use phong_scene::Background;
 
 use super::RenderOptions;
-use crate::camera::Camera;
+use crate::camera::{Camera, across_screen, up_screen};
 use crate::filter::Filter;
 use crate::integrator::{Bundle, CameraRay, Integrator};
 use crate::sampling::{Places8, Sampler, Samplers8, Use};
@@ -29,7 +29,10 @@ impl Pixels8 {
     pub(super) fn new([x, y]: [u32; 2], len: u32, options: &RenderOptions) -> Self {
         let sampler = |x: u32| Sampler::new([x, y], 0, options.samples(), options.seed());
         let mut samplers = Samplers8::splat(sampler(x));
-        (0..len).for_each(|lane| samplers.set(lane as usize, sampler(x + lane)));
+        // Of one sample they are all the same.
+        if options.samples() > 1 {
+            (0..len).for_each(|lane| samplers.set(lane as usize, sampler(x + lane)));
+        }
         Self { first: [x, y], len, samplers, places: Places8::new(&samplers, Use::Pixel) }
     }
 
@@ -56,13 +59,12 @@ impl Samples {
         pixels: &[Pixels8],
         indices: Range<u32>,
     ) {
-        self.bundle.clear();
-        self.weights.clear();
         let soft = integrator.scene.has_soft_lights();
         let (camera, is_far) = (integrator.scene.camera(), integrator.scene.is_far(options.size()));
         if camera.is_projective() && !is_far {
-            let to = self;
-            let bvh = integrator.scene.world();
+            self.bundle.samplers.clear();
+            self.bundle.heights.clear();
+            let (to, bvh) = (self, integrator.scene.world());
             let gradient = matches!(integrator.scene.background(), Background::Gradient { .. });
             bvh.run(ProjectiveRays {
                 camera,
@@ -76,6 +78,8 @@ impl Samples {
             });
             return;
         }
+        self.bundle.clear();
+        self.weights.clear();
         for index in indices {
             for pixels in pixels {
                 let samplers = pixels.samplers.at(index);
@@ -89,17 +93,12 @@ impl Samples {
                         heights[lane] = height;
                     }
                 }
-                self.push(&rays, soft.then_some(samplers), weights);
+                self.bundle.rays.push(rays);
+                self.bundle.samplers.extend(soft.then_some(samplers));
                 self.bundle.heights.push(heights);
+                self.weights.push(weights);
             }
         }
-    }
-
-    #[inline(always)]
-    fn push(&mut self, rays: &Rays8, samplers: Option<Samplers8>, weights: [f32; 8]) {
-        self.bundle.rays.push(*rays);
-        self.bundle.samplers.extend(samplers);
-        self.weights.push(weights);
     }
 }
 
@@ -158,25 +157,47 @@ impl Kernel for ProjectiveRays<'_> {
         let low: f64x4<S> = [0.0, 1.0, 2.0, 3.0].simd_into(simd);
         let high: f64x4<S> = [4.0, 5.0, 6.0, 7.0].simd_into(simd);
         let lens = camera.has_lens();
+        let size = options.size();
+        // A picture of one sample has it in the middle of each pixel.
+        let middle = (options.samples() == 1).then(|| filter.sample8([[0.5; 8]; 2]));
+        let Samples { bundle: Bundle { rays, samplers, heights }, weights } = to;
+        // What is there is written over.
+        let len = indices.len() * pixels.len();
+        rays.resize(len, Rays8::NONE);
+        weights.resize(len, [0.0; 8]);
+        let mut eights = rays.iter_mut().zip(weights);
         for index in indices {
-            for pixels in pixels {
-                let samplers = soft.then(|| pixels.samplers.at(index));
-                let [x, y, weights] = filter.sample8(pixels.places.at([index; 8]));
-                let dx = f32x8::load_array(simd, x).widen();
-                let dy = f32x8::load_array(simd, y).widen();
+            for (pixels, (rays, weights)) in pixels.iter().zip(&mut eights) {
                 let [left, top] = [f64::from(pixels.first[0]), f64::from(pixels.first[1]) + 0.5];
+                let [dx, dy, own] = match middle {
+                    Some(middle) => middle,
+                    None => filter.sample8(pixels.places.at([index; 8])),
+                };
+                *weights = own;
+                let dx = f32x8::load_array(simd, dx).widen();
                 let x = [low + left + 0.5 + dx.0, high + left + 0.5 + dx.1];
-                let y = [dy.0 + top, dy.1 + top];
-                let lens = lens.then(|| pixels.samplers.at(index).pair(Use::Lens));
-                let mut rays = camera.projective_rays(simd, [x, y], options.size(), lens.as_ref());
+                let x = [across_screen(x[0], size), across_screen(x[1], size)];
+                let (y, up);
+                if middle.is_some() {
+                    // One height, of all of them.
+                    let row = f64::from(dy[0]) + top;
+                    y = [SimdBase::splat(simd, row); 2];
+                    up = [SimdBase::splat(simd, up_screen(row, size)); 2];
+                } else {
+                    let dy = f32x8::load_array(simd, dy).widen();
+                    y = [dy.0 + top, dy.1 + top];
+                    up = [up_screen(y[0], size), up_screen(y[1], size)];
+                }
+                let on_lens = lens.then(|| pixels.samplers.at(index).pair(Use::Lens));
+                camera.projective_rays(simd, [x, up], on_lens.as_ref(), rays);
                 rays.there = (1 << pixels.len) - 1;
-                to.push(&rays, samplers, weights);
+                samplers.extend(soft.then(|| pixels.samplers.at(index)));
                 if gradient {
-                    let mut heights = [0.0; 8];
+                    let mut at = [0.0; 8];
                     for lane in lanes(rays.there) {
-                        heights[lane] = height(y[lane / 4][lane % 4], options.size());
+                        at[lane] = height(y[lane / 4][lane % 4], size);
                     }
-                    to.bundle.heights.push(heights);
+                    heights.push(at);
                 }
             }
         }
