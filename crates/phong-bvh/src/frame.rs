@@ -197,21 +197,27 @@ impl Frame {
 
     /// Eight rays where the axes are the world's, none of them moved along, into registers.
     #[inline(always)]
-    pub(crate) fn load<S: Simd>(&self, simd: S, rays: &Rays8) -> Loaded<S> {
-        let zero: f64x4<S> = SimdBase::splat(simd, 0.0);
-        let [x, y, z] = &rays.origin;
-        let [from_x, from_y, from_z] = splat3(zero, self.origin.to_array());
-        let [x, y, z] = [halves(simd, x), halves(simd, y), halves(simd, z)];
+    fn load<S: Simd>(&self, simd: S, rays: &Rays8) -> Loaded<S> {
         Loaded {
-            origin: [
-                (x[0] - from_x).narrow(x[1] - from_x),
-                (y[0] - from_y).narrow(y[1] - from_y),
-                (z[0] - from_z).narrow(z[1] - from_z),
-            ],
+            origin: self.load_origins(simd, rays),
             dir: load3(simd, &rays.dir),
             t_min: f32x8::load_array_ref(simd, &rays.t_min),
             t_max: f32x8::load_array_ref(simd, &rays.t_max),
         }
+    }
+
+    /// Where eight rays start, under the same conditions.
+    #[inline(always)]
+    pub(crate) fn load_origins<S: Simd>(&self, simd: S, rays: &Rays8) -> [f32x8<S>; 3] {
+        let zero: f64x4<S> = SimdBase::splat(simd, 0.0);
+        let [x, y, z] = &rays.origin;
+        let [from_x, from_y, from_z] = splat3(zero, self.origin.to_array());
+        let [x, y, z] = [halves(simd, x), halves(simd, y), halves(simd, z)];
+        [
+            (x[0] - from_x).narrow(x[1] - from_x),
+            (y[0] - from_y).narrow(y[1] - from_y),
+            (z[0] - from_z).narrow(z[1] - from_z),
+        ]
     }
 
     /// [`Frame::rays`] into registers, where the axes are the world's and no ray is moved along; else none.

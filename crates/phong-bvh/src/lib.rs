@@ -34,6 +34,6 @@ pub use geometry::{Canonical, Caps, Cylinder, Plane, Primitives, Solid, Sphere};
 pub use lanes::Lanes;
 pub use level::{Kernel, Level};
 pub use ray::{Coordinates, Cost, Hit, Ray, Surface};
-pub use surface::{Surfaces8, offset_origin, offset_origins};
+pub use surface::{Surfaces8, offset_origin, offset_origins, offset_sides};
 pub use tree::Tree;
 pub use world::{Part, Stats, World};

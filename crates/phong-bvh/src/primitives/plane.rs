@@ -36,16 +36,35 @@ impl Plane {
         rays: &Loaded<S>,
     ) -> Option<(mask32x8<S>, f32x8<S>)> {
         let Loaded { origin: o, dir: d, t_min, t_max } = *rays;
-        let (ox, oy, oz) = (o[0].widen(), o[1].widen(), o[2].widen());
-        let (dx, dy, dz) = (d[0].widen(), d[1].widen(), d[2].widen());
-        let low = self.parts4([ox.0, oy.0, oz.0], [dx.0, dy.0, dz.0]);
-        let high = self.parts4([ox.1, oy.1, oz.1], [dx.1, dy.1, dz.1]);
+        let [low, high] = match self.axis() {
+            // Of two coordinates nothing is left, so that they are not asked for.
+            Some(0) => self.parts_along(0, o[0], d[0]),
+            Some(1) => self.parts_along(1, o[1], d[1]),
+            Some(_) => self.parts_along(2, o[2], d[2]),
+            None => {
+                let (ox, oy, oz) = (o[0].widen(), o[1].widen(), o[2].widen());
+                let (dx, dy, dz) = (d[0].widen(), d[1].widen(), d[2].widen());
+                let low = self.parts4([ox.0, oy.0, oz.0], [dx.0, dy.0, dz.0]);
+                [low, self.parts4([ox.1, oy.1, oz.1], [dx.1, dy.1, dz.1])]
+            }
+        };
         // Most rays that leave a plane go away from it: no division.
         if !ahead(simd, low) && !ahead(simd, high) {
             return None;
         }
         let t: f32x8<S> = (low[0] / low[1]).narrow(high[0] / high[1]);
         Some((t_min.simd_lt(t) & t.simd_lt(t_max), t))
+    }
+
+    /// The number of the axis that its normal lies along, if it lies along one.
+    #[inline(always)]
+    pub(crate) fn axis(&self) -> Option<usize> {
+        match self.normal.abs().to_array() {
+            [1.0, 0.0, 0.0] => Some(0),
+            [0.0, 1.0, 0.0] => Some(1),
+            [0.0, 0.0, 1.0] => Some(2),
+            _ => None,
+        }
     }
 
     /// What [`Plane::solve`] divides, for four rays.
@@ -55,6 +74,14 @@ impl Plane {
         let off =
             (point.x - o[0]) * normal.x + (point.y - o[1]) * normal.y + (point.z - o[2]) * normal.z;
         [off, d[0] * normal.x + d[1] * normal.y + d[2] * normal.z]
+    }
+
+    /// The same, up to the sign of both, for twice four rays, where the normal lies along an axis: of
+    /// starts and directions the coordinates along that one.
+    #[inline(always)]
+    fn parts_along<S: Simd>(&self, axis: usize, o: f32x8<S>, d: f32x8<S>) -> [[f64x4<S>; 2]; 2] {
+        let (o, d, point) = (o.widen(), d.widen(), self.point[axis]);
+        [[point - o.0, d.0], [point - o.1, d.1]]
     }
 
     /// Two unit vectors that span the plane: along growing u and v, with `u × v = normal`.

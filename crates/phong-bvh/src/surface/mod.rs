@@ -23,18 +23,19 @@
 mod offset;
 mod point;
 
-pub use offset::{offset_origin, offset_origins};
+pub use offset::{offset_origin, offset_origins, offset_sides};
 
 use fearless_simd::{Simd, f32x8, f64x4, mask32x8, mask64x4, prelude::*, u32x8};
 use glam::{DVec2, DVec3, Vec3};
 
+use self::offset::is_coarse;
 use self::point::{
     Capsule, Point, capsule, corners, flat, line, on_capsule, on_plane, on_sphere, rounded, sphere,
     triangle,
 };
 use crate::{
     Coordinates, Cylinder, Hit, Hits8, Kernel, Primitives, Ray, Rays8, Sphere, Surface,
-    eights::halves,
+    eights::{halves, whole},
     frame::{Frame, Way, unit, wide as wide8},
     lanes, local,
     primitives::{
@@ -125,8 +126,8 @@ pub struct Surfaces8 {
     pub p_error: [[f32; 8]; 3],
     /// [`Surface::ng`].
     pub ng: [[f32; 8]; 3],
-    /// Whether some `p_error` may be less than what rounding a coordinate of `p` to f32 costs: where things
-    /// are far from the world's origin.
+    /// Whether some `p_error` may be less than what rounding a coordinate of `p` to f32 costs, as it is far
+    /// from the world's origin. Whoever makes a `p_error` smaller sets it.
     pub coarse: bool,
 }
 
@@ -167,15 +168,12 @@ impl<P: Places> Kernel for Surfaces<'_, P> {
                 left &= !same;
                 let (primitives, frame) = world.place(hits.part[first]);
                 // The other lanes repeat the first.
-                let mut locals = [hits.prim[first] as usize; 8];
-                for (lane, own) in locals.iter_mut().enumerate() {
-                    if same >> lane & 1 != 0 {
-                        *own = hits.prim[lane] as usize;
-                    }
-                }
+                let own = mask32x8::from_bitmask(simd, same.into());
+                let others = u32x8::splat(simd, hits.prim[first]);
+                let locals = own.select(u32x8::load_array_ref(simd, &hits.prim), others);
+                let locals = <[u32; 8]>::from(locals).map(|number| number as usize);
                 // What is in lanes without a hit is unspecified.
-                let all = same == hits.met;
-                let to = mask32x8::from_bitmask(simd, if all { 0xff } else { same.into() });
+                let to = if same == hits.met { 0xff } else { same };
                 let one_by_one = is_one_by_one(primitives, &locals)
                     || !eight(simd, (primitives, frame), &locals, rays, hits, to, out);
                 if one_by_one {
@@ -201,10 +199,17 @@ fn is_one_by_one(primitives: &Primitives, locals: &[usize; 8]) -> bool {
 }
 
 #[inline(always)]
-fn put<S: Simd>(simd: S, to: &mut [[f32; 8]; 3], lanes: mask32x8<S>, value: [f32x8<S>; 3]) {
-    for axis in 0..3 {
-        let old = f32x8::load_array_ref(simd, &to[axis]);
-        lanes.select(value[axis], old).store_array(&mut to[axis]);
+fn put<S: Simd>(simd: S, to: &mut [[f32; 8]; 3], lanes: u32, value: [f32x8<S>; 3]) {
+    if lanes == 0xff {
+        for (to, value) in to.iter_mut().zip(value) {
+            value.store_array(to);
+        }
+        return;
+    }
+    let lanes = mask32x8::from_bitmask(simd, lanes.into());
+    for (to, value) in to.iter_mut().zip(value) {
+        let old = f32x8::load_array_ref(simd, to);
+        lanes.select(value, old).store_array(to);
     }
 }
 
@@ -222,7 +227,7 @@ fn eight<S: Simd>(
     locals: &[usize; 8],
     rays: &Rays8,
     hits: &Hits8,
-    lanes: mask32x8<S>,
+    lanes: u32,
     out: &mut Surfaces8,
 ) -> bool {
     let [a, b, c, d, e, f, g, h] = *locals;
@@ -278,15 +283,22 @@ fn eight<S: Simd>(
     let [high_p, high_error, high_ng] = frame.leave([[x.1, y.1, z.1], high.p_error, high.ng]);
     put(simd, &mut out.p_error, lanes, join(low_error, high_error));
     put(simd, &mut out.ng, lanes, join(low_ng, high_ng));
-    out.coarse |= !frame.is_of_world();
-    let bits = lanes.to_bitmask();
+    let bits = u64::from(lanes);
     let (of_low, of_high): (mask64x4<S>, mask64x4<S>) =
         (SimdMask::from_bitmask(simd, bits & 15), SimdMask::from_bitmask(simd, bits >> 4));
     for axis in 0..3 {
-        let [old_low, old_high] = halves(simd, &out.p[axis]);
-        let to = out.p[axis].as_chunks_mut::<4>().0;
-        of_low.select(low_p[axis], old_low).store_array(&mut to[0]);
-        of_high.select(high_p[axis], old_high).store_array(&mut to[1]);
+        let (mut low, mut high) = (low_p[axis], high_p[axis]);
+        if lanes != 0xff {
+            let [old_low, old_high] = halves(simd, &out.p[axis]);
+            (low, high) = (of_low.select(low, old_low), of_high.select(high, old_high));
+        }
+        out.p[axis] = whole(low, high);
+    }
+    if !frame.is_of_world() {
+        for axis in 0..3 {
+            let error = f32x8::load_array_ref(simd, &out.p_error[axis]);
+            out.coarse |= is_coarse(simd, &out.p[axis], error) & bits != 0;
+        }
     }
     true
 }

@@ -1,11 +1,11 @@
 //! Where rays start that leave a surface: one, or eight.
 
-use fearless_simd::{Simd, f32x8, prelude::*, u32x8};
+use fearless_simd::{Simd, f32x8, f64x4, mask64x4, prelude::*, u32x8};
 use glam::{DVec3, Vec3};
 
 use super::Surfaces8;
 use crate::{
-    eights::{halves, lanes, whole},
+    eights::{halves, whole},
     local::load3,
 };
 
@@ -55,26 +55,40 @@ pub fn offset_origins<S: Simd>(
     dir: [f32x8<S>; 3],
     to: &mut [[f64; 8]; 3],
 ) {
+    let ng = load3(simd, &surface.ng);
     let zero = f32x8::splat(simd, 0.0);
-    let (ng, error) = (load3(simd, &surface.ng), load3(simd, &surface.p_error));
     let below = (dir[0] * ng[0] + dir[1] * ng[1] + dir[2] * ng[2]).simd_lt(zero);
-    let keep = ng[0].abs() * error[0] + ng[1].abs() * error[1] + ng[2].abs() * error[2];
-    for axis in 0..3 {
-        let offset = keep * below.select(-ng[axis], ng[axis]);
-        let error = surface.coarse.then_some(error[axis]);
-        away(simd, &surface.p[axis], error, offset, &mut to[axis]);
-    }
+    let side =
+        [below.select(-ng[0], ng[0]), below.select(-ng[1], ng[1]), below.select(-ng[2], ng[2])];
+    let [x, y, z] = offset_sides(simd, surface, side);
+    *to = [whole(x[0], x[1]), whole(y[0], y[1]), whole(z[0], z[1])];
 }
 
-/// Moves eight coordinates; `error`: those of which this may be too coarse in f32.
+/// [`offset_origin`] for eight rays that leave on the side of `side`, which is the surface's `ng` or its
+/// opposite: the same bits, in two halves.
 #[inline(always)]
-fn away<S: Simd>(
+pub fn offset_sides<S: Simd>(
     simd: S,
-    p: &[f64; 8],
-    error: Option<f32x8<S>>,
-    offset: f32x8<S>,
-    to: &mut [f64; 8],
-) {
+    surface: &Surfaces8,
+    side: [f32x8<S>; 3],
+) -> [[f64x4<S>; 2]; 3] {
+    let error = load3(simd, &surface.p_error);
+    let keep = side[0].abs() * error[0] + side[1].abs() * error[1] + side[2].abs() * error[2];
+    let offset = [keep * side[0], keep * side[1], keep * side[2]];
+    let [x, y, z] = &surface.p;
+    if surface.coarse {
+        return [
+            away_coarse(simd, x, error[0], offset[0]),
+            away_coarse(simd, y, error[1], offset[1]),
+            away_coarse(simd, z, error[2], offset[2]),
+        ];
+    }
+    [away(simd, x, offset[0])[0], away(simd, y, offset[1])[0], away(simd, z, offset[2])[0]]
+}
+
+/// Moves eight coordinates, and rounds them away from `p`; and the same not rounded.
+#[inline(always)]
+fn away<S: Simd>(simd: S, p: &[f64; 8], offset: f32x8<S>) -> [[f64x4<S>; 2]; 2] {
     let zero = f32x8::splat(simd, 0.0);
     let [low, high] = halves(simd, p);
     let by = offset.widen();
@@ -88,19 +102,26 @@ fn away<S: Simd>(
     let least = f32x8::splat(simd, f32::from_bits(1));
     let next = up.simd_eq(zero).select(least, next);
     let next = down.select(-next, next);
-    let near = (down | offset.simd_gt(zero)).select(next, near);
-    let wide = near.widen();
-    let halves = to.as_chunks_mut::<4>().0;
-    wide.0.store_array(&mut halves[0]);
-    wide.1.store_array(&mut halves[1]);
-    if let Some(error) = error {
-        let point: f32x8<S> = low.narrow(high);
-        let coarse = error.simd_lt(point.abs() * HALF);
-        let moved = whole(moved[0], moved[1]);
-        for lane in lanes(coarse.to_bitmask() as u32) {
-            to[lane] = moved[lane];
-        }
-    }
+    let near = (down | offset.simd_gt(zero)).select(next, near).widen();
+    [[near.0, near.1], moved]
+}
+
+/// [`away`] where the `error` of some may be less than what rounding costs.
+#[inline(always)]
+fn away_coarse<S: Simd>(simd: S, p: &[f64; 8], error: f32x8<S>, offset: f32x8<S>) -> [f64x4<S>; 2] {
+    let [near, moved] = away(simd, p, offset);
+    let bits = is_coarse(simd, p, error);
+    let (low, high): (mask64x4<S>, mask64x4<S>) =
+        (SimdMask::from_bitmask(simd, bits & 15), SimdMask::from_bitmask(simd, bits >> 4));
+    [low.select(moved[0], near[0]), high.select(moved[1], near[1])]
+}
+
+/// Of which of eight coordinates the error is less than what rounding them to f32 costs, a bit each.
+#[inline(always)]
+pub(super) fn is_coarse<S: Simd>(simd: S, p: &[f64; 8], error: f32x8<S>) -> u64 {
+    let [low, high] = halves(simd, p);
+    let point: f32x8<S> = low.narrow(high);
+    error.simd_lt(point.abs() * HALF).to_bitmask()
 }
 
 #[cfg(test)]

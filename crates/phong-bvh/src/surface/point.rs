@@ -44,7 +44,7 @@ pub(super) fn triangle<F: Lanes<Scalar = f64>>([a, b, c]: [[F; 3]; 3], u: F, v: 
     let p = along(along(a, u, ab), v, ac);
     let slack = farthest(p, a).max(farthest(p, b)).max(farthest(p, c));
     let slack = slack * (8.0 * ROUNDING);
-    rounded(p, unit(cross(ab, ac)), u.splat(0.0), [slack, slack, slack])
+    even(p, unit(cross(ab, ac)), [slack, slack, slack])
 }
 
 /// How far one point is from another along the axis where that is most.
@@ -173,7 +173,13 @@ pub(super) fn flat<F: Lanes<Scalar = f64>>(plane: &Plane, o: [F; 3], d: [F; 3]) 
     let point = splat3(o[0], plane.point.to_array());
     let normal = splat3(o[0], plane.normal.to_array());
     let slack = splat3(o[0], (f64::EPSILON * 8.0 * plane.point.abs()).to_array());
-    rounded(on_plane(point, normal, o, d), normal, o[0].splat(0.0), slack)
+    let p = match plane.axis() {
+        Some(0) => on_plane_across::<F, 0>(point, o, d),
+        Some(1) => on_plane_across::<F, 1>(point, o, d),
+        Some(_) => on_plane_across::<F, 2>(point, o, d),
+        None => on_plane(point, normal, o, d),
+    };
+    even(p, normal, slack)
 }
 
 #[inline(always)]
@@ -186,6 +192,19 @@ pub(super) fn on_plane<F: Lanes<Scalar = f64>>(
     let t = dot(sub(point, o), normal) / dot(d, normal);
     let p = along(o, t, d);
     along(p, t.splat(0.0) - dot(sub(p, point), normal), normal)
+}
+
+/// The same where the normal lies along an axis, so that two of its numbers are 0.
+#[inline(always)]
+fn on_plane_across<F: Lanes<Scalar = f64>, const AXIS: usize>(
+    point: [F; 3],
+    o: [F; 3],
+    d: [F; 3],
+) -> [F; 3] {
+    let t = (point[AXIS] - o[AXIS]) / d[AXIS];
+    let mut p = along(o, t, d);
+    p[AXIS] = p[AXIS] - (p[AXIS] - point[AXIS]);
+    p
 }
 
 /// A point of the world with its unit normal and no less than its greatest curvature, given how far
@@ -205,11 +224,23 @@ pub(super) fn rounded<F: Lanes<Scalar = f64>>(
     let along2 = dot(rounding, rounding) * 9.0;
     let bend = curvature * along2 * 0.5;
     // No deeper than it is along, at the apex of a cone neither: 0 × ∞ is NaN.
-    let bend = F::select(along2.gt(bend * bend), bend, along2.sqrt());
+    let bent = along2.gt(bend * bend);
+    let bend = if F::all(bent) { bend } else { F::select(bent, bend, along2.sqrt()) };
     let p_error = [
         rounding[0] + bend + slack[0],
         rounding[1] + bend + slack[1],
         rounding[2] + bend + slack[2],
+    ];
+    Point { p, p_error, ng }
+}
+
+/// [`rounded`] of what does not bend.
+#[inline(always)]
+fn even<F: Lanes<Scalar = f64>>(p: [F; 3], ng: [F; 3], slack: [F; 3]) -> Point<F> {
+    let p_error = [
+        p[0].abs() * ROUNDING + slack[0],
+        p[1].abs() * ROUNDING + slack[1],
+        p[2].abs() * ROUNDING + slack[2],
     ];
     Point { p, p_error, ng }
 }

@@ -11,7 +11,7 @@ use crate::{
     frame::Frame,
     lanes,
     level::Kernel,
-    local::Loaded,
+    local::{Loaded, load3},
     node8::Row,
     primitives::sphere::{BLOCK, Closest8},
     traverse::{highest, lowest},
@@ -36,11 +36,22 @@ pub(super) struct Spheres<'a> {
 
 impl Few<'_> {
     /// The spheres that any of the rays may hit, one bit each. Sets `all` to false, and says none from then
-    /// on, if some rays may be too far away to be taken to them as they are.
+    /// on, if some rays may be too far away to be taken to them as they are. `starts` are set to where the
+    /// rays start about the frame's origin.
     #[inline(always)]
-    fn near<S: Simd>(&self, simd: S, rays: &[Rays8], all: &mut bool) -> u32 {
-        let Some(Spheres { block, .. }) = self.spheres.filter(|_| *all) else { return 0 };
-        let near = near(simd, self.frame, rays, block);
+    fn near<S: Simd>(&self, simd: S, rays: &[Rays8], starts: &mut [Lanes3], all: &mut bool) -> u32 {
+        if self.planes.is_empty() && self.spheres.is_none() {
+            return 0;
+        }
+        for (rays, starts) in rays.iter().zip(&mut *starts) {
+            let [x, y, z] = self.frame.load_origins(simd, rays);
+            *starts = [x.into(), y.into(), z.into()];
+        }
+        let Some(Spheres { block, .. }) = self.spheres else { return 0 };
+        if !*all {
+            return 0;
+        }
+        let near = near(simd, self.frame, rays, starts, block);
         *all = near.is_some();
         near.unwrap_or(0)
     }
@@ -61,22 +72,22 @@ impl Kernel for Closest<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> bool {
-        let Self { few: few @ Few { frame, planes, spheres }, first, rays, hits } = self;
-        let mut all = true;
+        let Self { few: few @ Few { planes, spheres, .. }, first, rays, hits } = self;
+        let (mut all, mut starts) = (true, NO_STARTS);
         for (rays, hits) in rays.chunks(TOGETHER).zip(hits.chunks_mut(TOGETHER)) {
-            let near = few.near(simd, rays, &mut all);
+            let near = few.near(simd, rays, &mut starts, &mut all);
             if near == 0 && planes.is_empty() {
                 if first {
                     hits.fill(Hits8::NONE);
                 }
                 continue;
             }
-            for (rays, hits) in rays.iter().zip(hits) {
+            for (i, (rays, hits)) in rays.iter().zip(hits).enumerate() {
                 if first {
                     hits.met = 0;
                 }
                 let there = mask32x8::from_bitmask(simd, rays.there.into());
-                let rays = &frame.load(simd, rays);
+                let rays = &loaded(simd, &starts[i], rays);
                 let mut best = Best::load(simd, hits, rays.t_max);
                 for (plane, part) in planes {
                     if let Some((met, t)) = plane.intersect8(simd, rays) {
@@ -182,19 +193,19 @@ impl Kernel for Any<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> bool {
-        let Self { few: few @ Few { frame, planes, spheres }, rays, blocked } = self;
-        let mut all = true;
+        let Self { few: few @ Few { planes, spheres, .. }, rays, blocked } = self;
+        let (mut all, mut starts) = (true, NO_STARTS);
         for (rays, blocked) in rays.chunks(TOGETHER).zip(blocked.chunks_mut(TOGETHER)) {
-            let near = few.near(simd, rays, &mut all);
+            let near = few.near(simd, rays, &mut starts, &mut all);
             if near == 0 && planes.is_empty() {
                 continue;
             }
-            for (rays, blocked) in rays.iter().zip(blocked) {
+            for (i, (rays, blocked)) in rays.iter().zip(blocked).enumerate() {
                 let there = rays.there;
                 if there & !*blocked == 0 {
                     continue;
                 }
-                let rays = &frame.load(simd, rays);
+                let rays = &loaded(simd, &starts[i], rays);
                 for (plane, _) in planes {
                     if let Some((met, _)) = plane.intersect8(simd, rays) {
                         *blocked |= met.to_bitmask() as u32;
@@ -220,6 +231,23 @@ impl Kernel for Any<'_> {
 /// So many eights are tested together first for whether any of them can hit a sphere.
 const TOGETHER: usize = 16;
 
+/// Three numbers of each of eight rays.
+type Lanes3 = [[f32; 8]; 3];
+
+/// Room for where the rays start.
+const NO_STARTS: [Lanes3; TOGETHER] = [[[0.0; 8]; 3]; TOGETHER];
+
+/// Eight rays that start there.
+#[inline(always)]
+fn loaded<S: Simd>(simd: S, starts: &Lanes3, rays: &Rays8) -> Loaded<S> {
+    Loaded {
+        origin: load3(simd, starts),
+        dir: load3(simd, &rays.dir),
+        t_min: f32x8::load_array_ref(simd, &rays.t_min),
+        t_max: f32x8::load_array_ref(simd, &rays.t_max),
+    }
+}
+
 /// The spheres of a block that any of the rays may hit, one bit each; `None` if some rays may be too far
 /// away to enter the block as they are.
 ///
@@ -227,10 +255,16 @@ const TOGETHER: usize = 16;
 /// ray's origin to the middle and `d` unit. From the bounds of all origins and directions follow
 /// bounds of each coordinate of that, and so a distance that no ray comes nearer than.
 #[inline(always)]
-fn near<S: Simd>(simd: S, frame: &Frame, rays: &[Rays8], block: &[Row; BLOCK]) -> Option<u32> {
+fn near<S: Simd>(
+    simd: S,
+    frame: &Frame,
+    rays: &[Rays8],
+    starts: &[Lanes3],
+    block: &[Row; BLOCK],
+) -> Option<u32> {
     let used = block[BLOCK - 1].0.iter().filter(|n| n.to_bits() != u32::MAX).count();
     let used = (1 << used) - 1;
-    let Some([ox, oy, oz, dx, dy, dz]) = bounds(simd, frame, rays) else { return Some(0) };
+    let Some([ox, oy, oz, dx, dy, dz]) = bounds(simd, rays, starts) else { return Some(0) };
     if !frame.is_near([ox, oy, oz]) {
         return None;
     }
@@ -252,16 +286,23 @@ fn near<S: Simd>(simd: S, frame: &Frame, rays: &[Rays8], block: &[Row; BLOCK]) -
 
 /// The bounds of origins and directions; `None` without rays.
 #[inline(always)]
-fn bounds<S: Simd>(simd: S, frame: &Frame, rays: &[Rays8]) -> Option<[[f32; 2]; 6]> {
+fn bounds<S: Simd>(simd: S, rays: &[Rays8], starts: &[Lanes3]) -> Option<[[f32; 2]; 6]> {
     let most = f32x8::splat(simd, f32::INFINITY);
     let (mut low, mut high) = ([most; 6], [-most; 6]);
     let mut any = 0;
-    for rays in rays {
+    for (rays, starts) in rays.iter().zip(starts) {
         any |= rays.there;
+        let ([ox, oy, oz], [dx, dy, dz]) = (load3(simd, starts), load3(simd, &rays.dir));
+        let columns = [ox, oy, oz, dx, dy, dz];
+        // In this order a NaN, which no ray should hold, changes nothing.
+        if rays.there == 0xff {
+            for (i, column) in columns.into_iter().enumerate() {
+                (low[i], high[i]) = (column.min(low[i]), column.max(high[i]));
+            }
+            continue;
+        }
         let there = mask32x8::from_bitmask(simd, rays.there.into());
-        let Loaded { origin: [ox, oy, oz], dir: [dx, dy, dz], .. } = frame.load(simd, rays);
-        for (i, column) in [ox, oy, oz, dx, dy, dz].into_iter().enumerate() {
-            // In this order a NaN, which no ray should hold, changes nothing.
+        for (i, column) in columns.into_iter().enumerate() {
             low[i] = there.select(column, most).min(low[i]);
             high[i] = there.select(column, -most).max(high[i]);
         }
