@@ -2,12 +2,11 @@
 
 use fearless_simd::{Simd, f32x8, prelude::*};
 use glam::{DVec3, Vec3};
-use phong_bvh::lanes::sub;
 use phong_bvh::{Lanes, halves};
 use phong_scene::{LightKind, Rgb};
 
 use crate::camera::{concentric_disc, concentric_disc8};
-use crate::math::lanes::{add, dot, normalize, scale, select3, splat3};
+use crate::math::lanes::{add, dot, normalize, scale, select3, splat3, sub};
 use crate::math::{Dir3, wide};
 
 /// A light in the world.

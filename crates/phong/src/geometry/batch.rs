@@ -1,9 +1,10 @@
 //! What belongs to the primitives of a tree's batch besides their shape.
 
-use glam::{DMat3, DVec3, Mat3, Vec2, Vec3};
+use glam::{DMat3, DVec3, Vec2, Vec3};
 use phong_bvh::Hit;
 use phong_scene::{NO_INDEX, Rgb, Shared};
 
+use super::smooth::{SmoothMesh, ToWorld};
 use crate::math::Dir3;
 
 /// What belongs to the primitives of one batch.
@@ -24,15 +25,6 @@ pub(crate) struct Batch {
     pub(super) apart: Option<DVec3>,
     /// Of a triangle among solids its number in the mesh, and its corners.
     pub(super) face: Option<(u32, [u32; 3])>,
-}
-
-/// What turns vectors of a mesh with normals into those of the world.
-#[derive(Debug)]
-pub(super) struct ToWorld {
-    /// Normals, up to their length.
-    pub(super) normals: Mat3,
-    /// Edges.
-    pub(super) edges: Mat3,
 }
 
 /// The objects that a batch's primitives belong to.
@@ -132,12 +124,11 @@ impl Batch {
         }
     }
 
-    /// Whether its surfaces have only what the shape and the material give them.
+    /// Whether the geometry brings no colours.
     #[inline]
-    pub(crate) fn is_plain(&self) -> bool {
-        let bare = |mesh: &MeshAttributes| mesh.normals.is_empty() && mesh.colors.is_empty();
-        let colors = self.colors.is_empty() && self.end_colors.is_empty();
-        colors && self.mesh.as_ref().is_none_or(|mesh| bare(mesh))
+    pub(crate) fn has_no_colors(&self) -> bool {
+        let bare = self.mesh.as_ref().is_none_or(|mesh| mesh.colors.is_empty());
+        bare && self.colors.is_empty() && self.end_colors.is_empty()
     }
 
     /// Whether it has what triangles of a mesh may have.
@@ -146,53 +137,22 @@ impl Batch {
         self.mesh.is_some()
     }
 
+    /// Its smooth normals, if it has some.
+    #[inline]
+    pub(crate) fn smooth(&self) -> Option<SmoothMesh<'_>> {
+        let mesh = self.mesh.as_ref().filter(|mesh| !mesh.normals.is_empty())?;
+        let (normals, normal_indices) = (&mesh.normals, &mesh.normal_indices);
+        Some(SmoothMesh { normals, normal_indices, to_world: self.to_world.as_deref() })
+    }
+
     /// The interpolated shading normal; `None` where the mesh has none. Normals of any length count as
     /// unit ones: those that are so, to rounding, are taken as they are.
     #[inline]
     pub(crate) fn normal(&self, local: u32, corners: [u32; 3], hit: &Hit) -> Option<Dir3> {
-        let mesh = self.mesh.as_ref()?;
-        let [a, b, c] = at_corners(&mesh.normals, &mesh.normal_indices, local, corners)?;
-        let [a, b, c] = [unit(a), unit(b), unit(c)];
-        let n = (1.0 - hit.u - hit.v) * a + hit.u * b + hit.v * c;
-        Dir3::new(self.to_world.as_ref().map_or(n, |to_world| to_world.normals * n))
-    }
-
-    /// The way from a point of a triangle to the curved surface that its normals stand for, in the world:
-    /// each corner's tangent plane lifts what lies below it onto itself, and the point takes the mean by
-    /// its weights. 0 where the mesh has no normals, or is not convex there. (Hanika, *Hacking the shadow
-    /// terminator*, Ray Tracing Gems II, 2021.)
-    ///
-    /// `front` is the geometric normal on the side that is lit, and the normals are those of the other
-    /// side where they are `flipped`; a corner whose normal disagrees lifts nothing.
-    pub(super) fn lift(
-        &self,
-        local: u32,
-        corners: [u32; 3],
-        [a, b, c]: [Vec3; 3],
-        hit: &Hit,
-        (front, flipped): (Vec3, bool),
-    ) -> Vec3 {
-        let Some(mesh) = self.mesh.as_ref() else { return Vec3::ZERO };
-        let normals = at_corners(&mesh.normals, &mesh.normal_indices, local, corners);
-        let Some(normals) = normals else { return Vec3::ZERO };
-        let (mut ab, mut ac, mut normals) = (b - a, c - a, normals.map(unit));
-        if let Some(ToWorld { normals: turn, edges }) = self.to_world.as_deref() {
-            (ab, ac) = (*edges * ab, *edges * ac);
-            normals = normals.map(|n| unit(*turn * n));
-        }
-        let from_a = hit.u * ab + hit.v * ac;
-        let from = [from_a, from_a - ab, from_a - ac];
-        let weights = [1.0 - hit.u - hit.v, hit.u, hit.v];
-        let mut lift = Vec3::ZERO;
-        for ((n, from), weight) in normals.into_iter().zip(from).zip(weights) {
-            let n = if flipped { -n } else { n };
-            let below = from.dot(n).min(0.0);
-            if n.dot(front) > 0.0 {
-                lift -= weight * below * n;
-            }
-        }
-        // Beyond the range of f32 there is nothing to lift.
-        if lift.is_finite() { lift } else { Vec3::ZERO }
+        let mesh = self.smooth()?;
+        let normals = at_corners(mesh.normals, mesh.normal_indices, local, corners)?;
+        let n = mesh.normal(normals, [hit.u, hit.v])?;
+        Some(Dir3::from_unit(n.into()))
     }
 
     /// The interpolated texture coordinates; `None` where the mesh has none.
@@ -214,12 +174,6 @@ impl Batch {
         }
         self.colors.get(local as usize).copied()
     }
-}
-
-/// The unit vector along `n`, which stays as it is where it is one to 5e-6; 0 where it has no direction.
-#[inline]
-fn unit(n: Vec3) -> Vec3 {
-    if (n.dot(n) - 1.0).abs() < 1e-5 { n } else { Dir3::new(n).map_or(Vec3::ZERO, Dir3::to_vec) }
 }
 
 /// The values at a triangle's corners; `None` where there are none.

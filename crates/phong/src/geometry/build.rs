@@ -7,9 +7,10 @@ use phong_bvh::{BuildError, BuildOptions, Part, Plane, Primitives, Sphere, Tree}
 use phong_scene::{Cylinders, Mesh, Points, Shape, cofactor, even_scale};
 
 use super::ObjectRecord;
-use super::batch::{Batch, MaterialNumbers, MeshAttributes, Objects, ToWorld};
+use super::batch::{Batch, MaterialNumbers, MeshAttributes, Objects};
 use super::flatten::Placed;
 use super::scale::{FEW_TRIANGLES, Scale};
+use super::smooth::ToWorld;
 use super::solid::{self, canonical};
 use super::trees::{Arrays, Trees};
 

@@ -10,10 +10,11 @@ mod build;
 mod estimate;
 mod flatten;
 mod scale;
+mod smooth;
 mod solid;
 mod trees;
 
-use glam::{DAffine3, DVec3, Vec3};
+use glam::{DAffine3, DVec3};
 use phong_bvh::{BuildError, BuildOptions, Coordinates, Hit, Preset, Primitives, Ray, World};
 use phong_scene::{Diagnostic, Place, Scene, Shape};
 use thiserror::Error;
@@ -272,18 +273,6 @@ impl Geometry {
     #[inline]
     pub(crate) fn batch(&self, part: u32) -> &Batch {
         &self.batches[part as usize]
-    }
-
-    /// [`Batch::lift`] of a triangle that was hit; 0 for other primitives.
-    pub(crate) fn lift(&self, hit: &Hit, side: (Vec3, bool)) -> Vec3 {
-        match self.world.primitives(hit.part) {
-            Primitives::Triangles { positions, indices } => {
-                let corners = indices[hit.prim as usize];
-                let at = corners.map(|i| positions[i as usize]);
-                self.batch(hit.part).lift(hit.prim, corners, at, hit, side)
-            }
-            _ => Vec3::ZERO,
-        }
     }
 
     /// The corners of a triangle; `None` for other primitives.

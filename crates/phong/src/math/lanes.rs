@@ -3,7 +3,7 @@
 use fearless_simd::{Simd, f32x8, prelude::*};
 use glam::Vec3;
 use phong_bvh::Lanes;
-pub(crate) use phong_bvh::lanes::{add, dot, neg, scale, select3, splat3};
+pub(crate) use phong_bvh::lanes::{add, dot, neg, scale, select3, splat3, sub};
 
 use super::dir::{Dir3, LARGE, SMALL};
 

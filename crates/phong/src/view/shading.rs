@@ -1,13 +1,13 @@
 //! What shading needs of a surface besides its geometry, of one surface or of eight.
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*, u32x8};
-use glam::Vec3;
-use phong_bvh::{Hit, Hits8, lanes};
+use phong_bvh::{Hit, Hits8, Primitives, lanes};
 use phong_scene::Rgb;
 
 use super::View;
+use crate::geometry::Batch;
 use crate::math::Dir3;
-use crate::math::lanes::{Lanes3, dot, get, load3, select3, set, splat3, store3};
+use crate::math::lanes::{Lanes3, dot, load3, select3, set, splat3, store3};
 
 /// What shading needs of a surface besides its geometry.
 pub(super) struct Shading {
@@ -25,6 +25,8 @@ pub(super) struct Shading {
 pub(crate) struct Shading8 {
     /// Shading normals, on the side of the geometric normals that faces the eye.
     pub(crate) n: Lanes3,
+    /// The geometric normals on that side.
+    pub(crate) front: Lanes3,
     /// The diffuse colours.
     pub(crate) color: Lanes3,
     /// Numbers of the materials.
@@ -39,6 +41,7 @@ pub(crate) struct Shading8 {
 impl Shading8 {
     pub(crate) const NONE: Self = Self {
         n: [[0.0; 8]; 3],
+        front: [[0.0; 8]; 3],
         color: [[0.0; 8]; 3],
         material: [0; 8],
         smooth: 0,
@@ -50,23 +53,29 @@ impl View {
     /// What shading needs of the surface at a hit whose geometric normal is `ng`; `e` leads to the
     /// eye.
     pub(super) fn shading(&self, hit: &Hit, ng: Dir3, e: Dir3) -> Shading {
-        let (material, color, n) = self.attributes(hit);
-        Shading { n: n.unwrap_or(ng).facing(ng.facing(e)), material, color }
+        let n = self.own_normal(hit).unwrap_or(ng);
+        let batch = self.geometry.batch(hit.part);
+        let (material, color) = (batch.material(hit.prim), self.own_color(batch, hit));
+        Shading { n: n.facing(ng.facing(e)), material, color }
     }
 
-    /// The material at a hit, and the colour and the shading normal where the geometry brings them.
+    /// The shading normal, where the geometry brings one.
     #[inline]
-    fn attributes(&self, hit: &Hit) -> (u32, Option<Rgb>, Option<Dir3>) {
-        let batch = self.geometry.batch(hit.part);
-        let corners = self.geometry.corners(hit.part, hit.prim);
-        let color = batch.color(hit.prim, corners, hit);
-        let normal = corners.and_then(|c| batch.normal(hit.prim, c, hit));
-        (batch.material(hit.prim), color, normal)
+    fn own_normal(&self, hit: &Hit) -> Option<Dir3> {
+        let corners = self.geometry.corners(hit.part, hit.prim)?;
+        self.geometry.batch(hit.part).normal(hit.prim, corners, hit)
+    }
+
+    /// The colour, where the geometry brings one.
+    #[inline]
+    fn own_color(&self, batch: &Batch, hit: &Hit) -> Option<Rgb> {
+        let corners = batch.is_mesh().then(|| self.geometry.corners(hit.part, hit.prim)).flatten();
+        batch.color(hit.prim, corners, hit)
     }
 
     /// Whether the geometry brings the colour at a hit, which counts before the material's.
     pub(super) fn has_own_color(&self, hit: &Hit) -> bool {
-        self.attributes(hit).1.is_some()
+        self.own_color(self.geometry.batch(hit.part), hit).is_some()
     }
 
     /// [`View::shading`] of those of eight surfaces that were hit: the same bits, with the
@@ -82,10 +91,12 @@ impl View {
         lift: bool,
         shading: &mut Shading8,
     ) {
-        let Shading8 { n, color, material, smooth, lift: lifts } = shading;
-        *smooth = 0;
         let zero = f32x8::splat(simd, 0.0);
-        *n = store3(ng);
+        let back = dot(ng, e).simd_lt(zero);
+        let front = select3(back, [-ng[0], -ng[1], -ng[2]], ng);
+        shading.front = store3(front);
+        shading.n = store3(ng);
+        shading.smooth = 0;
         let mut left = hits.met;
         while left != 0 {
             // Neighbours are mostly of one part.
@@ -94,48 +105,70 @@ impl View {
             let parts = u32x8::load_array_ref(simd, &hits.part);
             let same = left & parts.simd_eq(u32x8::splat(simd, part)).to_bitmask() as u32;
             left &= !same;
-            if let (Some(number), true) = (batch.only_material(), batch.is_plain()) {
-                let own = splat3(zero, self.materials[number as usize].color.to_array());
-                // What is in lanes without a hit is unspecified.
-                let lanes = if same == hits.met { 0xff } else { same };
-                let lanes = mask32x8::from_bitmask(simd, lanes.into());
-                *color = store3(select3(lanes, own, load3(simd, color)));
-                let old = u32x8::load_array_ref(simd, material);
-                lanes.select(u32x8::splat(simd, number), old).store_array(material);
-                continue;
-            }
-            if let (Some(number), false) = (batch.only_material(), batch.is_mesh()) {
-                let material_color = self.materials[number as usize].color;
-                for lane in lanes(same) {
-                    material[lane] = number;
-                    let own = batch.color(hits.prim[lane], None, &hits.get(lane));
-                    set(color, lane, own.unwrap_or(material_color).to_array());
+            match batch.only_material() {
+                Some(number) if batch.has_no_colors() => {
+                    let own = splat3(zero, self.materials[number as usize].color.to_array());
+                    // What is in lanes without a hit is unspecified.
+                    let lanes = if same == hits.met { 0xff } else { same };
+                    let lanes = mask32x8::from_bitmask(simd, lanes.into());
+                    let color = &mut shading.color;
+                    *color = store3(select3(lanes, own, load3(simd, color)));
+                    let old = u32x8::load_array_ref(simd, &shading.material);
+                    let new = lanes.select(u32x8::splat(simd, number), old);
+                    new.store_array(&mut shading.material);
                 }
-                continue;
+                _ => self.colors(batch, hits, same, shading),
             }
-            for lane in lanes(same) {
-                let (number, own, normal) = self.attributes(&hits.get(lane));
-                material[lane] = number;
-                let own = own.unwrap_or(self.materials[number as usize].color);
-                set(color, lane, own.to_array());
-                if let Some(normal) = normal {
-                    set(n, lane, normal.to_array());
-                    *smooth |= u32::from(lift) << lane;
-                }
+            let Some(mesh) = batch.smooth() else { continue };
+            let Primitives::Triangles { positions, indices } = self.world().primitives(part) else {
+                self.normals(hits, same, lift, shading);
+                continue;
+            };
+            // The other lanes repeat the first.
+            let own = mask32x8::from_bitmask(simd, same.into());
+            let first = u32x8::splat(simd, hits.prim[same.trailing_zeros() as usize & 7]);
+            let triangles = own.select(u32x8::load_array_ref(simd, &hits.prim), first);
+            let triangles = <[u32; 8]>::from(triangles);
+            let corners = triangles.map(|triangle| indices[triangle as usize]);
+            let u = own.select(f32x8::load_array_ref(simd, &hits.u), zero);
+            let v = own.select(f32x8::load_array_ref(simd, &hits.v), zero);
+            let smooth = mesh.normals(simd, &triangles, &corners, [u, v]);
+            let there = same & smooth.there;
+            let own = mask32x8::from_bitmask(simd, there.into());
+            shading.n = store3(select3(own, smooth.n, load3(simd, &shading.n)));
+            if lift && there != 0 {
+                let side = (front, dot(smooth.n, front).simd_lt(zero));
+                let way = mesh.lifts(simd, &smooth, (positions, &corners), [u, v], side);
+                shading.lift = store3(select3(own, way, load3(simd, &shading.lift)));
+                shading.smooth |= there;
             }
         }
         // Turned to the side of the geometric normal that faces the eye, never by N·E: at a silhouette
         // the shading normal may well look away from the eye.
-        let back = dot(ng, e).simd_lt(zero);
-        let front = select3(back, [-ng[0], -ng[1], -ng[2]], ng);
-        let up = load3(simd, n);
+        let up = load3(simd, &shading.n);
         let away = dot(up, front).simd_lt(zero);
-        *n = store3(select3(away, [-up[0], -up[1], -up[2]], up));
-        if *smooth != 0 {
-            let (front, away) = (store3(front), away.to_bitmask());
-            for lane in lanes(*smooth) {
-                let side = (Vec3::from(get(&front, lane)), away >> lane & 1 != 0);
-                set(lifts, lane, self.geometry.lift(&hits.get(lane), side).to_array());
+        shading.n = store3(select3(away, [-up[0], -up[1], -up[2]], up));
+    }
+
+    /// Materials and colours of some hits in one part, one by one.
+    fn colors(&self, batch: &Batch, hits: &Hits8, same: u32, shading: &mut Shading8) {
+        for lane in lanes(same) {
+            let hit = hits.get(lane);
+            let number = batch.material(hit.prim);
+            shading.material[lane] = number;
+            let own = self.own_color(batch, &hit);
+            let own = own.unwrap_or(self.materials[number as usize].color);
+            set(&mut shading.color, lane, own.to_array());
+        }
+    }
+
+    /// Shading normals of some hits in one part, one by one: of a mesh whose few triangles are solids.
+    fn normals(&self, hits: &Hits8, same: u32, lift: bool, shading: &mut Shading8) {
+        for lane in lanes(same) {
+            if let Some(normal) = self.own_normal(&hits.get(lane)) {
+                set(&mut shading.n, lane, normal.to_array());
+                set(&mut shading.lift, lane, [0.0; 3]);
+                shading.smooth |= u32::from(lift) << lane;
             }
         }
     }
@@ -148,7 +181,7 @@ mod tests {
     use phong_scene::{Material, MaterialId, Mesh, Object, Points, Scene, Shape};
 
     use super::*;
-    use crate::math::lanes::direction;
+    use crate::math::lanes::{direction, get};
 
     /// A plane, a ball, a mesh of two materials with normals, one with colours, and coloured points, seen
     /// by rays down −z that lie close together.
