@@ -80,6 +80,7 @@ impl Interactions {
         for (ray, eta, error) in crossings.each() {
             let (i, lane) = (ray / 8, ray % 8);
             set(&mut surfaces[i].p_error, lane, error.to_array());
+            surfaces[i].coarse = true;
             etas[i][lane] = eta.unwrap_or(f32::NAN);
         }
     }
@@ -228,13 +229,6 @@ impl Kernel for BeginRadiance<'_> {
     }
 }
 
-/// The geometric normals on the side that the rays come from.
-#[inline(always)]
-pub(super) fn facing<S: Simd>(ng: [f32x8<S>; 3], e: [f32x8<S>; 3]) -> [f32x8<S>; 3] {
-    let back = dot(ng, e).simd_lt(f32x8::splat(ng[0].token(), 0.0));
-    select3(back, [-ng[0], -ng[1], -ng[2]], ng)
-}
-
 /// Where a light in direction `l` is above the horizon of `n`.
 #[inline(always)]
 pub(super) fn is_above<S: Simd>(l: [f32x8<S>; 3], n: [f32x8<S>; 3]) -> mask32x8<S> {
@@ -243,7 +237,7 @@ pub(super) fn is_above<S: Simd>(l: [f32x8<S>; 3], n: [f32x8<S>; 3]) -> mask32x8<
 
 #[cfg(test)]
 mod tests {
-    use phong_bvh::offset_origins;
+    use phong_bvh::{offset_origins, offset_sides, whole};
 
     use super::*;
     use crate::math::Dir3;
@@ -271,15 +265,16 @@ mod tests {
                 set(&mut surface.ng, lane, ng.to_array());
                 let e = dir(i, 7);
                 set(&mut shading.n, lane, dir(i, 5).facing(e).to_array());
+                set(&mut shading.front, lane, ng.facing(e).to_array());
                 set(&mut rays.dir, lane, (-e).to_array());
                 set(&mut l, lane, dir(i, 11).to_array());
             }
             let l8 = load3(simd, &l);
-            let (n, ng) = (load3(simd, &shading.n), load3(simd, &surface.ng));
-            let front = facing(ng, to_eye(simd, &rays));
+            let (n, front) = (load3(simd, &shading.n), load3(simd, &shading.front));
             let mask = (is_above(l8, n) & is_above(l8, front)).to_bitmask();
             let mut origins = [[0.0; 8]; 3];
             offset_origins(simd, &surface, l8, &mut origins);
+            let sides = offset_sides(simd, &surface, front).map(|[low, high]| whole(low, high));
             let interactions = Interactions {
                 hits: vec![Hits8::NONE],
                 surfaces: vec![surface],
@@ -293,6 +288,10 @@ mod tests {
                 let start = at.spawn(l, 1.0).origin.to_array();
                 let origin = origins.map(|all| all[lane]);
                 assert_eq!(origin.map(f64::to_bits), start.map(f64::to_bits));
+                if is_above {
+                    let side = sides.map(|all| all[lane]);
+                    assert_eq!(side.map(f64::to_bits), start.map(f64::to_bits));
+                }
                 above += u32::from(is_above);
             }
         }

@@ -6,8 +6,8 @@ use phong_scene::Rgb;
 
 use super::Integrator;
 use super::bundle::Radiance8;
-use super::interactions::{Interactions, facing, is_above, material, same_material, to_eye};
-use super::shadow_rays::aim;
+use super::interactions::{Interactions, is_above, material, same_material, to_eye};
+use super::shadow_rays::{Starts, aim};
 use crate::light::{Light, LightSample, Reach};
 use crate::math::Dir3;
 use crate::math::lanes::{Lanes3, direction, dot, get, load3, select3, store3};
@@ -22,6 +22,8 @@ pub(super) struct LightSamples {
     samples: Vec<LightSample8>,
     /// The rays that are needed to find out whether the light is visible.
     shadow_rays: Vec<Rays8>,
+    /// Whether they are put to where they start, which is the same for all lights.
+    started: bool,
     blocked: Vec<u32>,
     /// What they hit, where that matters.
     hits: Vec<Hits8>,
@@ -42,6 +44,13 @@ struct LightSample8 {
     /// The surfaces that receive light: the light is above the horizon, is not 0 there, and nothing
     /// blocks it. One bit each.
     visible: u32,
+}
+
+impl LightSamples {
+    /// Forgets where the surfaces of another bundle are.
+    pub(super) fn begin(&mut self) {
+        self.started = false;
+    }
 }
 
 impl LightSample8 {
@@ -68,18 +77,21 @@ impl Integrator<'_> {
         to: &mut LightSamples,
     ) -> u64 {
         let light = &self.scene.lights()[number];
-        let LightSamples { samples, shadow_rays, blocked, hits } = to;
+        let LightSamples { samples, shadow_rays, started, blocked, hits } = to;
         samples.resize(rays.len(), LightSample8::NONE);
         shadow_rays.resize(rays.len(), Rays8::NONE);
         let casts = self.shadows && light.shadows;
         let purpose = Use::Light(number as u32);
         let (bvh, fixture) = (self.scene.world(), self.scene.fixture(number));
+        if casts && !*started {
+            bvh.run(Starts { interactions, to: &mut *shadow_rays });
+            *started = true;
+        }
         let count = bvh.run(SampleLight {
             light,
             fixture,
             purpose,
             casts,
-            rays,
             interactions,
             samplers,
             samples,
@@ -182,7 +194,6 @@ struct SampleLight<'a> {
     purpose: Use,
     /// Whether objects can block it.
     casts: bool,
-    rays: &'a [Rays8],
     interactions: &'a Interactions,
     samplers: &'a [Samplers8],
     samples: &'a mut [LightSample8],
@@ -194,27 +205,28 @@ impl Kernel for SampleLight<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> u64 {
-        let Self { light, fixture, purpose, casts, rays, interactions, .. } = self;
+        let Self { light, fixture, purpose, casts, interactions, .. } = self;
         let Self { samplers, samples, shadow_rays, .. } = self;
         let brightest = f32x8::splat(simd, light.brightest());
         let mut count = 0;
         let Interactions { hits, surfaces, shading, .. } = interactions;
-        let eights = rays.iter().zip(hits).zip(surfaces).zip(shading).zip(samples).zip(shadow_rays);
-        for (i, (((((rays, hits), surface), shading), samples), shadow_rays)) in eights.enumerate()
-        {
+        let len = samples.len();
+        let (hits, surfaces, shading) = (&hits[..len], &surfaces[..len], &shading[..len]);
+        let shadow_rays = &mut shadow_rays[..len];
+        for (i, samples) in samples.iter_mut().enumerate() {
+            let (hits, surface, shading) = (&hits[i], &surfaces[i], &shading[i]);
+            let shadow_rays = &mut shadow_rays[i];
             (samples.above, samples.visible, shadow_rays.there) = (0, 0, 0);
             if hits.met == 0 {
                 continue;
             }
             let place = light.soft.then(|| samplers[i].pair(purpose));
             let reach = light.reach8(simd, &surface.p, place.as_ref());
-            let (n, ng) = (load3(simd, &shading.n), load3(simd, &surface.ng));
-            let front = facing(ng, to_eye(simd, rays));
-            let mut above = is_above(reach.l, n);
+            let mut above = is_above(reach.l, load3(simd, &shading.n));
             if casts {
                 // Smooth meshes have no horizon but N's: what else is below meets the mesh.
                 let smooth = mask32x8::from_bitmask(simd, shading.smooth.into());
-                above &= is_above(reach.l, front) | smooth;
+                above &= is_above(reach.l, load3(simd, &shading.front)) | smooth;
             }
             // A spot sends nothing beyond its edge: no shadow ray is needed.
             let bright = (reach.share * brightest).simd_gt(f32x8::splat(simd, 0.0));
@@ -224,7 +236,7 @@ impl Kernel for SampleLight<'_> {
             samples.l = store3(reach.l);
             samples.distance = reach.distance.into();
             if casts && lit != 0 {
-                aim(simd, (surface, shading), front, &reach, fixture, shadow_rays);
+                aim(simd, (surface, shading), &reach, fixture, shadow_rays);
                 shadow_rays.there = lit;
                 count += u64::from(lit.count_ones());
             }

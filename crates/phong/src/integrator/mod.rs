@@ -172,6 +172,7 @@ impl Integrator<'_> {
             return;
         }
         interactions.intersect(self, rays, &paths.departures, height, out);
+        lights.begin();
         if W::LISTENS {
             for (i, (rays8, out)) in rays.iter().zip(&*out).enumerate() {
                 for lane in lanes(rays8.there) {

@@ -1,8 +1,9 @@
 //! Where shadow rays start, and where they end.
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
-use phong_bvh::{Rays8, Surfaces8, lanes, offset_origins};
+use phong_bvh::{Kernel, Rays8, Surfaces8, offset_sides, whole};
 
+use super::interactions::Interactions;
 use crate::light::Reach;
 use crate::math::lanes::{add, dot, load3, normalize, scale, select3, splat3, store3};
 use crate::view::{Fixture, Shading8};
@@ -11,17 +12,51 @@ use crate::view::{Fixture, Shading8};
 /// distance of what it meets.
 const SHORT: f32 = 8.0 * f32::EPSILON;
 
-/// Aims rays from eight surfaces at a light. `front` are the geometric normals on the side that is lit.
+/// Puts shadow rays to where they start, whatever light they are aimed at: beyond the error of their point on
+/// the side that is lit, and on a smooth mesh above the face.
+pub(super) struct Starts<'a> {
+    pub(super) interactions: &'a Interactions,
+    pub(super) to: &'a mut [Rays8],
+}
+
+impl Kernel for Starts<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let Self { interactions: Interactions { hits, surfaces, shading, .. }, to } = self;
+        let len = to.len();
+        let (hits, surfaces, shading) = (&hits[..len], &surfaces[..len], &shading[..len]);
+        for (i, to) in to.iter_mut().enumerate() {
+            if hits[i].met == 0 {
+                continue;
+            }
+            let shading = &shading[i];
+            let mut starts = offset_sides(simd, &surfaces[i], load3(simd, &shading.front));
+            if shading.smooth != 0 {
+                let smooth = mask32x8::from_bitmask(simd, shading.smooth.into());
+                // Adding −0 changes nothing.
+                let none = f32x8::splat(simd, -0.0);
+                for (start, lift) in starts.iter_mut().zip(&shading.lift) {
+                    let by = smooth.select(f32x8::load_array_ref(simd, lift), none).widen();
+                    *start = [start[0] + by.0, start[1] + by.1];
+                }
+            }
+            let [x, y, z] = starts;
+            to.origin = [whole(x[0], x[1]), whole(y[0], y[1]), whole(z[0], z[1])];
+        }
+    }
+}
+
+/// Aims rays from eight surfaces at a light, from where they [start](Starts).
 ///
-/// A ray starts beyond the error of its point, on a smooth mesh above the face, and ends short of the light
-/// by the error of the point, of the light's position and of what it may meet there. At a light that
+/// A ray ends short of the light by the error of the point, of the light's position and of what it may meet there. At a light that
 /// lies in a surface it is aimed at a point a hair off that, on its own side, so that no rounding takes
 /// it across however it grazes.
 #[inline(always)]
 pub(super) fn aim<S: Simd>(
     simd: S,
     (surface, shading): (&Surfaces8, &Shading8),
-    front: [f32x8<S>; 3],
     reach: &Reach<[f32x8<S>; 3], f32x8<S>>,
     fixture: &Fixture,
     to: &mut Rays8,
@@ -54,12 +89,4 @@ pub(super) fn aim<S: Simd>(
     let end = length * (1.0 - SHORT) - (x + y + z + fixture.error);
     to.dir = store3(dir);
     to.t_max = end.simd_gt(zero).select(end, zero).into();
-    // Of a smooth surface what looks below the face has to meet it.
-    let side = if shading.smooth == 0 { l } else { select3(smooth, front, l) };
-    offset_origins(simd, surface, side, &mut to.origin);
-    for lane in lanes(shading.smooth) {
-        for axis in 0..3 {
-            to.origin[axis][lane] += f64::from(shading.lift[axis][lane]);
-        }
-    }
 }
