@@ -165,6 +165,8 @@ impl<P: Places> Kernel for Surfaces<'_, P> {
                 let part = u32x8::splat(simd, hits.part[first]);
                 let same = part.simd_eq(u32x8::load_array_ref(simd, &hits.part));
                 let same = left & same.to_bitmask() as u32;
+                // What is in lanes without a hit is unspecified, and the others are yet to come.
+                let to = if left == hits.met { 0xff } else { same };
                 left &= !same;
                 let (primitives, frame) = world.place(hits.part[first]);
                 // The other lanes repeat the first.
@@ -172,8 +174,6 @@ impl<P: Places> Kernel for Surfaces<'_, P> {
                 let others = u32x8::splat(simd, hits.prim[first]);
                 let locals = own.select(u32x8::load_array_ref(simd, &hits.prim), others);
                 let locals = <[u32; 8]>::from(locals).map(|number| number as usize);
-                // What is in lanes without a hit is unspecified.
-                let to = if same == hits.met { 0xff } else { same };
                 let one_by_one = is_one_by_one(primitives, &locals)
                     || !eight(simd, (primitives, frame), &locals, rays, hits, to, out);
                 if one_by_one {

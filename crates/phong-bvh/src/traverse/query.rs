@@ -143,12 +143,18 @@ impl Query for ClosestHit<'_> {
         let prim = u32x8::splat(simd, prim);
         let better = t.simd_lt(old) | (t.simd_eq(old) & prim.simd_lt(old_prim));
         let better = better & mask32x8::from_bitmask(simd, mask.into());
-        hits.met |= better.to_bitmask() as u32;
-        better.select(t, old).store_array(&mut hits.t);
+        let bits = better.to_bitmask() as u32;
+        if bits == 0 {
+            return;
+        }
+        hits.met |= bits;
+        // The least, and not a choice: processors write some lanes of eight slowly.
+        let nearer = better.select(t, f32x8::splat(simd, f32::INFINITY));
+        nearer.min(old).store_array(&mut hits.t);
+        nearer.min(f32x8::load_array_ref(simd, t_max)).store_array(t_max);
         better.select(prim, old_prim).store_array(&mut hits.prim);
         better.select(u, f32x8::load_array_ref(simd, &hits.u)).store_array(&mut hits.u);
         better.select(v, f32x8::load_array_ref(simd, &hits.v)).store_array(&mut hits.v);
-        better.select(t, f32x8::load_array_ref(simd, t_max)).store_array(t_max);
     }
 }
 
@@ -213,7 +219,7 @@ impl Query for AnyHit<'_> {
     ) {
         self.0[eight] |= mask;
         let hit = mask32x8::from_bitmask(simd, mask.into());
-        let left = f32x8::load_array_ref(simd, t_max);
-        hit.select(f32x8::splat(simd, -1.0), left).store_array(t_max);
+        let done = hit.select(f32x8::splat(simd, -1.0), f32x8::splat(simd, f32::INFINITY));
+        done.min(f32x8::load_array_ref(simd, t_max)).store_array(t_max);
     }
 }

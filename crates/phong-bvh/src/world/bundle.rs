@@ -333,11 +333,20 @@ impl<N: Names> Kernel for Offer<'_, N> {
             let (best, best_part) = (load(simd, &hits.t), numbers(simd, &hits.part));
             let nearer = t.simd_lt(best) | (t.simd_eq(best) & part.simd_lt(best_part));
             let new = mask32x8::from_bitmask(simd, found.met.into()) & (nearer | !had);
-            new.select(t, best).store_array(&mut hits.t);
-            new.select(part, best_part).store_array(&mut hits.part);
-            new.select(prim, numbers(simd, &hits.prim)).store_array(&mut hits.prim);
-            new.select(load(simd, &found.u), load(simd, &hits.u)).store_array(&mut hits.u);
-            new.select(load(simd, &found.v), load(simd, &hits.v)).store_array(&mut hits.v);
+            let bits = new.to_bitmask() as u32;
+            if bits == 0xff {
+                // Processors write some lanes of eight slowly.
+                t.store_array(&mut hits.t);
+                part.store_array(&mut hits.part);
+                prim.store_array(&mut hits.prim);
+                (hits.u, hits.v) = (found.u, found.v);
+            } else if bits != 0 {
+                new.select(t, best).store_array(&mut hits.t);
+                new.select(part, best_part).store_array(&mut hits.part);
+                new.select(prim, numbers(simd, &hits.prim)).store_array(&mut hits.prim);
+                new.select(load(simd, &found.u), load(simd, &hits.u)).store_array(&mut hits.u);
+                new.select(load(simd, &found.v), load(simd, &hits.v)).store_array(&mut hits.v);
+            }
             hits.met |= found.met;
         }
     }

@@ -43,7 +43,7 @@ impl Few<'_> {
         if self.planes.is_empty() && self.spheres.is_none() {
             return 0;
         }
-        for (rays, starts) in rays.iter().zip(&mut *starts) {
+        for (rays, starts) in rays.iter().zip(&mut *starts).filter(|(rays, _)| rays.there != 0) {
             let [x, y, z] = self.frame.load_origins(simd, rays);
             *starts = [x.into(), y.into(), z.into()];
         }
@@ -291,6 +291,9 @@ fn bounds<S: Simd>(simd: S, rays: &[Rays8], starts: &[Lanes3]) -> Option<[[f32; 
     let (mut low, mut high) = ([most; 6], [-most; 6]);
     let mut any = 0;
     for (rays, starts) in rays.iter().zip(starts) {
+        if rays.there == 0 {
+            continue;
+        }
         any |= rays.there;
         let ([ox, oy, oz], [dx, dy, dz]) = (load3(simd, starts), load3(simd, &rays.dir));
         let columns = [ox, oy, oz, dx, dy, dz];
