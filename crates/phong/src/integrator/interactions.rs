@@ -10,7 +10,7 @@ use super::bundle::Radiance8;
 use super::crossing::{Crossings, Departure};
 use crate::interaction::SurfaceInteraction;
 use crate::material::Material;
-use crate::math::lanes::{direction, dot, get, load3, select3, set, splat3, store3};
+use crate::math::lanes::{Lanes3, add, direction, dot, get, load3, select3, set, splat3, store3};
 use crate::terms::{Term, TermSet};
 use crate::view::{Coincidences, MadeMaterial, Shading8, View};
 use crate::witness::Branch;
@@ -186,8 +186,9 @@ impl Kernel for BeginRadiance<'_> {
                 match scene.background() {
                     Background::Color(color) => {
                         let missed = mask32x8::from_bitmask(simd, missed.into());
-                        let old = load3(simd, to);
-                        *to = store3(select3(missed, splat3(old[0], color.to_array()), old));
+                        let black = f32x8::splat(simd, 0.0);
+                        let color = splat3(black, color.to_array());
+                        *to = store3(select3(missed, color, [black; 3]));
                     }
                     Background::Gradient { top, bottom } => {
                         for lane in lanes(missed) {
@@ -215,18 +216,23 @@ impl Kernel for BeginRadiance<'_> {
                 let material = material(scene, made, number);
                 let color = load3(simd, &shading.color);
                 let same = mask32x8::from_bitmask(simd, same.into());
-                let ambient = &mut out.terms[Term::Ambient];
                 let own = material.ambient_of(color, scene.ambient());
-                *ambient = store3(select3(same, own, load3(simd, ambient)));
+                add_in(simd, &mut out.terms[Term::Ambient], same, own);
                 if material.glows() {
                     out.brought = out.brought.with(Term::Emission);
-                    let emission = &mut out.terms[Term::Emission];
                     let own = material.emission_of(color);
-                    *emission = store3(select3(same, own, load3(simd, emission)));
+                    add_in(simd, &mut out.terms[Term::Emission], same, own);
                 }
             }
         }
     }
+}
+
+/// Adds to a sum in the lanes of `same`: 0 in the others, for processors write some lanes of eight slowly.
+#[inline(always)]
+pub(super) fn add_in<S: Simd>(simd: S, sum: &mut Lanes3, same: mask32x8<S>, more: [f32x8<S>; 3]) {
+    let none = f32x8::splat(simd, 0.0);
+    *sum = store3(add(load3(simd, sum), select3(same, more, [none; 3])));
 }
 
 /// Where a light in direction `l` is above the horizon of `n`.

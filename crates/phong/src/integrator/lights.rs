@@ -6,11 +6,11 @@ use phong_scene::Rgb;
 
 use super::Integrator;
 use super::bundle::Radiance8;
-use super::interactions::{Interactions, is_above, material, same_material, to_eye};
+use super::interactions::{Interactions, add_in, is_above, material, same_material, to_eye};
 use super::shadow_rays::{Starts, aim};
 use crate::light::{Light, LightSample, Reach};
 use crate::math::Dir3;
-use crate::math::lanes::{Lanes3, direction, dot, get, load3, select3, store3};
+use crate::math::lanes::{Lanes3, direction, dot, get, load3, scale, store3};
 use crate::sampling::{Samplers8, Use};
 use crate::terms::{Term, Terms};
 use crate::view::Fixture;
@@ -285,9 +285,8 @@ impl Kernel for Shade<'_> {
                     ];
                     let [c_d, c_s] = material.tint(dot(n, l), color, arriving);
                     let same = mask32x8::from_bitmask(simd, same.into());
-                    let terms = &mut out.terms;
-                    add(simd, &mut terms[Term::Diffuse], same, diffuse, c_d);
-                    add(simd, &mut terms[Term::Specular], same, specular, c_s);
+                    add_in(simd, &mut out.terms[Term::Diffuse], same, scale(diffuse, c_d));
+                    add_in(simd, &mut out.terms[Term::Specular], same, scale(specular, c_s));
                     continue;
                 }
                 for lane in lanes(same) {
@@ -307,18 +306,4 @@ impl Kernel for Shade<'_> {
             }
         }
     }
-}
-
-/// Adds `weight · color` to the lanes of `same`.
-#[inline(always)]
-fn add<S: Simd>(
-    simd: S,
-    sum: &mut Lanes3,
-    same: mask32x8<S>,
-    weight: f32x8<S>,
-    [r, g, b]: [f32x8<S>; 3],
-) {
-    let so_far = load3(simd, sum);
-    let more = [so_far[0] + weight * r, so_far[1] + weight * g, so_far[2] + weight * b];
-    *sum = store3(select3(same, more, so_far));
 }

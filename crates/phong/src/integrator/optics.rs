@@ -1,6 +1,6 @@
 //! The directions and weights of mirror and refracted rays, eight at a time.
 
-use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
+use fearless_simd::{Simd, f32x8, prelude::*};
 use glam::DVec3;
 use phong_bvh::{Kernel, Lanes, Ray, Rays8, offset_origins};
 use phong_scene::Rgb;
@@ -8,7 +8,7 @@ use phong_scene::Rgb;
 use super::interactions::{Interactions, material, same_material, to_eye};
 use crate::material::Material;
 use crate::math::lanes::{
-    Lanes3, dot, get, load3, mirror, neg, normalize, scale, select3, splat3, store3,
+    Lanes3, dot, get, load3, mirror, neg, normalize, put3, scale, select3, splat3,
 };
 use crate::reflectance::fresnel;
 use crate::view::View;
@@ -70,6 +70,8 @@ impl Kernel for Scatter<'_> {
             let mut left = interactions.hits[i].met;
             while left != 0 {
                 let (number, same) = same_material(simd, &shading.material, left);
+                // What is in lanes without a ray is unspecified, and the others are yet to come.
+                let lanes = if left == interactions.hits[i].met { 0xff } else { same };
                 left &= !same;
                 let material = material(scene, &interactions.made, number);
                 if !material.bounces() {
@@ -93,18 +95,22 @@ impl Kernel for Scatter<'_> {
                 let black =
                     weight[0].simd_eq(zero) & weight[1].simd_eq(zero) & weight[2].simd_eq(zero);
                 to.there |= same & !(black.to_bitmask() as u32);
-                let mut origins = [[0.0; 8]; 3];
-                offset_origins(simd, surface, dir, &mut origins);
-                for (to, from) in to.origin.iter_mut().zip(origins) {
-                    for (lane, (to, from)) in to.iter_mut().zip(from).enumerate() {
-                        *to = if same >> lane & 1 != 0 { from } else { *to };
+                if lanes == 0xff {
+                    offset_origins(simd, surface, dir, &mut to.origin);
+                    to.fresnel = share.into();
+                } else {
+                    let mut origins = [[0.0; 8]; 3];
+                    offset_origins(simd, surface, dir, &mut origins);
+                    let shares: [f32; 8] = share.into();
+                    for lane in phong_bvh::lanes(lanes) {
+                        for (to, from) in to.origin.iter_mut().zip(origins) {
+                            to[lane] = from[lane];
+                        }
+                        to.fresnel[lane] = shares[lane];
                     }
                 }
-                let same = mask32x8::from_bitmask(simd, same.into());
-                to.dir = store3(select3(same, dir, load3(simd, &to.dir)));
-                to.weight = store3(select3(same, weight, load3(simd, &to.weight)));
-                let old = f32x8::load_array(simd, to.fresnel);
-                to.fresnel = same.select(share, old).into();
+                put3(simd, &mut to.dir, lanes, dir);
+                put3(simd, &mut to.weight, lanes, weight);
             }
         }
     }

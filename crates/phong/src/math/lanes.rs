@@ -1,6 +1,6 @@
 //! What shading needs of [`Lanes`] of f32 beyond their arithmetic, and three numbers of each lane in memory.
 
-use fearless_simd::{Simd, f32x8, prelude::*};
+use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 use glam::Vec3;
 use phong_bvh::Lanes;
 pub(crate) use phong_bvh::lanes::{add, dot, neg, scale, select3, splat3, sub};
@@ -40,6 +40,19 @@ pub(crate) fn load3<S: Simd>(simd: S, [x, y, z]: &Lanes3) -> [f32x8<S>; 3] {
 #[inline(always)]
 pub(crate) fn store3<S: Simd>([x, y, z]: [f32x8<S>; 3]) -> Lanes3 {
     [x.into(), y.into(), z.into()]
+}
+
+/// Puts three coordinates into some lanes, a bit each, and leaves what is in the others.
+///
+/// Wherever it will do, all: processors write some lanes of eight slowly.
+#[inline(always)]
+pub(crate) fn put3<S: Simd>(simd: S, to: &mut Lanes3, lanes: u32, value: [f32x8<S>; 3]) {
+    if lanes == 0xff {
+        *to = store3(value);
+    } else {
+        let lanes = mask32x8::from_bitmask(simd, lanes.into());
+        *to = store3(select3(lanes, value, load3(simd, to)));
+    }
 }
 
 /// Three numbers of one lane.

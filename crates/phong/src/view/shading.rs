@@ -7,7 +7,7 @@ use phong_scene::Rgb;
 use super::View;
 use crate::geometry::Batch;
 use crate::math::Dir3;
-use crate::math::lanes::{Lanes3, dot, load3, select3, set, splat3, store3};
+use crate::math::lanes::{Lanes3, dot, load3, put3, select3, set, splat3, store3};
 
 /// What shading needs of a surface besides its geometry.
 pub(super) struct Shading {
@@ -100,22 +100,23 @@ impl View {
         let mut left = hits.met;
         while left != 0 {
             // Neighbours are mostly of one part.
-            let part = hits.part[left.trailing_zeros() as usize & 7];
+            let first = left.trailing_zeros() as usize & 7;
+            let part = hits.part[first];
             let batch = self.geometry.batch(part);
             let parts = u32x8::load_array_ref(simd, &hits.part);
             let same = left & parts.simd_eq(u32x8::splat(simd, part)).to_bitmask() as u32;
+            // What is in lanes without a hit is unspecified, and the others are yet to come.
+            let to = if left == hits.met { 0xff } else { same };
             left &= !same;
             match batch.only_material() {
                 Some(number) if batch.has_no_colors() => {
-                    let own = splat3(zero, self.materials[number as usize].color.to_array());
-                    // What is in lanes without a hit is unspecified.
-                    let lanes = if same == hits.met { 0xff } else { same };
-                    let lanes = mask32x8::from_bitmask(simd, lanes.into());
-                    let color = &mut shading.color;
-                    *color = store3(select3(lanes, own, load3(simd, color)));
-                    let old = u32x8::load_array_ref(simd, &shading.material);
-                    let new = lanes.select(u32x8::splat(simd, number), old);
-                    new.store_array(&mut shading.material);
+                    let color = splat3(zero, self.materials[number as usize].color.to_array());
+                    put3(simd, &mut shading.color, to, color);
+                    if to == 0xff {
+                        shading.material = [number; 8];
+                    } else {
+                        lanes(to).for_each(|lane| shading.material[lane] = number);
+                    }
                 }
                 _ => self.colors(batch, hits, same, shading),
             }
@@ -126,7 +127,7 @@ impl View {
             };
             // The other lanes repeat the first.
             let own = mask32x8::from_bitmask(simd, same.into());
-            let first = u32x8::splat(simd, hits.prim[same.trailing_zeros() as usize & 7]);
+            let first = u32x8::splat(simd, hits.prim[first]);
             let triangles = own.select(u32x8::load_array_ref(simd, &hits.prim), first);
             let triangles = <[u32; 8]>::from(triangles);
             let corners = triangles.map(|triangle| indices[triangle as usize]);
@@ -134,12 +135,12 @@ impl View {
             let v = own.select(f32x8::load_array_ref(simd, &hits.v), zero);
             let smooth = mesh.normals(simd, &triangles, &corners, [u, v]);
             let there = same & smooth.there;
-            let own = mask32x8::from_bitmask(simd, there.into());
-            shading.n = store3(select3(own, smooth.n, load3(simd, &shading.n)));
+            // The normals of other parts are there already.
+            put3(simd, &mut shading.n, if there == hits.met { 0xff } else { there }, smooth.n);
             if lift && there != 0 {
                 let side = (front, dot(smooth.n, front).simd_lt(zero));
                 let way = mesh.lifts(simd, &smooth, (positions, &corners), [u, v], side);
-                shading.lift = store3(select3(own, way, load3(simd, &shading.lift)));
+                put3(simd, &mut shading.lift, to, way);
                 shading.smooth |= there;
             }
         }
