@@ -114,28 +114,39 @@ impl Kernel for Add<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let Self { sums, samples, weights } = self;
-        let len = sums.len();
-        for (i, (sample, weight)) in samples.iter().zip(weights).enumerate() {
-            let sums = &mut sums[i % len];
-            let covered = mask32x8::from_bitmask(simd, sample.met.into());
-            let weight = f32x8::load_array_ref(simd, weight);
-            let mut covers = covered.select(weight, f32x8::splat(simd, 0.0));
-            if sample.clear != 0 {
-                let clear = mask32x8::from_bitmask(simd, sample.clear.into());
-                let seen = f32x8::load_array_ref(simd, &sample.seen_through);
-                covers = clear.select(weight * (1.0 - seen), covers);
+        let one = f32x8::splat(simd, 1.0);
+        let len = sums.len().max(1);
+        let (samples, weights) = (samples.chunks(len), weights.chunks(len));
+        for (samples, weights) in samples.zip(weights) {
+            for ((sums, sample), weight) in sums.iter_mut().zip(samples).zip(weights) {
+                add(simd, sums, sample, weight, one);
             }
-            plus(simd, &mut sums.alpha, covers.widen());
-            let weight = weight.widen();
-            plus(simd, &mut sums.weight, weight);
-            // Of what is black everywhere nothing is added.
-            sums.brought = sums.brought.or(sample.brought);
-            for term in sample.brought.iter() {
-                let (sums, values) = (&mut sums.terms[term], &sample.terms[term]);
-                plus(simd, &mut sums[0], times(weight, wide(simd, &values[0])));
-                plus(simd, &mut sums[1], times(weight, wide(simd, &values[1])));
-                plus(simd, &mut sums[2], times(weight, wide(simd, &values[2])));
-            }
+        }
+    }
+}
+
+#[inline(always)]
+fn add<S: Simd>(simd: S, sums: &mut Sums8, sample: &Radiance8, weight: &[f32; 8], one: f32x8<S>) {
+    let covered = mask32x8::from_bitmask(simd, sample.met.into());
+    let weight = f32x8::load_array_ref(simd, weight);
+    // Times 1 a value stays as it is.
+    let plain = weight.simd_eq(one).all_true();
+    let mut covers = covered.select(weight, f32x8::splat(simd, 0.0));
+    if sample.clear != 0 {
+        let clear = mask32x8::from_bitmask(simd, sample.clear.into());
+        let seen = f32x8::load_array_ref(simd, &sample.seen_through);
+        covers = clear.select(weight * (1.0 - seen), covers);
+    }
+    plus(simd, &mut sums.alpha, covers.widen());
+    let weight = weight.widen();
+    plus(simd, &mut sums.weight, weight);
+    // Of what is black everywhere nothing is added.
+    sums.brought = sums.brought.or(sample.brought);
+    for term in sample.brought.iter() {
+        let (sums, values) = (&mut sums.terms[term], &sample.terms[term]);
+        for (sum, values) in sums.iter_mut().zip(values) {
+            let value = wide(simd, values);
+            plus(simd, sum, if plain { value } else { times(weight, value) });
         }
     }
 }

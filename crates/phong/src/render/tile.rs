@@ -23,8 +23,8 @@ const SQUARE: u32 = 8;
 /// Eights of pixels in a bundle of several samples each: a square's.
 const EIGHTS_PER_BUNDLE: usize = SQUARE as usize;
 
-/// Samples of each pixel in a bundle.
-const SAMPLES_PER_BUNDLE: u32 = 2;
+/// Samples of each pixel in a bundle. More share what is done once for a bundle.
+const SAMPLES_PER_BUNDLE: u32 = 8;
 
 /// The most eights of pixels in a bundle of one sample each, so that a large tile notices in the
 /// middle that it is cancelled.
