@@ -211,8 +211,10 @@ impl Plan {
 
 /// The linear value of an sRGB step; `None` if it is no step.
 fn table_entry(table: &[f32], value: f64) -> Option<f32> {
-    let step = value as usize;
-    table.get(step).copied().filter(|_| step as f64 == value)
+    // Tables are short, and this is the conversion that processors have.
+    let step = value as i32;
+    let entry = table.get(usize::try_from(step).ok()?).copied();
+    entry.filter(|_| f64::from(step) == value)
 }
 
 /// Vertices read so far, in arrays that become a mesh's or a cloud's without a copy.
@@ -311,11 +313,12 @@ impl Vertices {
     /// The spheres, without those that have no place or no radius.
     pub(super) fn into_points(mut self, plan: &Plan) -> Points {
         mend_colors(&mut self.colors);
+        let radii = plan.has(RADIUS);
         let sound = |&[x, y, z, radius]: &[f32; 4]| {
-            let radius = !plan.has(RADIUS) || radius.is_finite() && radius > 0.0;
-            radius && [x, y, z].iter().all(|c| c.is_finite())
+            let radius = !radii | (radius.is_finite() & (radius > 0.0));
+            radius & are_all(&[x, y, z], |c| c.is_finite())
         };
-        if !self.spheres.par_iter().with_min_len(1 << 12).all(sound) {
+        if !self.spheres.par_chunks(PIECE).all(|piece| are_all(piece, sound)) {
             let mut kept = self.spheres.iter().map(sound);
             self.colors.retain(|_| kept.next().unwrap_or(true));
             self.spheres.retain(sound);
@@ -331,10 +334,23 @@ impl Vertices {
 
 /// Makes grey what is no colour.
 fn mend_colors(colors: &mut [Rgb]) {
-    let is_color = |c: &Rgb| c.to_array().iter().all(|c| c.is_finite() && *c >= 0.0);
-    let wrong = colors.par_iter_mut().with_min_len(1 << 12).filter(|color| !is_color(color));
-    wrong.for_each(|color| *color = Material::default().color);
+    colors.par_chunks_mut(PIECE).filter(|piece| !are_all(piece, is_color)).for_each(|piece| {
+        let wrong = piece.iter_mut().filter(|color| !is_color(color));
+        wrong.for_each(|color| *color = Material::default().color);
+    });
 }
+
+fn is_color(color: &Rgb) -> bool {
+    are_all(&color.to_array(), |c| c.is_finite() & (*c >= 0.0))
+}
+
+/// Whether all values are `sound`, which is plain arithmetic: without a branch for each.
+fn are_all<T>(values: &[T], sound: impl Fn(&T) -> bool) -> bool {
+    values.iter().fold(true, |all, value| all & sound(value))
+}
+
+/// Values that are looked through without a branch.
+const PIECE: usize = 1 << 12;
 
 /// Vertices to be filled in; what the file has none of is empty.
 #[derive(Debug)]
@@ -409,15 +425,13 @@ impl Part<'_> {
             columns.fill(column, self.spheres, |_, alpha| plan.see_alpha(alpha));
         }
         let radii = plan.has(RADIUS);
+        let is_sphere = |p: &[f32; 4]| are_all(p, |c| c.is_finite()) & !(radii & (p[3] <= 0.0));
         sound
-            && self.positions.iter().all(|p| p.is_finite())
-            && self
-                .spheres
-                .iter()
-                .all(|p| p.iter().all(|c| c.is_finite()) && !(radii && p[3] <= 0.0))
-            && self.normals.iter().all(|n| n.is_finite())
-            && self.colors.iter().all(|c| c.to_array().iter().all(|c| c.is_finite() && *c >= 0.0))
-            && self.uvs.iter().all(|uv| uv.is_finite())
+            && are_all(self.positions, |p| p.is_finite())
+            && are_all(self.spheres, is_sphere)
+            && are_all(self.normals, |n| n.is_finite())
+            && are_all(self.colors, is_color)
+            && are_all(self.uvs, |uv| uv.is_finite())
     }
 }
 
