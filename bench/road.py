@@ -2,7 +2,7 @@
 """The whole road, from a scene's text to a picture on disk, against Tachyon, POV-Ray, Mitsuba 3 and OSPRay.
 
     cargo build --release && python3 bench/road.py [--scenes slide,mesh,...] [--ply dragon.ply.gz] [--runs 5]
-                                                 [--ovito PYTHON]
+                                                 [--ovito PYTHON] [--before PHONG]
 
 Writes the scenes (bench/scenes.py, needs numpy), runs every program that is installed on the very same scene, one after
 the other in rounds so that a busy machine disturbs all alike, and prints medians as a Markdown table. Ratios are to
@@ -27,7 +27,7 @@ SCENES = "slide slide-16 mesh spheres-100k spheres-1m spheres-5m spheres-20m".sp
 SIZE = 1920, 1080
 
 
-def commands(phong, ovito, name, folder, threads):
+def commands(phong, before, ovito, name, folder, threads):
     """What each program is called with, and where it leaves its picture. All write linear 8-bit PNG.
 
     `slide-16` is the slide with 16 samples a pixel; a scene too large for a program has no file for it.
@@ -36,9 +36,11 @@ def commands(phong, ovito, name, folder, threads):
     name = name.removesuffix("-16")
     at = lambda kind: str(folder / f"{name}.{kind}")
     picture = lambda program: str(folder / f"{name}{'-16' if many else ''}.{program}.png")
+    of_phong = lambda path, program: [path, "render", at("toml"), "-o", picture(program), "--linear", "--quiet",
+                                      f"--threads={threads}", f"--samples={16 if many else 1}"]
     all_of_them = {
-        "phong": [phong, "render", at("toml"), "-o", picture("phong"), "--linear", "--quiet",
-                  f"--threads={threads}", f"--samples={16 if many else 1}"],
+        "phong": of_phong(phong, "phong"),
+        "before": of_phong(before, "before"),
         "tachyon": ["tachyon", at("dat"), "-numthreads", str(threads), "-shade_phong", "-format", "PNG",
                     "-aasamples", "15" if many else "0", "-o", picture("tachyon")],
         "povray": ["povray", f"+I{at('pov')}", f"+O{picture('povray')}", f"+W{SIZE[0]}", f"+H{SIZE[1]}",
@@ -51,7 +53,9 @@ def commands(phong, ovito, name, folder, threads):
         del all_of_them["mitsuba"]
     if many or ovito is None:
         del all_of_them["ospray"]
-    inputs = {"phong": at("toml"), "tachyon": at("dat"), "povray": at("pov"), "mitsuba": at("toml"), "ospray": at("toml")}
+    if before is None:
+        del all_of_them["before"]
+    inputs = {"phong": at("toml"), "before": at("toml"), "tachyon": at("dat"), "povray": at("pov"), "mitsuba": at("toml"), "ospray": at("toml")}
     runs = lambda program: shutil.which(all_of_them[program][0]) and os.path.exists(inputs[program])
     return {program: line for program, line in all_of_them.items() if runs(program)}, picture
 
@@ -76,6 +80,7 @@ def main():
     parser.add_argument("--runs", type=int, default=5, help="default: %(default)s")
     parser.add_argument("--threads", type=int, default=os.cpu_count(), help="default: all")
     parser.add_argument("--phong", default=str(ROOT / "target/release/phong"), help="the program")
+    parser.add_argument("--before", help="another build of it, measured in the same rounds")
     here = sys.executable if importlib.util.find_spec("ovito") else None
     parser.add_argument("--ovito", default=here, help="a Python that has OVITO, for OSPRay (default: this one if it has)")
     parser.add_argument("--folder", type=Path, default=ROOT / "target/road", help="where scenes and pictures go")
@@ -89,7 +94,7 @@ def main():
         # In a process of its own: a child's peak memory begins with its parent's.
         write = [sys.executable, ROOT / "bench/scenes.py", name.removesuffix("-16"), options.folder, *([options.ply] if options.ply else [])]
         subprocess.run(write, check=True)
-        lines, picture = commands(options.phong, options.ovito, name, options.folder, options.threads)
+        lines, picture = commands(options.phong, options.before, options.ovito, name, options.folder, options.threads)
         apart = {}
         for program, line in lines.items():  # unmeasured: files into the cache, pictures for the comparison
             measure(line)
