@@ -99,18 +99,6 @@ pub(crate) fn json(value: &serde_json::Value) -> Result<(), Failure> {
     data(format!("{value:#}\n").as_bytes())
 }
 
-/// A number as it is told: of one that is an f32, the f64 with the fewest digits that is the same
-/// f32, since the digits beyond were never there; and never −0.
-pub(crate) fn shortest(number: f64) -> f64 {
-    let narrow = number as f32;
-    let number = if f64::from(narrow) == number {
-        narrow.to_string().parse().unwrap_or(number)
-    } else {
-        number
-    };
-    number + 0.0
-}
-
 /// A number of bytes for people.
 pub(crate) fn readable(bytes: u64) -> String {
     let units = ["bytes", "KiB", "MiB", "GiB", "TiB"];
@@ -190,16 +178,6 @@ fn count((n, what): (usize, &str)) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_number_has_the_digits_it_was_computed_with() {
-        assert_eq!(shortest(f64::from(0.1_f32)).to_string(), "0.1");
-        assert_eq!(shortest(0.1).to_string(), "0.1");
-        assert_eq!(shortest(1.0 / 3.0).to_string(), "0.3333333333333333");
-        assert_eq!(shortest(-0.0).to_string(), "0");
-        assert_eq!(shortest(f64::INFINITY), f64::INFINITY);
-        assert!(shortest(f64::NAN).is_nan());
-    }
 
     #[test]
     fn of_too_many_diagnostics_the_errors_are_drawn_first_and_the_rest_is_counted() {

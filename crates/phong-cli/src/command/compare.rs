@@ -13,7 +13,6 @@ use phong::render::RenderOptions;
 use phong_lab::compare::{self, Comparison};
 use phong_lab::fit::{FitError, Target};
 use phong_scene::read_stream;
-use serde_json::{Value, json};
 
 use super::fit::trouble;
 use crate::args::ImageArgs;
@@ -21,7 +20,7 @@ use crate::failure::Failure;
 use crate::input::{open_file, unreadable};
 use crate::memory;
 use crate::output::Output;
-use crate::report::{self, shortest};
+use crate::report;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -107,7 +106,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
     let same = !compare::exceeds(told.max, args.tolerance);
     if args.json {
-        let mut answer = as_json(&told, args.tolerance);
+        let mut answer = compare::json(&told, args.tolerance);
         if let Some(scenes) = &scenes {
             scenes.add_to(&mut answer, args);
         }
@@ -283,48 +282,4 @@ impl Drawing {
         self.output
             .write(|mut out| image::write(&film, content, format, &Encoding::default(), &mut out))
     }
-}
-
-fn as_json(told: &Comparison, tolerance: f64) -> Value {
-    let Comparison { max, mean, rms, over_1_255, psnr, worst, channel, .. } = told;
-    let pixels = told.pixels_over(tolerance);
-    let channels: Vec<Value> = told
-        .channels
-        .iter()
-        .map(|c| {
-            let [max, mean, rms] = [c.max, c.mean, c.rms].map(shortest);
-            json!({"name": c.name, "max": max, "mean": mean, "rms": rms, "psnr": c.psnr})
-        })
-        .collect();
-    let worst_pixels: Vec<Value> = told
-        .worst_pixels
-        .iter()
-        .map(|p| {
-            let [a, b] =
-                [&p.a, &p.b].map(|side| side.iter().copied().map(shortest).collect::<Vec<_>>());
-            json!({"at": p.at, "difference": shortest(p.difference), "a": a, "b": b})
-        })
-        .collect();
-    let delta_e = told
-        .delta_e
-        .map(|d| json!({"mean": d.mean, "max": d.max, "worst": d.worst, "over_1": d.over_1}));
-    json!({
-        "max": shortest(*max),
-        "mean": shortest(*mean),
-        "rms": shortest(*rms),
-        "over_1_255": over_1_255,
-        "psnr": psnr,
-        "worst": worst,
-        "channel": channel,
-        "same_size": true,
-        "within_tolerance": !compare::exceeds(*max, tolerance),
-        "over_tolerance": {
-            "pixels": pixels,
-            "share": pixels as f64 / told.largest.len() as f64,
-        },
-        "not_finite": told.not_finite,
-        "channels": channels,
-        "delta_e_2000": delta_e,
-        "worst_pixels": worst_pixels,
-    })
 }

@@ -1,11 +1,8 @@
 //! `phong eval`: a formula at given vectors.
 
-mod line;
-mod query;
-
 use std::io::{self, BufRead, BufReader, IsTerminal, Write};
 
-use phong_lab::eval::Value;
+use phong_lab::eval::answer;
 use serde_json::Value as Json;
 
 use crate::failure::Failure;
@@ -108,40 +105,6 @@ fn answer_lines<R: io::Read>(
     }
     answers.flush().map_err(|e| Failure::stdout(&e))?;
     Ok(all_answered)
-}
-
-/// The `id` of a query, and its value as JSON, or what is wrong with it.
-fn answer(line: &[u8]) -> (Json, Result<String, String>) {
-    let line = line.trim_ascii_end();
-    if line.is_empty() {
-        return (Json::Null, Err("an empty line: every line is one query".to_owned()));
-    }
-    let mut query = match line::read(line) {
-        Ok(Json::Object(query)) => query,
-        Ok(_) => return (Json::Null, Err("a query is a JSON object, {\"model\": ..}".to_owned())),
-        Err(error) => return (line::id(line), Err(error)),
-    };
-    let id = query.remove("id").unwrap_or(Json::Null);
-    let answer = query::read(&query).and_then(|(query, grey)| {
-        let value = query.value().map_err(|error| error.to_string())?;
-        Ok(match value {
-            Value::Number(number) => digits(number),
-            Value::Color(color) if grey => digits(color.r),
-            Value::Color(color) => list(color.to_array()),
-            Value::Direction(direction) => list(direction.to_array()),
-        })
-    });
-    (id, answer)
-}
-
-/// The shortest text that reads back as this very f32.
-fn digits(number: f32) -> String {
-    // Debug prints 1e-7 where Display would write out the zeros.
-    format!("{number:?}")
-}
-
-fn list(numbers: [f32; 3]) -> String {
-    format!("[{}]", numbers.map(digits).join(", "))
 }
 
 #[cfg(test)]

@@ -4,9 +4,8 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use phong_lab::fit::plot::svg;
-use phong_lab::fit::{Fit, FitError, Lobe, Model, fit, hold};
+use phong_lab::fit::{self, Fit, FitError, Lobe, Model, hold};
 use phong_scene::closest;
-use serde_json::{Value as Json, json};
 
 use crate::failure::Failure;
 use crate::output::Output;
@@ -68,7 +67,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     if args.plot.as_deref() == Some(Path::new("-")) {
         Ok(())
     } else if args.json {
-        report::json(&as_json(&found))
+        report::json(&fit::json(&found))
     } else {
         report::data(as_text(&found, !args.to.contains(':')).as_bytes())
     }
@@ -76,7 +75,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 
 fn find(from: &str, to: &str) -> Result<Fit, FitError> {
     let from: Lobe = from.parse()?;
-    if to.contains(':') { hold(from, to.parse()?) } else { fit(from, to.parse()?) }
+    if to.contains(':') { hold(from, to.parse()?) } else { fit::fit(from, to.parse()?) }
 }
 
 /// Says what is wrong with a model, and which one was probably meant.
@@ -87,41 +86,6 @@ pub(super) fn trouble(error: &FitError) -> Failure {
         Some(name) => failure.with_help(format!("did you mean `{name}`?")),
         None => failure,
     }
-}
-
-fn as_json(fit: &Fit) -> Json {
-    let lobe =
-        |lobe: &Lobe| json!({"model": lobe.model.name(), lobe.model.quantity(): lobe.number});
-    let angles: Vec<Json> = fit
-        .angles
-        .iter()
-        .map(|at| {
-            json!({
-                "theta": at.theta,
-                "residual": {"in_plane": at.residual.in_plane, "across": at.residual.across},
-                "half_width": {
-                    "from": {"in_plane": at.half_width_from[0], "across": at.half_width_from[1]},
-                    "to": {"in_plane": at.half_width_to[0], "across": at.half_width_to[1]},
-                },
-                "best_alone": {"in_plane": at.best_alone[0], "across": at.best_alone[1]},
-            })
-        })
-        .collect();
-    let in_use: Vec<Json> = fit
-        .in_use
-        .iter()
-        .map(|use_| json!({"source": use_.source, "formula": use_.text, "roughness": use_.roughness}))
-        .collect();
-    json!({
-        "from": lobe(&fit.from),
-        "to": lobe(&fit.to),
-        "formula": fit.formula.map(|formula| formula.value),
-        "formula_text": fit.formula.map(|formula| formula.text),
-        "residual": {"in_plane": fit.residual.in_plane, "across": fit.residual.across},
-        "at_the_end": fit.at_the_end,
-        "angles": angles,
-        "in_use": in_use,
-    })
 }
 
 fn as_text(fit: &Fit, fitted: bool) -> String {
@@ -212,11 +176,13 @@ fn brief(number: f64) -> String {
 
 #[cfg(test)]
 mod tests {
+    use serde_json::{Value as Json, json};
+
     use super::*;
 
     #[test]
     fn the_json_has_the_shape_that_is_promised() {
-        let found = as_json(&find("phong:32", "blinn-phong").unwrap());
+        let found = fit::json(&find("phong:32", "blinn-phong").unwrap());
         assert_eq!(found["from"], json!({"model": "phong", "exponent": 32.0}));
         assert_eq!(found["to"]["model"], "blinn-phong");
         let number = |at: &Json| at.as_f64().unwrap();
@@ -224,7 +190,7 @@ mod tests {
         assert!((number(&found["formula"]) - 128.69).abs() < 0.01);
         assert!(number(&found["residual"]["in_plane"]) < 0.01);
         assert!(number(&found["residual"]["across"]) > 0.4);
-        let rough = as_json(&find("mtl:200", "ggx").unwrap());
+        let rough = fit::json(&find("mtl:200", "ggx").unwrap());
         assert!(number(&rough["to"]["roughness"]) > 0.1);
         assert_eq!(rough["in_use"].as_array().unwrap().len(), 5);
     }

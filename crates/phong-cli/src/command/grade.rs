@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use phong::image::{Picture, Transfer};
 use phong::render::{Cancel, RenderOptions, render};
 use phong::view::View;
-use phong_lab::grade::{Candidate, Grade, GradeError, Grader, MISTAKES};
+use phong_lab::grade::{self, Candidate, Grade, GradeError, Grader, MISTAKES};
 use phong_scene::{Scene, srgb_encode};
 use serde_json::{Value, json};
 
@@ -85,7 +85,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         };
         all_pass &= graded.pass;
         if args.json {
-            answers.push(as_json(path, &graded, scene.image.size));
+            let mut answer = serde_json::Map::new();
+            answer.insert("image".to_owned(), path.to_string_lossy().into());
+            if let Value::Object(told) = grade::json(&graded, scene.image.size) {
+                answer.extend(told);
+            }
+            answers.push(answer.into());
         } else {
             let sizes = [written_size, scene.image.size];
             report::data(as_text(path, &graded, sizes).as_bytes())?;
@@ -148,41 +153,6 @@ fn ours(scene: &Scene, theirs: &Picture) -> Result<Picture, Failure> {
         picture.transfer = Transfer::Srgb;
     }
     Ok(picture)
-}
-
-fn as_json(path: &Path, graded: &Grade, size: [u32; 2]) -> Value {
-    let candidates: Vec<Value> = graded
-        .candidates
-        .iter()
-        .map(|one| {
-            json!({
-                "cause": one.cause,
-                "says": one.says,
-                "evidence": one.evidence,
-                "rms": one.rms,
-                "explains": one.explains,
-            })
-        })
-        .collect();
-    let terms: serde_json::Map<String, Value> =
-        graded.terms.iter().map(|(name, factor)| ((*name).clone(), json!(factor))).collect();
-    json!({
-        "image": path.to_string_lossy(),
-        "verdict": if graded.pass { "pass" } else { "fail" },
-        "size": size,
-        "cause": graded.cause,
-        "tied": graded.tied,
-        "told_apart_by": graded.told_apart_by,
-        "confidence": graded.confidence,
-        "candidates": candidates,
-        "unrevealed": graded.unrevealed,
-        "objects": graded.objects,
-        "terms": terms,
-        "rms": graded.residual.rms,
-        "worst": { "difference": graded.residual.worst, "at": graded.residual.worst_at },
-        "share_noticed": graded.residual.over,
-        "pixels_compared": graded.residual.pixels,
-    })
 }
 
 fn as_text(path: &Path, graded: &Grade, [written, size]: [[u32; 2]; 2]) -> String {

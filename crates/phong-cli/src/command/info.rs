@@ -28,8 +28,9 @@ pub(crate) fn run(Args { question: args }: &Args) -> Result<(), Failure> {
     let input = input::open(&args.input, false)?;
     let format = input::format(&args.input).map(|format| format.to_string());
     let bounds = input.scene.bounds();
-    let bounds = (!bounds.is_empty())
-        .then(|| [bounds.min, bounds.max].map(|corner| corner.to_array().map(report::shortest)));
+    let bounds = (!bounds.is_empty()).then(|| {
+        [bounds.min, bounds.max].map(|corner| corner.to_array().map(phong_lab::compare::shortest))
+    });
     let lights = input.scene.lights.len();
     let names: Vec<String> = input.scene.materials.iter().map(|m| m.name.clone()).collect();
     let started = Instant::now();

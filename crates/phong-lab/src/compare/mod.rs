@@ -3,6 +3,7 @@
 mod color_map;
 mod delta_e;
 mod drawing;
+mod json;
 mod terms;
 
 use phong::image::{Picture, Transfer};
@@ -13,6 +14,7 @@ use thiserror::Error;
 pub use color_map::color;
 pub use delta_e::{Lab, delta_e_2000};
 pub use drawing::draw;
+pub use json::{json, shortest};
 pub use terms::{TermDifference, terms};
 
 /// How many of the worst pixels are told.

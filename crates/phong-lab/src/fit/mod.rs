@@ -15,6 +15,7 @@
 //! ```
 
 mod formula;
+mod json;
 mod lobe;
 pub mod plot;
 mod search;
@@ -25,6 +26,7 @@ mod tests;
 use thiserror::Error;
 
 pub use formula::{Formula, InUse};
+pub use json::json;
 pub use lobe::{Lobe, Model, Slice};
 pub use surface::{Remodelled, Target, remodel};
 

@@ -11,6 +11,7 @@ mod elsewhere;
 mod fault;
 mod fitted;
 mod hypotheses;
+mod json;
 mod judge;
 mod lossy;
 mod mistakes;
@@ -27,6 +28,7 @@ mod wrong;
 use phong_scene::Scene;
 use thiserror::Error;
 
+pub use json::json;
 use judge::Judge;
 pub use mistakes::{MISTAKES, Mistake};
 use phong::image::Picture;

@@ -18,7 +18,7 @@ use crate::compile::compile;
 use crate::failure::Failure;
 use crate::input::{self, Input};
 use crate::plan;
-use crate::report::shortest;
+use phong_lab::compare::shortest;
 
 /// What is to be said about two scenes besides their pictures.
 pub(super) struct Scenes {

@@ -1,10 +1,11 @@
-//! A query of `phong eval`, from JSON.
+//! A query, from JSON.
 
 use phong::math::Dir3;
 use phong::reflectance::{Distribution, Fresnel, Incident, OrenNayarForm, Shadowing, WardForm};
-use phong_lab::eval::{Directions, Lobe, Query};
 use phong_scene::{Rgb, closest};
 use serde_json::{Map, Value as Json};
+
+use super::{Directions, Lobe, Query};
 
 /// Every model by name.
 const MODELS: [&str; 23] = [
@@ -41,7 +42,10 @@ const SLACK: f64 = 1e-3;
 
 /// The query that a JSON object asks, without its `id`; and whether all its colours are greys,
 /// given as one number each.
-pub(super) fn read(object: &Map<String, Json>) -> Result<(Query, bool), String> {
+///
+/// # Errors
+/// What is wrong with it, in one sentence.
+pub fn read(object: &Map<String, Json>) -> Result<(Query, bool), String> {
     if let Some(key) = object.keys().find(|key| !KEYS.contains(&key.as_str())) {
         let way_out = closest(key, KEYS)
             .map_or_else(|| format!("it has id, {}", KEYS.join(", ")), did_you_mean);

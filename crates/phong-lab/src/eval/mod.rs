@@ -10,6 +10,10 @@
 //! assert_eq!(query.value(), Ok(Value::Number(0.125)));
 //! ```
 
+mod answer;
+mod line;
+mod query;
+
 use std::f32::consts::FRAC_1_PI;
 
 use phong::math::{Dir3, lobe};
@@ -22,6 +26,9 @@ use phong::reflectance::{
 use phong::terms::Terms;
 use phong_scene::Rgb;
 use thiserror::Error;
+
+pub use answer::answer;
+pub use query::read;
 
 /// N, L and E: all unit, all away from the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
