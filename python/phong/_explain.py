@@ -7,61 +7,10 @@ import json
 import os
 from typing import Any
 
-import numpy as np
-
 from phong import _phong
 from phong._render import scene_of
 from phong._scene import Scene
-
-
-class Told:
-    """A part of an explanation: its keys are attributes, and its vectors are arrays.
-
-    Vectors and colours are ``float32`` arrays of shape (3,), or ``float64`` where they are places
-    in the world (``p``, ``eye``, ``origin``).
-    """
-
-    def __init__(self, told: dict[str, Any]) -> None:
-        self._told = told
-        for key, value in told.items():
-            setattr(self, key, _value(key, value))
-
-    def __getattr__(self, key: str) -> Any:
-        raise AttributeError(f"nothing is told of {key!r}", name=key, obj=self)
-
-    def to_dict(self) -> dict[str, Any]:
-        """As plain data: what ``phong explain --json`` says."""
-        told: dict[str, Any] = json.loads(json.dumps(self._told))
-        return told
-
-    def __repr__(self) -> str:
-        return f"<{type(self).__name__}: {', '.join(self._told)}>"
-
-    def __getstate__(self) -> dict[str, Any]:
-        return self._told
-
-    def __setstate__(self, told: dict[str, Any]) -> None:
-        Told.__init__(self, told)
-
-
-#: Places in the world, which are computed in f64.
-_PLACES = {"p", "eye", "origin", "position", "lifted"}
-#: Whole numbers.
-_WHOLE = {"pixel", "size", "srgb8"}
-
-
-def _value(key: str, value: Any) -> Any:
-    if isinstance(value, dict):
-        return Told(value)
-    if isinstance(value, list):
-        if value and all(isinstance(item, (int, float)) for item in value):
-            if key in _WHOLE:
-                return tuple(value)
-            array = np.array(value, np.float64 if key in _PLACES else np.float32)
-            array.flags.writeable = False
-            return array
-        return [_value(key, item) for item in value]
-    return value
+from phong._told import Told
 
 
 class Explanation(Told):

@@ -105,7 +105,7 @@ def _restore(kind: type[Keys], name: str | None, keys: dict[str, Any]) -> Keys:
 
 
 class Camera(Keys):
-    """Where a picture is taken from: the keys of ``[camera]``; ``eye`` and ``look_at`` are needed."""
+    """Where a picture is taken from: the keys of ``[camera]``, of them ``eye`` and ``look_at``."""
 
     __slots__ = ()
     _kind = "camera"
@@ -136,7 +136,7 @@ class Texture(Keys):
 
 
 class Shape(Keys):
-    """A shape for :meth:`phong.Scene.add`. ``material`` is a :class:`Material`, or the name of one."""
+    """A shape for :meth:`phong.Scene.add`. ``material``: a :class:`Material`, or a name of one."""
 
     __slots__ = ()
 

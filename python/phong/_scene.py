@@ -11,7 +11,6 @@ from phong import _phong
 from phong._keys import Camera, Light, Material, Texture
 
 
-
 class Scene(_phong.Scene):
     """What is drawn, and what it looks like.
 
@@ -43,7 +42,7 @@ class Scene(_phong.Scene):
 
     @lights.setter
     def lights(self, lights: Iterable[Light]) -> None:
-        self.set_lights(lights)
+        self.set_lights(list(lights))
 
     @property
     def materials(self) -> dict[str, Material]:
@@ -93,7 +92,7 @@ class Scene(_phong.Scene):
         self.set_image(keys)
 
     def digest(self) -> str:
-        """A hash (hexadecimal) of all that it is: equal scenes have equal ones, on every machine."""
+        """A hash (hexadecimal) of all that it is; equal scenes have equal ones."""
         text, arrays = self._content()
         digest = hashlib.blake2b(text.encode(), digest_size=16)
         for array in arrays:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import pickle
 from pathlib import Path
+from typing import Any
 
 import numpy as np
-import phong
 import pytest
+
+import phong
 
 TEXT = """
 version = 1
@@ -28,7 +30,7 @@ material = "plastic"
 point = [0, 0, 0]
 normal = [0, 1, 0]
 """
-SMALL = {"size": (48, 32), "samples": 2}
+SMALL: dict[str, Any] = {"size": (48, 32), "samples": 2}
 
 
 def built() -> phong.Scene:
@@ -103,7 +105,7 @@ def test_a_pixel_is_explained_to_the_bit() -> None:
 
 def test_a_misspelt_key_is_told_with_the_right_one() -> None:
     with pytest.raises(phong.SceneError, match="shininess") as caught:
-        phong.Material(shinines=3)
+        phong.Material(**{"shinines": 3})  # type: ignore[arg-type]
     assert caught.value.diagnostics[0].severity == "error"
 
 

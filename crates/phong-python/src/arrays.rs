@@ -147,12 +147,12 @@ impl<'py> Numbers<'py> {
     }
 
     /// Whether its numbers are bytes.
-    fn is_bytes(&self) -> bool {
+    pub(crate) fn is_bytes(&self) -> bool {
         matches!(self.values, Values::U8(_))
     }
 
     /// Whether its numbers are whole by their type.
-    fn is_whole(&self) -> bool {
+    pub(crate) fn is_whole(&self) -> bool {
         matches!(self.values, Values::U8(_) | Values::I64(_))
     }
 

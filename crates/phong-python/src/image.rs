@@ -91,6 +91,11 @@ impl Image {
         [self.film.height() as usize, self.film.width() as usize]
     }
 
+    /// The picture for those who compare it with others.
+    pub(crate) fn picture(&self) -> phong::image::Picture {
+        phong::image::Picture::of_film(&self.film)
+    }
+
     fn png(&self, encoding: &Encoding) -> PyResult<Vec<u8>> {
         let mut out = Cursor::new(Vec::new());
         let content = Content::Layer(LayerKind::Picture);
@@ -211,7 +216,11 @@ impl Image {
         Ok(all)
     }
 
-    /// Writes it, and beside it its layers where the format does not hold them.
+    /// Writes it as PNG, EXR or PFM, as the name ends: whole or not at all.
+    ///
+    /// Layers lie beside it where the format does not hold them (`a.depth.png` for `a.png`). `bits`: 8
+    /// or 16, of a PNG. `exposure`: stops by which a PNG is brighter. `linear`: no sRGB curve in a PNG.
+    /// The bytes are those of the program. Raises `OSError`, and `ValueError` for a name it cannot be.
     #[pyo3(signature = (path, bits = 8, exposure = 0.0, *, linear = false))]
     fn save(
         &self,

@@ -11,6 +11,7 @@ mod errors;
 mod files;
 mod image;
 mod keys;
+mod lab;
 mod look;
 mod part;
 mod raw;
@@ -28,6 +29,8 @@ mod _phong {
     use crate::image::{_image_of_part, Image, merge};
     #[pymodule_export]
     use crate::keys::check_keys;
+    #[pymodule_export]
+    use crate::lab::{_check, _compare, _convert, _evaluate, _figure, _figures, _fit, _grade};
     #[pymodule_export]
     use crate::part::Part;
     #[pymodule_export]

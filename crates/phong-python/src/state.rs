@@ -213,6 +213,12 @@ impl State {
         }
     }
 
+    /// The scene as a picture of this size shows it.
+    pub(crate) fn scene_for(&self, size: [u32; 2]) -> Scene {
+        let (scene, _) = self.snapshot().framed(Image { size, ..self.scene.image.clone() });
+        scene
+    }
+
     /// The scene as a picture of its own size shows it.
     pub(crate) fn framed(&self) -> Scene {
         let (scene, _) = self.snapshot().framed(self.scene.image.clone());

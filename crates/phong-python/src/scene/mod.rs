@@ -1,21 +1,22 @@
 //! `phong.Scene`: what is drawn, and what it looks like.
 
+mod materials;
+
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use glam::{DAffine3, DVec3};
 use phong_scene::{
     Export, ExportOptions, Folder, Format, Framing, Limits, MaterialId, Object, Points, Reading,
-    Scene as SceneText, Shape, Shared, closest, read,
+    Scene as SceneText, Shape, read,
 };
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict, PyList, PyString, PyTuple, PyType};
-use toml::Table;
+use pyo3::types::{PyBytes, PyDict, PyList, PyTuple, PyType};
 
 use crate::arrays::{neither, transforms};
 use crate::errors::{diagnostics, os_error, scene_error, value_error};
 use crate::files::{Beside, TEXT, format_of, memory, path_of};
 use crate::keys::{Said, Text};
-use crate::look::{image_with, side, tables};
+use crate::look::{image_with, side};
 use crate::part::Part;
 use crate::state::{Automatic, State};
 use crate::{bulk, content, look};
@@ -43,53 +44,6 @@ impl Scene {
         })
     }
 
-    /// The material that an argument means.
-    fn material(&self, given: Option<&Bound<'_, PyAny>>) -> PyResult<MaterialId> {
-        let Some(given) = given.filter(|given| !given.is_none()) else {
-            return Ok(self.state().default_material());
-        };
-        if let Ok(name) = given.cast::<PyString>() {
-            let name = name.to_cow()?;
-            let state = self.state();
-            return state.material_named(&name).ok_or_else(|| {
-                let names = state.scene.materials.iter().map(|material| material.name.as_str());
-                let meant = closest(&name, names).map(|name| format!(": did you mean {name:?}?"));
-                let meant = meant.unwrap_or_default();
-                value_error(format!("material: the scene has none called {name:?}{meant}"))
-            });
-        }
-        let said = Said::expect(given, "material", "material")?;
-        let (material, textures) = self.read_material(given.py(), &said)?;
-        Ok(self.state().material(material, &textures))
-    }
-
-    /// A material, and the textures by which its own are numbered.
-    fn read_material(
-        &self,
-        py: Python<'_>,
-        said: &Said<'_>,
-    ) -> PyResult<(phong_scene::Material, Vec<phong_scene::Texture>)> {
-        let name = said.name.clone().unwrap_or_else(|| "material".to_owned());
-        let mut text = Text::default();
-        let table = text.table(&said.keys)?;
-        if table.values().any(toml::Value::is_table) {
-            let known = self.text()?.remove("textures");
-            if let Some(toml::Value::Table(known)) = known {
-                text.know_textures(known);
-            }
-        }
-        text.name("materials", &name, table);
-        let read = text.read(py, "Material", &Folder)?;
-        let material = read.materials.into_iter().find(|material| material.name == name);
-        Ok((material.unwrap_or_default(), read.textures))
-    }
-
-    /// All but its objects, as the tables of a text.
-    fn text(&self) -> PyResult<Table> {
-        let framed = self.state().framed();
-        tables(SceneText { objects: Vec::new(), groups: Vec::new(), ..framed })
-    }
-
     /// Adds a shape, called `name` or by its kind and a number.
     fn put(
         &self,
@@ -108,7 +62,7 @@ impl Scene {
 
 #[pymethods]
 impl Scene {
-    /// A scene with nothing in it. See `phong.Scene`.
+    /// A scene with nothing in it: see the class.
     #[new]
     #[pyo3(signature = (camera = None, lights = None, ambient = None, background = None))]
     fn new(
@@ -138,7 +92,11 @@ impl Scene {
         Ok(scene)
     }
 
-    /// Reads a scene or a bare model. See `phong.Scene.read`.
+    /// Reads a scene (`.toml`) or a bare model (`.obj`, `.ply`, each also `.gz`).
+    ///
+    /// A bare model has an automatic camera and lights. `format`: what it is, where its name does not
+    /// say. `lenient`: what can be drawn of a damaged model is. Warnings are found in `check()`.
+    /// Raises `phong.SceneError` with all diagnostics, each with file, line and column.
     #[classmethod]
     #[pyo3(signature = (path, format = None, lenient = false))]
     fn read(
@@ -155,7 +113,9 @@ impl Scene {
         made(class, of_reading(class.py(), reading)?)
     }
 
-    /// Reads the text of a scene. See `phong.Scene.parse`.
+    /// Reads the text of a scene; files that it names are looked for in `folder` (default: the current one).
+    ///
+    /// Raises `phong.SceneError` with all diagnostics.
     #[classmethod]
     #[pyo3(signature = (text, folder = None))]
     fn parse(
@@ -172,7 +132,14 @@ impl Scene {
         made(class, of_reading(class.py(), reading)?)
     }
 
-    /// Adds a sphere at every centre. See `phong.Scene.add_spheres`.
+    /// Adds a sphere at every centre; the part that they are.
+    ///
+    /// `centers`: shape (N, 3), any float or integer dtype, scene units. `radii`: one number, or shape
+    /// (N,); above 0. `colors`: one for all, or shape (N, 3): floats are linear, `uint8` is sRGB, text is
+    /// `"#rrggbb"` or a CSS name; they replace the material's. `material`: a `phong.Material`, or the name
+    /// of one of the scene's. `name`: what `explain` calls them.
+    ///
+    /// Raises `ValueError` or `TypeError` with the argument, the index, the value, and what is wanted.
     #[pyo3(signature = (centers, radii, colors = None, material = None, name = None))]
     fn add_spheres(
         &self,
@@ -187,7 +154,11 @@ impl Scene {
         Ok(self.put(points.into(), material, name, DAffine3::IDENTITY))
     }
 
-    /// Moves the spheres of a part. See `phong.Scene.update_spheres`.
+    /// Moves the spheres of a part, or changes their radii or colours; what is not given stays.
+    ///
+    /// Arrays are as of `add_spheres`. Only this part is built again by the next picture, and new
+    /// colours alone build nothing. Raises as `add_spheres`, and `ValueError` for a part of another
+    /// kind.
     #[pyo3(signature = (part, centers = None, radii = None, colors = None))]
     fn update_spheres(
         &self,
@@ -208,7 +179,14 @@ impl Scene {
         self.replace(part, points.into())
     }
 
-    /// Adds triangles. See `phong.Scene.add_mesh`.
+    /// Adds triangles; the part that they are.
+    ///
+    /// `vertices`: shape (N, 3), any float or integer dtype. `faces`: shape (M, 3), whole numbers from 0,
+    /// counter-clockwise seen from outside. `normals`: shape (N, 3), any length but 0; without, faces
+    /// that meet under 60° are smoothed, or under `smooth` degrees; `smooth=False` leaves them flat.
+    /// `uv`: shape (N, 2). `colors`: one, or shape (N, 3), as of `add_spheres`.
+    ///
+    /// Raises `ValueError` or `TypeError` with the argument, the index, the value, and what is wanted.
     #[pyo3(signature = (vertices, faces, normals = None, uv = None, colors = None, material = None,
                         *, smooth = None, name = None))]
     #[expect(clippy::too_many_arguments, reason = "they are the keywords of a Python function")]
@@ -228,7 +206,12 @@ impl Scene {
         Ok(self.put(mesh.into(), material, name, DAffine3::IDENTITY))
     }
 
-    /// Adds cylinders. See `phong.Scene.add_cylinders`.
+    /// Adds a cylinder from every start to every end; the part that they are.
+    ///
+    /// `starts`, `ends`: shape (N, 3). `radii`: one number, shape (N,), or (N, 2) for both ends.
+    /// `colors`: one, shape (N, 3), or (N, 2, 3) for the halves. `caps`: `"round"`, `"flat"` or `"none"`.
+    ///
+    /// Raises `ValueError` or `TypeError` with the argument, the index, the value, and what is wanted.
     #[pyo3(signature = (starts, ends, radii, colors = None, material = None, *, caps = "round",
                         name = None))]
     #[expect(clippy::too_many_arguments, reason = "they are the keywords of a Python function")]
@@ -247,7 +230,10 @@ impl Scene {
         Ok(self.put(cylinders.into(), material, name, DAffine3::IDENTITY))
     }
 
-    /// Adds a shape. See `phong.Scene.add`.
+    /// Adds a shape, like `phong.Sphere(center=(0, 1, 0), radius=1)`; the part that it is.
+    ///
+    /// `transform`: shape (4, 4) or (3, 4), for column vectors; it follows the shape's own. Raises
+    /// `phong.SceneError` for a shape that makes no sense.
     #[pyo3(signature = (shape, transform = None))]
     fn add(
         &self,
@@ -290,7 +276,11 @@ impl Scene {
         Ok(self.put(object.shape, material, name, place * object.transform))
     }
 
-    /// Draws a part at other places as well. See `phong.Scene.instance`.
+    /// Draws a part at other places as well; their parts.
+    ///
+    /// `transforms`: shape (4, 4) or (N, 4, 4), for column vectors. They share the part's geometry,
+    /// which is built once. `keep=False`: it is no longer drawn where it was. Each copy may get a
+    /// material of its own.
     #[pyo3(signature = (part, transforms, *, keep = true))]
     fn instance(
         &self,
@@ -315,7 +305,7 @@ impl Scene {
         Ok(parts)
     }
 
-    /// Takes a part away.
+    /// Takes a part away; others keep their numbers. Raises `ValueError` if it is gone already.
     fn remove(&self, part: &Part) -> PyResult<()> {
         let place = self.place(part)?;
         self.state().remove(place);
@@ -330,7 +320,11 @@ impl Scene {
         objects.map(|(&number, object)| Part { number, name: object.name.clone() }).collect()
     }
 
-    /// Looks at it from a side. See `phong.Scene.frame`.
+    /// Looks at it from a side, so that all of it is in the picture, whatever its size.
+    ///
+    /// `view`: `"front" "back" "left" "right" "top" "bottom" "iso"`. `up`: `"x"`, `"y"` (default),
+    /// `"z"`, one of them with a minus, or three numbers. `fov`: vertical, degrees. Lights that nobody
+    /// has set follow the camera.
     #[pyo3(signature = (view = "iso", up = None, *, fov = None))]
     fn frame(&self, view: &str, up: Option<&Bound<'_, PyAny>>, fov: Option<f64>) -> PyResult<()> {
         if let Some(fov) = fov.filter(|fov| !(*fov > 0.0 && *fov < 180.0)) {
@@ -346,7 +340,7 @@ impl Scene {
         Ok(())
     }
 
-    /// What is wrong with it, and what can hardly be meant.
+    /// Everything that is wrong with it, and what can hardly be meant: `phong.Diagnostic`s.
     fn check<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         let (scene, said) = {
             let state = self.state();
@@ -358,7 +352,7 @@ impl Scene {
         diagnostics(py, &all)
     }
 
-    /// Its text, without its arrays. See `phong.Scene.to_toml`.
+    /// Its text. Arrays stand in files that it names: `phong.convert` writes them as well.
     fn to_toml(&self) -> PyResult<String> {
         let framed = self.state().framed();
         let export = framed.export(&ExportOptions::default(), "scene.toml");
@@ -370,7 +364,7 @@ impl Scene {
         Ok(String::from_utf8_lossy(&text).into_owned())
     }
 
-    /// A look by its name: not yet.
+    /// A look by its name. Not yet: raises `NotImplementedError`.
     fn look(&self, name: &str) -> PyResult<()> {
         Err(pyo3::exceptions::PyNotImplementedError::new_err(format!(
             "scene.look({name:?}): not yet; looks come with a later version"
@@ -382,6 +376,7 @@ impl Scene {
         Ok(self.text()?.to_string())
     }
 
+    /// Another camera: `scene.camera = …`.
     fn set_camera(&self, camera: &Bound<'_, PyAny>) -> PyResult<()> {
         let said = Said::expect(camera, "camera", "camera")?;
         let mut text = Text::default();
@@ -394,6 +389,7 @@ impl Scene {
         Ok(())
     }
 
+    /// Other lights: `scene.lights = …`.
     fn set_lights(&self, lights: &Bound<'_, PyAny>) -> PyResult<()> {
         let py = lights.py();
         let mut text = Text::default();
@@ -423,6 +419,7 @@ impl Scene {
         Ok(())
     }
 
+    /// Another ambient light: `scene.ambient = …`.
     fn set_ambient(&self, ambient: &Bound<'_, PyAny>) -> PyResult<()> {
         let keys = PyDict::new(ambient.py());
         keys.set_item("color", ambient)?;
@@ -434,7 +431,7 @@ impl Scene {
         Ok(())
     }
 
-    /// Lays keys of `[image]` over the scene's own.
+    /// Lays keys of `[image]` (`size`, `samples`, `background`, …) over the scene's own.
     fn set_image(&self, keys: &Bound<'_, PyDict>) -> PyResult<()> {
         let image = self.state().scene.image.clone();
         let image = image_with(keys.py(), &image, keys)?;
@@ -442,50 +439,10 @@ impl Scene {
         Ok(())
     }
 
-    /// Another material for a name or a part. See `phong.Scene.set_material`.
+    /// Another material for what has the one of a name, or for a part. Nothing is built again where the
+    /// material was this part's alone.
     fn set_material(&self, which: &Bound<'_, PyAny>, material: &Bound<'_, PyAny>) -> PyResult<()> {
-        let number = if let Ok(name) = which.cast::<PyString>() {
-            Some(self.material(Some(name.as_any()))?)
-        } else {
-            let part: Part = which
-                .extract()
-                .map_err(|_| neither("which", "the name of a material or a part", which))?;
-            let place = self.place(&part)?;
-            let old = self.state().scene.objects[place].material;
-            let alone = {
-                let state = self.state();
-                let of_old = |object: &Object| is_of(object, old);
-                let inside = state.scene.groups.iter().flat_map(|group| &group.objects);
-                let users = state.scene.objects.iter().chain(inside).filter(|o| of_old(o)).count();
-                let own = !matches!(&state.scene.objects[place].shape, Shape::Mesh(mesh) if !mesh.face_materials.is_empty());
-                users == 1 && own
-            };
-            if !alone {
-                let new = self.material(Some(material))?;
-                let mut state = self.state();
-                let object = &mut state.objects().objects[place];
-                object.material = new;
-                if let Shape::Mesh(mesh) = &mut object.shape {
-                    mesh.face_materials = Shared::default();
-                }
-                return Ok(());
-            }
-            Some(old)
-        };
-        let Some(number) = number else { return Ok(()) };
-        let new = if material.is_instance_of::<PyString>() {
-            let other = self.material(Some(material))?;
-            self.state().scene.materials[other.0 as usize].clone()
-        } else {
-            let said = Said::expect(material, "material", "material")?;
-            let (material, textures) = self.read_material(material.py(), &said)?;
-            self.state().with_textures(material, &textures)
-        };
-        let mut state = self.state();
-        let slot = &mut state.look().materials[number.0 as usize];
-        let name = std::mem::take(&mut slot.name);
-        *slot = phong_scene::Material { name, ..new };
-        Ok(())
+        self.give_material(which, material)
     }
 
     /// The text of everything but bulk arrays, those as bytes, and what only Python knows.
@@ -532,16 +489,6 @@ impl Scene {
         let place = self.place(part)?;
         self.state().objects().objects[place].shape = shape;
         Ok(())
-    }
-}
-
-/// Whether anything of an object is of a material.
-fn is_of(object: &Object, material: MaterialId) -> bool {
-    match &object.shape {
-        Shape::Mesh(mesh) if !mesh.face_materials.is_empty() => {
-            mesh.face_materials.contains(&material.0)
-        }
-        _ => object.material == material,
     }
 }
 

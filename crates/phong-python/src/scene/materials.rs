@@ -1,0 +1,124 @@
+//! Which material an argument means, and another one for what has one.
+
+use phong_scene::{
+    Folder, Material, MaterialId, Object, Scene as SceneText, Shape, Shared, closest,
+};
+use pyo3::prelude::*;
+use pyo3::types::PyString;
+use toml::Table;
+
+use super::Scene;
+use crate::arrays::neither;
+use crate::errors::value_error;
+use crate::keys::{Said, Text};
+use crate::look::tables;
+use crate::part::Part;
+
+impl Scene {
+    /// The material that an argument means.
+    pub(super) fn material(&self, given: Option<&Bound<'_, PyAny>>) -> PyResult<MaterialId> {
+        let Some(given) = given.filter(|given| !given.is_none()) else {
+            return Ok(self.state().default_material());
+        };
+        if let Ok(name) = given.cast::<PyString>() {
+            let name = name.to_cow()?;
+            let state = self.state();
+            return state.material_named(&name).ok_or_else(|| {
+                let names = state.scene.materials.iter().map(|material| material.name.as_str());
+                let meant = closest(&name, names).map(|name| format!(": did you mean {name:?}?"));
+                let meant = meant.unwrap_or_default();
+                value_error(format!("material: the scene has none called {name:?}{meant}"))
+            });
+        }
+        let said = Said::expect(given, "material", "material")?;
+        let (material, textures) = self.read_material(given.py(), &said)?;
+        Ok(self.state().material(material, &textures))
+    }
+
+    /// A material, and the textures by which its own are numbered.
+    fn read_material(
+        &self,
+        py: Python<'_>,
+        said: &Said<'_>,
+    ) -> PyResult<(Material, Vec<phong_scene::Texture>)> {
+        let name = said.name.clone().unwrap_or_else(|| "material".to_owned());
+        let mut text = Text::default();
+        let table = text.table(&said.keys)?;
+        if table.values().any(toml::Value::is_table) {
+            let known = self.text()?.remove("textures");
+            if let Some(toml::Value::Table(known)) = known {
+                text.know_textures(known);
+            }
+        }
+        text.name("materials", &name, table);
+        let read = text.read(py, "Material", &Folder)?;
+        let material = read.materials.into_iter().find(|material| material.name == name);
+        Ok((material.unwrap_or_default(), read.textures))
+    }
+
+    /// All but its objects, as the tables of a text.
+    pub(super) fn text(&self) -> PyResult<Table> {
+        let framed = self.state().framed();
+        tables(SceneText { objects: Vec::new(), groups: Vec::new(), ..framed })
+    }
+
+    /// Gives a name or a part another material: in place where only the look changes.
+    pub(super) fn give_material(
+        &self,
+        which: &Bound<'_, PyAny>,
+        material: &Bound<'_, PyAny>,
+    ) -> PyResult<()> {
+        let number = if let Ok(name) = which.cast::<PyString>() {
+            Some(self.material(Some(name.as_any()))?)
+        } else {
+            let part: Part = which
+                .extract()
+                .map_err(|_| neither("which", "the name of a material or a part", which))?;
+            let place = self.place(&part)?;
+            let old = self.state().scene.objects[place].material;
+            let alone = {
+                let state = self.state();
+                let of_old = |object: &Object| is_of(object, old);
+                let inside = state.scene.groups.iter().flat_map(|group| &group.objects);
+                let users = state.scene.objects.iter().chain(inside).filter(|o| of_old(o)).count();
+                let own = !matches!(&state.scene.objects[place].shape, Shape::Mesh(mesh) if !mesh.face_materials.is_empty());
+                users == 1 && own
+            };
+            if !alone {
+                let new = self.material(Some(material))?;
+                let mut state = self.state();
+                let object = &mut state.objects().objects[place];
+                object.material = new;
+                if let Shape::Mesh(mesh) = &mut object.shape {
+                    mesh.face_materials = Shared::default();
+                }
+                return Ok(());
+            }
+            Some(old)
+        };
+        let Some(number) = number else { return Ok(()) };
+        let new = if material.is_instance_of::<PyString>() {
+            let other = self.material(Some(material))?;
+            self.state().scene.materials[other.0 as usize].clone()
+        } else {
+            let said = Said::expect(material, "material", "material")?;
+            let (material, textures) = self.read_material(material.py(), &said)?;
+            self.state().with_textures(material, &textures)
+        };
+        let mut state = self.state();
+        let slot = &mut state.look().materials[number.0 as usize];
+        let name = std::mem::take(&mut slot.name);
+        *slot = Material { name, ..new };
+        Ok(())
+    }
+}
+
+/// Whether anything of an object is of a material.
+fn is_of(object: &Object, material: MaterialId) -> bool {
+    match &object.shape {
+        Shape::Mesh(mesh) if !mesh.face_materials.is_empty() => {
+            mesh.face_materials.contains(&material.0)
+        }
+        _ => object.material == material,
+    }
+}
