@@ -13,7 +13,8 @@ use pyo3::intern;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString};
 
-use crate::errors::{kind_of, type_error, value_error};
+use crate::errors::{kind_of, memory_error, type_error, value_error};
+use crate::files::memory;
 
 /// Positions that are looked at to find where they are best counted from.
 const SAMPLES: usize = 4096;
@@ -197,8 +198,17 @@ impl<'py> Numbers<'py> {
     }
 
     /// All numbers, row after row.
-    pub(crate) fn flat(&self) -> Vec<f64> {
-        with!(self, |view| view.iter().map(|v| v.read()).collect())
+    pub(crate) fn flat(&self) -> PyResult<Vec<f64>> {
+        with!(self, |view| {
+            let count = view.len();
+            if count as u64 > memory() / 16 {
+                let name = self.name;
+                return Err(memory_error(format!(
+                    "{name}: there is no memory for {count} numbers"
+                )));
+            }
+            Ok(view.iter().map(|v| v.read()).collect())
+        })
     }
 }
 
@@ -224,9 +234,11 @@ fn read_rows<const K: usize, N: Number, T>(
     };
     let mut all = Vec::new();
     let rows = view.shape()[0];
-    all.try_reserve_exact(rows).map_err(|_| {
-        crate::errors::memory_error(format!("{name}: there is no memory for {rows} rows"))
-    })?;
+    // An array may be small in memory and have any number of rows.
+    let fits = rows.checked_mul(size_of::<T>()).is_some_and(|bytes| bytes as u64 <= memory());
+    if !fits || all.try_reserve_exact(rows).is_err() {
+        return Err(memory_error(format!("{name}: there is no memory for {rows} rows")));
+    }
     if let Some(numbers) = view.as_slice() {
         for (index, row) in numbers.as_chunks::<K>().0.iter().enumerate() {
             let row = row.map(Number::read);
@@ -397,7 +409,7 @@ pub(crate) fn colors(
     }
     let numpy = object.py().import("numpy")?;
     // Names of colours, in a list or an array.
-    let first = object.get_item(0).ok().filter(|first| first.is_instance_of::<PyString>());
+    let first = object.get_item(0).ok().filter(PyAnyMethods::is_instance_of::<PyString>);
     if first.is_some() && object.len().is_ok_and(|len| len == count) {
         let one = |(index, item): (usize, PyResult<Bound<'_, PyAny>>)| {
             let item = item?;
@@ -440,8 +452,8 @@ pub(crate) fn colors(
         color([r, g, b])
     };
     match shape[..] {
-        [] | [3] | [4] => {
-            let values = numbers.flat();
+        [] | [3 | 4] => {
+            let values = numbers.flat()?;
             let one = match values[..] {
                 [grey] => color([grey; 3]),
                 [r, g, b] => color([r, g, b]),
@@ -478,16 +490,13 @@ fn srgb_table() -> Vec<f32> {
 pub(crate) fn transforms(name: &'static str, object: &Bound<'_, PyAny>) -> PyResult<Vec<DAffine3>> {
     let numbers = Numbers::of(name, object)?;
     let shape = numbers.shape();
-    let rows = match shape[..] {
-        [rows @ (3 | 4), 4] | [_, rows @ (3 | 4), 4] => rows,
-        _ => {
-            return Err(value_error(format!(
-                "{name} must be of shape (4, 4) or (N, 4, 4), for column vectors; it is {}",
-                shape_text(&shape)
-            )));
-        }
+    let ([rows @ (3 | 4), 4] | [_, rows @ (3 | 4), 4]) = shape[..] else {
+        return Err(value_error(format!(
+            "{name} must be of shape (4, 4) or (N, 4, 4), for column vectors; it is {}",
+            shape_text(&shape)
+        )));
     };
-    let values = numbers.flat();
+    let values = numbers.flat()?;
     let one = |(index, values): (usize, &[f64])| {
         let wrong = |wanted: &str| {
             let at = if shape.len() == 3 { format!("{name}[{index}]") } else { name.to_owned() };

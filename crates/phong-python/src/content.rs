@@ -116,7 +116,7 @@ pub(crate) fn pack(state: &State) -> PyResult<Packed> {
             object.shape = Shape::default();
         }
         let told = json!([object.name, object.material.0, bulk]);
-        object.name = "object".to_owned();
+        "object".clone_into(&mut object.name);
         told
     };
     let objects: Vec<_> = scene.objects.iter_mut().map(&mut take).collect();
@@ -272,8 +272,8 @@ impl Taken<'_> {
             return Ok(Shared::default());
         }
         let number = self::number(number)? as usize;
-        let known = self.shared.iter().filter(|(known, _)| *known == number);
-        if let Some(array) = known.filter_map(|(_, any)| any.downcast_ref::<Shared<T>>()).next() {
+        let mut known = self.shared.iter().filter(|(known, _)| *known == number);
+        if let Some(array) = known.find_map(|(_, any)| any.downcast_ref::<Shared<T>>()) {
             return Ok(array.clone());
         }
         let array: Shared<T> =

@@ -1,5 +1,8 @@
 //! Files as Python names them, and texts that have none.
 
+use std::sync::LazyLock;
+
+use phong_lab::measure::memory::total;
 use phong_scene::{Folder, Format, Memory, Source};
 use pyo3::prelude::*;
 
@@ -20,9 +23,10 @@ pub(crate) fn format_of(name: &str) -> PyResult<Format> {
     })
 }
 
-/// Bytes that reading may take.
+/// Bytes of memory that there are; looked for once.
 pub(crate) fn memory() -> u64 {
-    phong_lab::measure::memory::total().unwrap_or(u64::MAX)
+    static TOTAL: LazyLock<u64> = LazyLock::new(|| total().unwrap_or(u64::MAX));
+    *TOTAL
 }
 
 /// What a text that has no file is called.

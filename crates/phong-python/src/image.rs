@@ -3,6 +3,7 @@
 use std::io::Cursor;
 use std::sync::{Arc, OnceLock};
 
+use numpy::PyArrayMethods as _;
 use phong::film::{Film, LayerKind};
 use phong::finish::{Finished, Finishing, finish};
 use phong::image::{Bits, Content, Encoding, Format, SaveError, save, write};
@@ -15,7 +16,7 @@ use pyo3::types::{PyBytes, PyDict, PyList, PyTuple};
 
 use crate::arrays::frozen;
 use crate::errors::{diagnostics, os_error, value_error};
-use crate::files::path_of;
+use crate::files::{memory, path_of};
 
 /// A picture that was rendered.
 #[pyclass(module = "phong", frozen, weakref)]
@@ -112,7 +113,7 @@ fn encoding(bits: u32, exposure: f64, linear: bool) -> PyResult<Encoding> {
         16 => Bits::Sixteen,
         _ => return Err(value_error(format!("bits = {bits}: it must be 8 or 16"))),
     };
-    if !(exposure.abs() <= 100.0) {
+    if !exposure.is_finite() || exposure.abs() > 100.0 {
         return Err(value_error(format!(
             "exposure = {exposure}: it must be from -100 to 100 stops"
         )));
@@ -247,7 +248,6 @@ impl Image {
         let encoding = encoding(8, exposure, false)?;
         let bytes = py.detach(|| phong::image::srgb8(&self.finished(), &encoding));
         let [height, width] = self.sides();
-        use numpy::PyArrayMethods as _;
         Ok(numpy::PyArray1::from_vec(py, bytes).reshape([height, width, 4])?.into_any())
     }
 
@@ -331,7 +331,7 @@ pub(crate) fn merge(py: Python<'_>, parts: &Bound<'_, PyAny>) -> PyResult<Image>
                 })?
             }
         };
-        let limit = phong_lab::measure::memory::total().unwrap_or(u64::MAX);
+        let limit = memory();
         let part = py.detach(|| Part::read(&mut bytes.as_slice(), limit));
         let part = part.map_err(|error| value_error(format!("{name}: {error}")))?;
         let added = py.detach(|| join.add(&name, part));

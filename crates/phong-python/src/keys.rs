@@ -246,7 +246,6 @@ pub(crate) fn check_keys(kind: &str, keys: &Bound<'_, PyDict>) -> PyResult<()> {
     let class = class_of(kind);
     match kind {
         "camera" | "image" => text.put(kind, table),
-        "light" => text.push(kind, table),
         "material" | "texture" => {
             // Textures that are named are those of the scene it will be in.
             for (_, value) in &table {

@@ -56,7 +56,7 @@ fn picture(name: &'static str, object: &Bound<'_, PyAny>) -> PyResult<Picture> {
             "{name}: whole numbers must be bytes (dtype uint8, sRGB); linear light is written as floats"
         )));
     }
-    let values = numbers.flat();
+    let values = numbers.flat()?;
     let scale = if bytes { 255.0 } else { 1.0 };
     let plane = |(channel, name): (usize, &&str)| Plane {
         name: (*name).to_owned(),
@@ -83,7 +83,7 @@ pub(crate) fn _compare<'py>(
     tolerance: f64,
 ) -> PyResult<(String, Bound<'py, PyAny>)> {
     let py = a.py();
-    if !(tolerance >= 0.0) {
+    if tolerance.is_nan() || tolerance < 0.0 {
         return Err(value_error(format!("tolerance = {tolerance}: it must be 0 or above")));
     }
     let (a, b) = (picture("a", a)?, picture("b", b)?);
@@ -133,6 +133,7 @@ pub(crate) fn _fit(py: Python<'_>, a: String, b: String) -> PyResult<String> {
 /// `constant` are the parameters that are the same for all, as JSON; `varying` those of each, one
 /// number or three; vectors are rows of three.
 #[pyfunction]
+#[expect(clippy::needless_pass_by_value, reason = "arguments of Python functions are given whole")]
 pub(crate) fn _evaluate<'py>(
     py: Python<'py>,
     model: &str,

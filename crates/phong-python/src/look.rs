@@ -85,7 +85,7 @@ pub(crate) fn up(up: &Bound<'_, PyAny>) -> PyResult<DVec3> {
 /// Three numbers with a direction.
 fn vector(name: &'static str, object: &Bound<'_, PyAny>) -> PyResult<DVec3> {
     let numbers = Numbers::of(name, object)?;
-    match numbers.flat()[..] {
+    match numbers.flat()?[..] {
         [x, y, z] if DVec3::new(x, y, z).try_normalize().is_some() => Ok(DVec3::new(x, y, z)),
         _ => Err(value_error(format!("{name} must be three finite numbers, not all 0"))),
     }

@@ -27,8 +27,8 @@ impl Part {
         format!("<phong.Part {:?}>", self.name)
     }
 
-    fn __reduce__(slf: &Bound<'_, Self>) -> PyResult<(Py<PyAny>, (u64, String))> {
+    fn __reduce__(slf: &Bound<'_, Self>) -> (Py<PyAny>, (u64, String)) {
         let this = slf.get();
-        Ok((slf.get_type().into_any().unbind(), (this.number, this.name.clone())))
+        (slf.get_type().into_any().unbind(), (this.number, this.name.clone()))
     }
 }

@@ -18,7 +18,9 @@ macro_rules! raw {
             fn put(self, bytes: &mut Vec<u8>) {
                 let $value = self;
                 let words: [$word; $count] = $into;
-                words.iter().for_each(|word| bytes.extend_from_slice(&word.to_le_bytes()));
+                for word in words {
+                    bytes.extend_from_slice(&word.to_le_bytes());
+                }
             }
             fn take(bytes: &[u8]) -> Option<Self> {
                 let mut $words = [<$word>::default(); $count];

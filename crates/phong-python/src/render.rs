@@ -15,6 +15,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyString};
 
 use crate::errors::{cancelled, memory_error, value_error, view_error};
+use crate::files::memory;
 use crate::image::{Image, part_bytes};
 use crate::look::image_with;
 use crate::scene::Scene;
@@ -163,7 +164,7 @@ impl Asked {
             let (terms, aovs) = layers(&names, &snapshot.scene)?;
             options = options.with_terms(terms).with_aovs(&aovs);
         }
-        let limit = max_memory.or_else(phong_lab::measure::memory::total);
+        let limit = Some(max_memory.unwrap_or_else(memory));
         let film = options.film_bytes();
         if let Some(limit) = limit.filter(|&limit| film > limit) {
             let [width, height] = options.size();
@@ -276,16 +277,21 @@ pub(crate) fn _render(
 #[pyo3(signature = (scene, index, count, keys, cancel = None, listen = None))]
 pub(crate) fn _render_part<'py>(
     scene: &Bound<'py, Scene>,
-    index: u32,
-    count: u32,
+    index: i64,
+    count: i64,
     keys: &Bound<'py, PyDict>,
     cancel: Option<&Bound<'py, Token>>,
     listen: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyBytes>> {
     let (py, scene) = (scene.py(), scene.get());
     let mut asked = Asked::new(scene, keys)?;
-    let shared = asked.options.with_share(index, count);
-    asked.options = shared.map_err(|error| value_error(error.to_string()))?;
+    let wrong = || {
+        let wanted = "shares count from 0, and the last is one less than their number";
+        value_error(format!("index = {index} of count = {count}: {wanted}"))
+    };
+    let share = [u32::try_from(index), u32::try_from(count)];
+    let [Ok(index), Ok(count)] = share else { return Err(wrong()) };
+    asked.options = asked.options.with_share(index, count).map_err(|_| wrong())?;
     let (done, options) = draw(py, scene, asked, cancel, listen)?;
     let bytes = py.detach(|| {
         let settings = Settings::of(&done.ready.scene, &options, Encoding::default());
@@ -298,13 +304,18 @@ pub(crate) fn _render_part<'py>(
 #[pyfunction]
 pub(crate) fn _explain(
     scene: &Bound<'_, Scene>,
-    x: u32,
-    y: u32,
+    x: i64,
+    y: i64,
     keys: &Bound<'_, PyDict>,
 ) -> PyResult<(String, String, String)> {
     let (py, scene) = (scene.py(), scene.get());
     let asked = Asked::new(scene, keys)?;
     let threads = asked.threads;
+    let [width, height] = asked.options.size();
+    let outside =
+        || value_error(format!("pixel ({x}, {y}) is outside the picture of {width} × {height}"));
+    let pixel = [u32::try_from(x), u32::try_from(y)];
+    let [Ok(x), Ok(y)] = pixel else { return Err(outside()) };
     let work = move |_: &Cancel| {
         let Asked { snapshot, options, image, max_bytes, .. } = asked;
         let ready = snapshot.prepare(image, max_bytes)?;

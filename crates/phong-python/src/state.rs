@@ -45,8 +45,11 @@ struct Compiled {
     /// Whether objects have changed since it was built.
     stale: bool,
     /// The last view, and what beside the scene it was made for.
-    view: Option<(([u32; 2], Background), Arc<View>)>,
+    view: Option<(Asked, Arc<View>)>,
 }
+
+/// The size and the background of a picture that was asked for.
+type Asked = ([u32; 2], Background);
 
 /// What is needed to look at a scene, away from it.
 #[derive(Debug)]
@@ -69,7 +72,7 @@ pub(crate) struct Ready {
     /// Whether its objects were not ready before.
     pub(crate) fresh: bool,
     /// What beside the scene it was made for.
-    asked: ([u32; 2], Background),
+    asked: Asked,
     version: u64,
 }
 
@@ -137,12 +140,12 @@ impl State {
 
     /// The default material: that of the scene, if it has one.
     pub(crate) fn default_material(&mut self) -> MaterialId {
-        self.material(Material::default(), &[])
+        self.material(&Material::default(), &[])
     }
 
     /// The number of a material, which is put in unless an equal one is there. Its textures are
     /// numbered as in `textures`.
-    pub(crate) fn material(&mut self, material: Material, textures: &[Texture]) -> MaterialId {
+    pub(crate) fn material(&mut self, material: &Material, textures: &[Texture]) -> MaterialId {
         let material = self.with_textures(material, textures);
         let same =
             |other: &Material| Material { place: Place::default(), ..other.clone() } == material;
@@ -157,7 +160,7 @@ impl State {
     }
 
     /// The same material, its textures among the scene's.
-    pub(crate) fn with_textures(&mut self, material: Material, textures: &[Texture]) -> Material {
+    pub(crate) fn with_textures(&mut self, material: &Material, textures: &[Texture]) -> Material {
         let used = material.textured();
         let mut numbers = std::collections::BTreeMap::new();
         for (_, by) in used {

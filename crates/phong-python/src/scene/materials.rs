@@ -32,7 +32,7 @@ impl Scene {
         }
         let said = Said::expect(given, "material", "material")?;
         let (material, textures) = self.read_material(given.py(), &said)?;
-        Ok(self.state().material(material, &textures))
+        Ok(self.state().material(&material, &textures))
     }
 
     /// A material, and the textures by which its own are numbered.
@@ -103,7 +103,7 @@ impl Scene {
         } else {
             let said = Said::expect(material, "material", "material")?;
             let (material, textures) = self.read_material(material.py(), &said)?;
-            self.state().with_textures(material, &textures)
+            self.state().with_textures(&material, &textures)
         };
         let mut state = self.state();
         let slot = &mut state.look().materials[number.0 as usize];

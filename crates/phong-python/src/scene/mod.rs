@@ -365,6 +365,7 @@ impl Scene {
     }
 
     /// A look by its name. Not yet: raises `NotImplementedError`.
+    #[expect(clippy::unused_self, reason = "it will be of this scene")]
     fn look(&self, name: &str) -> PyResult<()> {
         Err(pyo3::exceptions::PyNotImplementedError::new_err(format!(
             "scene.look({name:?}): not yet; looks come with a later version"
@@ -457,12 +458,13 @@ impl Scene {
 
     /// Undoes `__reduce__`.
     #[classmethod]
+    #[expect(clippy::needless_pass_by_value, reason = "arguments are given whole")]
     fn _unpack(
         class: &Bound<'_, PyType>,
         text: &str,
         arrays: Vec<Bound<'_, PyBytes>>,
     ) -> PyResult<Py<PyAny>> {
-        let arrays: Vec<&[u8]> = arrays.iter().map(|bytes| bytes.as_bytes()).collect();
+        let arrays: Vec<&[u8]> = arrays.iter().map(PyBytesMethods::as_bytes).collect();
         made(class, content::unpack(text, &arrays)?)
     }
 

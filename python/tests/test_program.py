@@ -1,0 +1,129 @@
+"""The package and the program say the same."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import phong
+
+ROOT = Path(__file__).parents[2]
+SCENE = ROOT / "scenes" / "two-balls.toml"
+SMALL: dict[str, Any] = {"size": (60, 40), "samples": 2}
+
+
+def program(*arguments: object, ok: int = 0, text: str | None = None) -> str:
+    command = [sys.executable, "-m", "phong", *map(str, arguments)]
+    done = subprocess.run(command, capture_output=True, text=True, input=text, timeout=120)
+    assert done.returncode == ok, done.stderr
+    return done.stdout
+
+
+@pytest.mark.parametrize("name", ["two-balls", "glass", "instances"])
+def test_a_picture_has_the_same_bytes(name: str, tmp_path: Path) -> None:
+    scene = ROOT / "scenes" / f"{name}.toml"
+    program("render", scene, "--size", "60x40", "--samples", 2, "-o", tmp_path / "a.png", "--quiet")
+    program("render", scene, "--size", "60x40", "--samples", 2, "-o", tmp_path / "a.exr", "--quiet")
+    image = phong.render(scene, **SMALL)
+    image.save(tmp_path / "b.png")
+    image.save(tmp_path / "b.exr")
+    for ending in ("png", "exr"):
+        assert (tmp_path / f"a.{ending}").read_bytes() == (tmp_path / f"b.{ending}").read_bytes()
+
+
+def test_shares_of_both_go_together(tmp_path: Path) -> None:
+    program(
+        *("render", SCENE, "--size", "60x40", "--samples", 2, "--tile", "0/2"),
+        *("-o", tmp_path / "0.part", "--quiet"),
+    )
+    parts = [tmp_path / "0.part", phong.render_part(SCENE, 1, 2, **SMALL)]
+    assert np.array_equal(phong.merge(parts), phong.render(SCENE, **SMALL))
+
+
+def test_a_pixel_is_explained_alike() -> None:
+    told = program("explain", SCENE, 20, 20, "--json", "--size", "60x40", "--samples", 2)
+    assert phong.explain(SCENE, 20, 20, **SMALL).to_dict() == json.loads(told)
+
+
+def test_formulas_have_the_same_values() -> None:
+    rng = np.random.default_rng(2)
+    vectors = rng.normal(size=(3, 20, 3))
+    vectors /= np.linalg.norm(vectors, axis=-1, keepdims=True)
+    n, l, e = vectors  # noqa: E741
+    alphas = rng.uniform(1, 50, 20)
+    queries = [
+        json.dumps(
+            {
+                "model": "phong_spec",
+                "N": n[i].tolist(),
+                "L": l[i].tolist(),
+                "E": e[i].tolist(),
+                "params": {"alpha": alphas[i]},
+            }
+        )
+        for i in range(20)
+    ]
+    told = program("eval", text="\n".join(queries) + "\n").splitlines()
+    expected = np.array([json.loads(line)["value"] for line in told], np.float32)
+    assert np.array_equal(phong.evaluate("phong_spec", n, l, e, alpha=alphas), expected)
+
+
+def test_fits_and_comparisons_and_grades_are_alike(tmp_path: Path) -> None:
+    told = json.loads(program("fit", "phong:32", "blinn-phong", "--json"))
+    assert phong.fit("phong:32", "blinn-phong").to_dict() == told
+    phong.render(SCENE, shadows=False, **SMALL).save(tmp_path / "a.png")
+    phong.render(SCENE, **SMALL).save(tmp_path / "b.png")
+    told = json.loads(program("compare", tmp_path / "a.png", tmp_path / "b.png", "--json", ok=1))
+    assert phong.compare(tmp_path / "a.png", tmp_path / "b.png").to_dict() == told
+    told = json.loads(program("grade", SCENE, tmp_path / "a.png", "--json", ok=1))
+    del told["image"]
+    assert phong.grade(SCENE, tmp_path / "a.png").to_dict() == told
+
+
+def test_a_scene_is_converted_and_checked(tmp_path: Path) -> None:
+    scene = phong.Scene()
+    scene.add_spheres(np.eye(3), 0.5, colors=np.eye(3))
+    done = phong.convert(scene, tmp_path / "copy.toml")
+    assert len(done.files) == 2
+    assert not [said for said in phong.check(tmp_path / "copy.toml") if said.severity == "error"]
+    assert np.array_equal(
+        phong.render(tmp_path / "copy.toml", **SMALL), phong.render(scene, **SMALL)
+    )
+    (tmp_path / "broken.toml").write_text("version = 1\n[camera]\neye = [0, 0]\n")
+    assert {said.severity for said in phong.check(tmp_path / "broken.toml")} == {"error"}
+
+
+def test_a_figure_is_drawn(tmp_path: Path) -> None:
+    figure = phong.figure("cosine")
+    figure.save(tmp_path / "cosine.svg")
+    assert "<svg" in (tmp_path / "cosine.svg").read_text(encoding="utf-8")
+    assert figure.png.startswith(b"\x89PNG")
+
+
+def test_bytes_are_those_of_the_png(tmp_path: Path) -> None:
+    image = phong.render(SCENE, background="transparent", **SMALL)
+    image.save(tmp_path / "a.png")
+    difference = phong.compare(image.to_srgb8(), tmp_path / "a.png")
+    assert difference.max == 0
+
+
+def test_looks_are_not_there_yet() -> None:
+    with pytest.raises(NotImplementedError, match="not yet"):
+        phong.Scene().look("ink")
+
+
+def test_importing_is_quick() -> None:
+    code = (
+        "import time, numpy; began = time.perf_counter(); import phong; "
+        "print(time.perf_counter() - began)"
+    )
+    runs = [
+        float(subprocess.check_output([sys.executable, "-c", code], text=True)) for _ in range(3)
+    ]
+    assert min(runs) < 0.1

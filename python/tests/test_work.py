@@ -1,0 +1,173 @@
+"""Work gives the interpreter back, stops when it is told to, and is done once."""
+
+from __future__ import annotations
+
+import copy
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import phong
+
+#: What takes long enough to be stopped.
+LONG: dict[str, Any] = {"size": (1920, 1080), "samples": 4096}
+
+
+def cloud(count: int = 2000) -> phong.Scene:
+    scene = phong.Scene()
+    rng = np.random.default_rng(5)
+    scene.add_spheres(rng.normal(size=(count, 3)), 0.05, colors=rng.random((count, 3)))
+    return scene
+
+
+def test_a_token_stops_a_picture() -> None:
+    token = phong.Cancel()
+    threading.Timer(0.3, token.cancel).start()
+    began = time.monotonic()
+    with pytest.raises(phong.Cancelled):
+        phong.render(cloud(), cancel=token, **LONG)
+    assert time.monotonic() - began < 5
+
+
+def test_an_exception_of_a_listener_stops_a_picture() -> None:
+    def listen(share: float) -> None:
+        raise RuntimeError(f"enough at {share}")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        phong.render(cloud(), progress=listen, **LONG)
+
+
+INTERRUPTED = """
+import os, signal, sys, threading, time
+import numpy as np, phong
+scene = phong.Scene()
+scene.add_spheres(np.random.default_rng(5).normal(size=(2000, 3)), 0.05)
+phong.render(scene, size=(8, 8))
+sent = []
+def interrupt():
+    sent.append(time.monotonic())
+    os.kill(os.getpid(), signal.SIGINT)
+threading.Timer(0.5, interrupt).start()
+try:
+    phong.render(scene, size=(1920, 1080), samples=4096)
+except KeyboardInterrupt:
+    print(time.monotonic() - sent[0])
+phong.render(scene, size=(8, 8))
+"""
+
+
+def test_ctrl_c_stops_a_picture_in_a_fifth_of_a_second() -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", INTERRUPTED], capture_output=True, text=True, check=True, timeout=60
+    )
+    # On a busy machine the thread that waits may itself have to wait.
+    assert float(done.stdout) < 0.2 * max(1.0, os.getloadavg()[0])
+
+
+def test_other_threads_run_meanwhile() -> None:
+    scene, token, ticks = cloud(), phong.Cancel(), 0
+    thread = threading.Thread(
+        target=lambda: pytest.raises(phong.Cancelled, phong.render, scene, cancel=token, **LONG)
+    )
+    thread.start()
+    until = time.monotonic() + 0.3
+    while time.monotonic() < until:
+        ticks += 1
+    token.cancel()
+    thread.join(10)
+    assert ticks > 1000
+    assert not thread.is_alive()
+
+
+def test_several_threads_may_use_one_scene() -> None:
+    scene = cloud()
+    options: dict[str, Any] = {"size": (40, 30), "samples": 1}
+    expected = np.asarray(phong.render(scene, **options))
+    with ThreadPoolExecutor(4) as pool:
+        images = list(pool.map(lambda _: phong.render(scene, **options), range(8)))
+    assert all(np.array_equal(image, expected) for image in images)
+
+
+@pytest.mark.parametrize("threads", [1, 2, 7])
+def test_any_number_of_threads_gives_the_same_bits(threads: int) -> None:
+    scene = cloud(200)
+    options: dict[str, Any] = {"size": (60, 40), "samples": 3}
+    one = phong.render(scene, threads=threads, **options)
+    assert np.array_equal(one, phong.render(scene, **options))
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="this system does not fork")
+@pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
+def test_a_forked_process_renders() -> None:
+    scene = cloud(50)
+    phong.render(scene, size=(8, 8))
+    child = os.fork()
+    if child == 0:
+        try:
+            phong.render(scene, size=(8, 8))
+            os._exit(0)
+        finally:
+            os._exit(1)
+    for _ in range(600):
+        pid, status = os.waitpid(child, os.WNOHANG)
+        if pid:
+            assert os.waitstatus_to_exitcode(status) == 0
+            return
+        time.sleep(0.05)
+    os.kill(child, signal.SIGKILL)
+    os.waitpid(child, 0)
+    pytest.fail("the forked process did not end")
+
+
+def test_looking_from_elsewhere_builds_nothing() -> None:
+    scene = cloud(100_000)
+    options: dict[str, Any] = {"size": (16, 16), "samples": 1}
+    first = phong.render(scene, **options).seconds["build"]
+    scene.camera = phong.Camera(eye=(0, 0, 9), look_at=(0, 0, 0))
+    scene.lights = [phong.Light(kind="distant", direction=(-1, -1, -1))]
+    assert phong.render(scene, **options).seconds["build"] < first / 3
+
+
+def test_a_moved_part_is_as_one_that_was_there_from_the_beginning() -> None:
+    rng = np.random.default_rng(8)
+    old, new = rng.normal(size=(2, 300, 3))
+    camera = phong.Camera(eye=(0, 0, 9), look_at=(0, 0, 0))
+    moved, fresh = phong.Scene(camera=camera), phong.Scene(camera=camera)
+    for scene, centers in ((moved, old), (fresh, new)):
+        part = scene.add_spheres(centers, 0.1, colors=np.abs(centers))
+        scene.add_mesh(np.eye(3), [[0, 1, 2]])
+    options: dict[str, Any] = {"size": (64, 48), "samples": 1}
+    phong.render(moved, **options)
+    moved.update_spheres(moved.parts[0], new, colors=np.abs(new))
+    assert np.array_equal(phong.render(moved, **options), phong.render(fresh, **options))
+    moved.update_spheres(part, colors="red")
+    assert not np.array_equal(phong.render(moved, **options), phong.render(fresh, **options))
+
+
+@pytest.mark.parametrize("path", sorted(Path(__file__).parents[2].glob("scenes/*.toml")), ids=str)
+def test_every_scene_of_the_gallery_survives_a_pickle_to_the_bit(path: Path) -> None:
+    scene = phong.Scene.read(path)
+    unpickled = pickle.loads(pickle.dumps(scene))
+    options: dict[str, Any] = {"size": (24, 16), "samples": 1, "layers": ("object", "material")}
+    one, two = phong.render(scene, **options), phong.render(unpickled, **options)
+    assert unpickled.digest() == scene.digest()
+    assert one.scene_fingerprint == two.scene_fingerprint
+    assert one == two
+
+
+def test_a_copy_goes_its_own_way() -> None:
+    scene = cloud(20)
+    other = copy.copy(scene)
+    other.remove(other.parts[0])
+    assert len(scene.parts) == 1
+    assert not other.parts
