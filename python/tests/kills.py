@@ -8,6 +8,7 @@ kept on the worker that died. Prints counts; exits with 1 if any of it is not so
 from __future__ import annotations
 
 import argparse
+import logging
 import os
 import random
 import signal
@@ -26,8 +27,7 @@ from distributed.diagnostics.plugin import WorkerPlugin
 import phong
 import phong.dask
 
-SIZE = (480, 270)
-SAMPLES = 36
+SIZE = (160, 90)
 SHARES = 10
 
 
@@ -104,25 +104,27 @@ def note(diary: list[str], dead: int | None, tally: Tally) -> None:
         tally.needless += max(0, again - by_the_dead)
 
 
-def run(count: int, seed: int = 1, tell: bool = False) -> Tally:
-    """Kills so many workers, each in a picture of its own."""
+def run(count: int, seed: int = 1, samples: int = 100, tell: bool = False) -> Tally:
+    """Kills so many workers, each in a picture of its own with so many samples a pixel."""
     chance = random.Random(seed)
     tally = Tally()
     drawn = scene()
-    wanted = np.asarray(phong.render(drawn, size=SIZE, samples=SAMPLES, progress=False))
+    wanted = np.asarray(phong.render(drawn, size=SIZE, samples=samples, progress=False))
     with (
         tempfile.TemporaryDirectory() as folder,
-        LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster,
+        LocalCluster(
+            n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs=logging.ERROR
+        ) as cluster,
         Client(cluster) as client,
     ):
         diary = Path(folder) / "diary"
         diary.touch()
         client.register_plugin(Diary(str(diary)))
         began = time.perf_counter()
-        phong.dask.render(drawn, client, size=SIZE, samples=SAMPLES, shares=SHARES, progress=False)
+        phong.dask.render(drawn, client, size=SIZE, samples=samples, shares=SHARES, progress=False)
         lasts = time.perf_counter() - began
         while tally.kills < count and tally.late < 2 * count + 10:
-            client.wait_for_workers(2, timeout=60)
+            client.wait_for_workers(2, timeout=300)
             before = len(diary.read_text())
             got: list[np.ndarray[Any, Any] | str] = []
 
@@ -132,10 +134,10 @@ def run(count: int, seed: int = 1, tell: bool = False) -> Tally:
                         drawn,
                         client,
                         size=SIZE,
-                        samples=SAMPLES,
+                        samples=samples,
                         shares=SHARES,
                         progress=False,
-                        timeout=60,
+                        timeout=300,
                     )
                     got.append(np.asarray(image))
                 except Exception as error:  # It is counted.
@@ -168,8 +170,9 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=100, help="workers to kill")
     parser.add_argument("--seed", type=int, default=1, help="of the random moments")
+    parser.add_argument("--samples", type=int, default=100, help="a pixel; more take longer")
     given = parser.parse_args()
-    tally = run(given.count, given.seed, tell=True)
+    tally = run(given.count, given.seed, given.samples, tell=True)
     print(tally, *tally.errors, sep="\n")
     good = tally.right == tally.kills == given.count and not tally.wrong and not tally.errors
     return 0 if good and tally.needless == 0 else 1

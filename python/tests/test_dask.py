@@ -269,8 +269,8 @@ def test_after_the_scheduler_died_another_call_goes_on_from_the_store(
             os.killpg(scheduler.pid, signal.SIGKILL)
             scheduler.wait()
 
-    with Client(processes.address, timeout=30) as client:
-        client.wait_for_workers(1, timeout=60)
+    with Client(processes.address, timeout=120) as client:
+        client.wait_for_workers(1, timeout=300)
         with pytest.raises(phong.dask.ClusterError, match="scheduler"):
             phong.dask.render(
                 scene, client, shares=12, store=store, progress=kill, timeout=5.0, **options
@@ -280,8 +280,8 @@ def test_after_the_scheduler_died_another_call_goes_on_from_the_store(
     processes.scheduler()
     processes.worker()
     told: list[float] = []
-    with Client(processes.address, timeout=30) as client:
-        client.wait_for_workers(1, timeout=60)
+    with Client(processes.address, timeout=120) as client:
+        client.wait_for_workers(1, timeout=300)
         image = phong.dask.render(scene, client, store=store, progress=told.append, **options)
     assert told[0] == len(kept) / 12, "what is there is not rendered again"
     assert kept < {p.name for p in store.iterdir()}
@@ -313,8 +313,8 @@ def test_workers_of_two_vector_levels_make_one_picture(
     processes.worker()
     processes.worker(qemu, "-cpu", "Nehalem")
     path, told = SCENES / "two-balls.toml", set[str]()
-    with Client(processes.address, timeout=30) as client:
-        client.wait_for_workers(2, timeout=120)
+    with Client(processes.address, timeout=120) as client:
+        client.wait_for_workers(2, timeout=300)
         image = phong.dask.render(path, client, shares=16, **SMALL)
         told = {str(w) for w in client.who_has()}
     assert np.array_equal(np.asarray(image), np.asarray(phong.render(path, **SMALL)))

@@ -57,7 +57,7 @@ def free_port() -> int:
 
 def answers(url: str, process: subprocess.Popen[bytes], log: Path) -> None:
     """Waits until a server answers."""
-    until = time.monotonic() + 60
+    until = time.monotonic() + 300
     while time.monotonic() < until:
         if process.poll() is not None:
             pytest.fail(f"the server ended:\n{log.read_text()}")
@@ -83,7 +83,7 @@ def browser_page() -> Iterator[Page]:
             executable_path=chromium, args=["--no-sandbox", "--disable-dev-shm-usage"]
         )
         page = browser.new_page(viewport={"width": 1280, "height": 1100})
-        page.set_default_timeout(120_000)
+        page.set_default_timeout(300_000)
         yield page
         browser.close()
 
