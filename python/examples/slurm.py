@@ -2,7 +2,8 @@
 
     pip install phong distributed dask-jobqueue
     python slurm.py scene.toml poster.exr --workers 40
-    python slurm.py --script            # prints the job that each worker is, and submits nothing
+    python slurm.py --script            # prints the job that each worker is, and submits nothing;
+                                        # so it does where there is no Slurm
 
 With ``--store`` on a file system that stays, the same command goes on where it was interrupted.
 """
@@ -10,6 +11,7 @@ With ``--store`` on a file system that stays, the same command goes on where it 
 from __future__ import annotations
 
 import argparse
+import shutil
 
 from dask_jobqueue import SLURMCluster
 from distributed import Client
@@ -29,7 +31,7 @@ def main() -> None:
     parser.add_argument("--script", action="store_true")
     asked = parser.parse_args()
     with SLURMCluster(cores=8, processes=1, memory="16GB", walltime="01:00:00") as cluster:
-        if asked.script:
+        if asked.script or shutil.which("sbatch") is None:
             print(cluster.job_script())
             return
         cluster.scale(asked.workers)
