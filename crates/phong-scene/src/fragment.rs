@@ -9,12 +9,15 @@ use crate::material::{Material, MaterialId};
 use crate::mesh::Shared;
 use crate::scene::{Group, Object};
 use crate::shape::Shape;
+use crate::texture::Texture;
 
-/// A piece of a scene, complete in itself: its numbers of materials and groups are its own.
+/// A piece of a scene, complete in itself: its numbers of materials, textures and groups are its own.
 #[derive(Clone, Debug)]
 pub struct Fragment {
     /// The materials. Number 0 is of what names none; who takes the fragment may replace it.
     pub materials: Vec<Material>,
+    /// The textures that its materials name.
+    pub textures: Vec<Texture>,
     /// The objects, in the order of the file, called as the file calls them; empty: nothing.
     pub objects: Vec<Object>,
     /// What instances place. A group may hold instances of earlier groups.
@@ -30,6 +33,7 @@ impl Default for Fragment {
     fn default() -> Self {
         Self {
             materials: vec![Material::default()],
+            textures: Vec::new(),
             objects: Vec::new(),
             groups: Vec::new(),
             lights: Vec::new(),

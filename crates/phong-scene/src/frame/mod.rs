@@ -116,6 +116,7 @@ pub(crate) fn frame(fragment: Fragment, framing: &Framing, place: &Place) -> Sce
         // Foreign materials often have a white ambient colour; a dim light suits them all.
         ambient: Rgb::grey(0.15),
         materials,
+        textures: fragment.textures,
         groups: groups.collect(),
         objects,
         ..Scene::default()

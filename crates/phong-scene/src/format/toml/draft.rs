@@ -7,8 +7,9 @@ use glam::DAffine3;
 use super::notes::Notes;
 use super::text::Spot;
 use crate::diagnostic::{Diagnostic, Place, Severity};
-use crate::material::MaterialId;
+use crate::material::{Material, MaterialId};
 use crate::shape::Shape;
+use crate::texture::Texture;
 use crate::wording::{closest, list, quoted};
 
 /// Most names that a message lists.
@@ -59,6 +60,14 @@ impl<T> Named<T> {
         self.numbers.insert(name.to_owned(), number);
         Some(number)
     }
+}
+
+/// What the objects of a fragment are made of, where its materials and textures are numbered.
+#[derive(Debug, Default)]
+pub(super) struct Looks {
+    /// The materials but for number 0.
+    pub(super) materials: Vec<Material>,
+    pub(super) textures: Vec<Texture>,
 }
 
 /// An object whose names are still to be looked up.

@@ -1,6 +1,6 @@
 //! What a scene names by file: other scene files, and models.
 
-use super::draft::{Draft, DraftShape, Part};
+use super::draft::{Draft, DraftShape, Looks, Part};
 use super::path::{join, normal};
 use super::reader::Reader;
 use super::table::Values;
@@ -268,8 +268,13 @@ impl Reader<'_> {
             Some(fragment) => fragment,
             None => self.read_file(v, &file, read, wanted, radius)?,
         };
-        let own = if v.has("material") { Vec::new() } else { fragment.materials.split_off(1) };
-        self.fragments.push(own);
+        // All of it is of the material that the table names, if it names one.
+        self.fragments.push(if v.has("material") {
+            Looks::default()
+        } else {
+            let materials = fragment.materials.split_off(1);
+            Looks { materials, textures: std::mem::take(&mut fragment.textures) }
+        });
         Some((file, fragment, self.fragments.len() - 1))
     }
 

@@ -3,8 +3,8 @@
 //! Reading gives everything there is to say in one go, in the order of the text (at most 20 syntax
 //! errors a file, and 100,000 diagnostics in all, to bound memory; beyond that their number):
 //! `syntax` tells all syntax errors and takes the faulty statements out, `table` and `value` hold
-//! every table against its table of [`keys`](crate::keys), the concepts' files (`settings light
-//! material shape file`) say what only several keys together can be wrong about, `resolve` and
+//! every table against its table of [`keys`](crate::keys), the concepts' files (`settings
+//! material texture shape file`) say what only several keys together can be wrong about, `resolve` and
 //! `groups` look every name up, and [`check`](crate::check) adds what can hardly be meant.
 
 pub(crate) mod batch;

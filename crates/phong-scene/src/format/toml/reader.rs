@@ -8,7 +8,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::change::Changes;
-use super::draft::{Draft, DraftShape, Named, Part, say_unknown_name};
+use super::draft::{Draft, DraftShape, Looks, Named, Part, say_unknown_name};
 use super::notes::Notes;
 use super::path::normal;
 use super::table::{Values, say_unknown};
@@ -49,8 +49,8 @@ pub(super) struct Reader<'a> {
     pub(super) texture_names: TextureNames,
     /// The materials that shapes name, and where.
     pub(super) material_names: Vec<(String, Spot)>,
-    /// The materials of fragments but for their number 0, a list a fragment.
-    pub(super) fragments: Vec<Vec<Material>>,
+    /// What fragments are made of.
+    pub(super) fragments: Vec<Looks>,
     /// The models that were read.
     pub(super) read: reuse::Models,
     pub(super) groups: Named<Vec<Draft>>,

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::draft::{Draft, DraftShape, Named, say_unknown_name};
+use super::draft::{Draft, DraftShape, Looks, Named, say_unknown_name};
 use super::groups;
 use super::notes::Notes;
 use super::reader::Reader;
@@ -11,7 +11,7 @@ use crate::diagnostic::Diagnostic;
 use crate::material::{Material, MaterialId};
 use crate::scene::{Group, Object, Scene};
 use crate::shape::{GroupId, Shape};
-use crate::texture::Texture;
+use crate::texture::{Texture, TextureId};
 use crate::wording::quoted;
 
 impl Reader<'_> {
@@ -19,7 +19,7 @@ impl Reader<'_> {
     pub(super) fn resolve(self) -> (Option<Scene>, Vec<Diagnostic>) {
         let Self { mut notes, materials: mut named, fragments, groups: mut texts, drafts, .. } =
             self;
-        let textures: Vec<Texture> =
+        let mut textures: Vec<Texture> =
             self.textures.items.iter().map(|(.., t)| t.clone().unwrap_or_default()).collect();
         let textures_used = self.texture_names.look_up(&self.textures, &mut notes);
         for (.., material) in &mut named.items {
@@ -40,7 +40,8 @@ impl Reader<'_> {
 
         let in_groups = texts.items.iter().flat_map(|(.., drafts)| drafts.iter().flatten());
         let default_needed = drafts.iter().chain(in_groups).any(takes_the_default);
-        let (materials, default, first_of_fragment) = materials(&named, fragments, default_needed);
+        let (materials, default, first_of_fragment) =
+            materials(&named, fragments, default_needed, &mut textures);
         let mut resolver = Resolver {
             named: named_by_shapes,
             default,
@@ -100,11 +101,12 @@ impl Reader<'_> {
 }
 
 /// The scene's materials: those of the text, the default one if needed, those of fragments.
-/// Also which is the default one, and the first of each fragment.
+/// Also which is the default one, and the first of each fragment, whose textures follow `textures`.
 fn materials(
     named: &Named<Material>,
-    fragments: Vec<Vec<Material>>,
+    fragments: Vec<Looks>,
     default_needed: bool,
+    textures: &mut Vec<Texture>,
 ) -> (Vec<Material>, MaterialId, Vec<u32>) {
     let mut materials: Vec<_> =
         named.items.iter().map(|(.., material)| material.clone().unwrap_or_default()).collect();
@@ -115,9 +117,12 @@ fn materials(
         materials.push(Material::default());
     }
     let mut first_of_fragment = Vec::with_capacity(fragments.len());
-    for own in fragments {
+    for Looks { materials: own, textures: own_textures } in fragments {
         first_of_fragment.push(materials.len() as u32);
-        materials.extend(own);
+        let first = textures.len() as u32;
+        let new = |TextureId(own): TextureId| TextureId(own.saturating_add(first));
+        materials.extend(own.iter().map(|material| material.renumber_textures(new)));
+        textures.extend(own_textures);
     }
     (materials, MaterialId(default), first_of_fragment)
 }
@@ -206,5 +211,53 @@ impl Resolver {
             }
         };
         Some(Object { name, shape, material, transform, place })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::format::input::{Input, Models, Named};
+    use crate::fragment::Fragment;
+    use crate::limits::Limits;
+    use crate::material::{Material, MaterialId};
+    use crate::scene::Object;
+    use crate::source::Memory;
+    use crate::texture::{Texture, TextureId, TextureRef};
+
+    /// A ball of a material whose colour is the file's second texture.
+    #[expect(clippy::unnecessary_wraps, reason = "a reader may find nothing")]
+    fn textured(_: &Input<'_>, _: &mut Vec<crate::diagnostic::Diagnostic>) -> Option<Fragment> {
+        let texture = |name: &str| Texture { name: name.to_owned(), ..Texture::default() };
+        let color = TextureRef::new(TextureId(1)).into();
+        let material = Material { name: "own".to_owned(), color, ..Material::default() };
+        Some(Fragment {
+            materials: vec![Material::default(), material],
+            textures: vec![texture("first"), texture("second")],
+            objects: vec![Object { material: MaterialId(1), ..Object::default() }],
+            ..Fragment::default()
+        })
+    }
+
+    static MODELS: Models = Models { find: |_| Named::Model(textured), help: String::new };
+
+    #[test]
+    fn textures_of_included_models_follow_those_of_the_text() {
+        let text = "version = 1\n[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\n\
+                    [textures.tiles]\nkind = \"checker\"\ncolors = [0, 1]\n\
+                    [materials.floor]\ncolor = { texture = \"tiles\" }\n\
+                    [[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"floor\"\n\
+                    [[include]]\nfile = \"a.model\"\n[[include]]\nfile = \"b.model\"\n";
+        let files = Memory::new().with("a.toml", text.as_bytes());
+        let files = files.with("a.model", vec![]).with("b.model", vec![]);
+        let limits = Limits::default();
+        let read = super::super::read(&Input::new("a.toml", &files, &limits), &MODELS);
+        let scene = read.scene.unwrap_or_else(|| panic!("{:#?}", read.diagnostics));
+        let names: Vec<_> = scene.textures.iter().map(|texture| texture.name.as_str()).collect();
+        assert_eq!(names, ["tiles", "first", "second", "first", "second"]);
+        let own = |object: usize| {
+            let material = scene.objects[object].material;
+            scene.materials[material.0 as usize].color.texture().map(|by| by.texture)
+        };
+        assert_eq!([0, 1, 2].map(own), [0, 2, 4].map(|number| Some(TextureId(number))));
     }
 }
