@@ -16,7 +16,7 @@ use exr::prelude::{
 use super::WriteError;
 use super::picture::{Picture, Plane, ReadError, Transfer, count, within};
 use crate::aov::Aov;
-use crate::film::LayerKind;
+use crate::film::{Film, LayerKind};
 use crate::finish::Finished;
 
 /// Rec. 709: the primaries of sRGB, with white D65.
@@ -88,11 +88,9 @@ pub(super) fn write(
     let [software, scene] = picture.origin().map(|said| said.map(|(_, text)| text));
     let software_name = software.map(Text::new_or_panic);
     let mut attributes = LayerAttributes { software_name, ..LayerAttributes::default() };
-    attributes.other.extend(
-        scene.map(|sum| {
-            (Text::new_or_panic("scene"), AttributeValue::Text(Text::new_or_panic(sum)))
-        }),
-    );
+    let text = |text: String| AttributeValue::Text(Text::new_or_panic(text));
+    let own = scene.map(|sum| ("scene", sum)).into_iter().chain(sampled(film));
+    attributes.other.extend(own.map(|(name, said)| (Text::new_or_panic(name), text(said))));
     let layer = Layer::new(
         (width, film.height() as usize),
         attributes,
@@ -108,6 +106,19 @@ pub(super) fn write(
         exr::error::Error::Io(error) => WriteError::Io(error),
         other => WriteError::Unsuitable(format!("OpenEXR: {other}")),
     })
+}
+
+/// Which layers are the mean of a pixel's samples, and which are of the ray through its centre alone:
+/// the attributes `averaged` and `pixelCenter`, names between commas.
+fn sampled(film: &Film) -> impl Iterator<Item = (&'static str, String)> {
+    let names = |averaged: bool| -> Vec<&str> {
+        let kinds = film.layers.iter().map(|layer| layer.kind);
+        kinds.filter(|kind| kind.is_averaged() == averaged).map(LayerKind::name).collect()
+    };
+    [("averaged", names(true)), ("pixelCenter", names(false))]
+        .into_iter()
+        .filter(|(_, names)| !names.is_empty())
+        .map(|(name, names)| (name, names.join(",")))
 }
 
 fn channel_names(kind: LayerKind) -> Vec<String> {

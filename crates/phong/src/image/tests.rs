@@ -73,6 +73,28 @@ fn an_exr_says_which_program_made_it_and_of_which_scene() {
     );
 }
 
+#[cfg(feature = "exr")]
+#[test]
+fn an_exr_says_which_layers_are_averaged_and_which_are_of_the_pixels_centre() {
+    let (depth, uv) = (LayerKind::Aov(Aov::Depth), LayerKind::Aov(Aov::Uv));
+    let diffuse = LayerKind::Term(Term::Diffuse);
+    let said = |layers: &[(LayerKind, &[f32])]| {
+        let file = bytes(&film([1, 1], layers), Content::Film, Format::Exr, &Encoding::default());
+        let meta = ::exr::meta::MetaData::read_from_buffered(Cursor::new(file), false).unwrap();
+        let own = &meta.headers[0].own_attributes.other;
+        let mut said: Vec<_> =
+            own.iter().map(|(name, value)| format!("{name} {value:?}")).collect();
+        said.sort();
+        said
+    };
+    let picture = (PICTURE, &[0.5, 0.25, 1.0][..]);
+    let all = said(&[picture, (diffuse, &[0.0; 3]), (depth, &[1.0]), (uv, &[0.0; 2])]);
+    let [averaged, centre] = &all[..] else { panic!("{all:?}") };
+    assert!(averaged.starts_with("averaged") && averaged.contains("picture,diffuse"), "{all:?}");
+    assert!(centre.starts_with("pixelCenter") && centre.contains("depth,uv"), "{all:?}");
+    assert_eq!(said(&[picture]).len(), 1);
+}
+
 #[test]
 fn a_png_of_16_bits_is_big_endian() {
     let film = film([1, 1], &[(PICTURE, &[0.5, 0.18, 1.0])]);
