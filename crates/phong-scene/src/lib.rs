@@ -32,6 +32,7 @@ pub use batch::{Batch, BatchReading, Parameter, ParameterValues, Written};
 pub use bounds::Bounds;
 pub use camera::{Camera, CameraKind};
 pub use change::Change;
+pub use check::SoundArrays;
 pub use color::{ColorError, Rgb, srgb_decode, srgb_encode};
 pub use diagnostic::{Diagnostic, Label, Place, SceneError, Severity, Span};
 pub use format::export::{Account, File, PlyEncoding};

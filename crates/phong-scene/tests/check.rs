@@ -6,7 +6,7 @@ use broken::{any_scene, mesh};
 use glam::{DAffine3, DVec3, Vec3};
 use phong_scene::{
     Camera, CameraKind, Diagnostic, ExportOptions, Format, Framing, Group, GroupId, Image, Light,
-    MaterialId, Mesh, NO_INDEX, Object, Points, Rgb, Scene, Shape,
+    Material, MaterialId, Mesh, NO_INDEX, Object, Points, Rgb, Scene, Shape, SoundArrays,
 };
 use proptest::prelude::*;
 
@@ -139,6 +139,35 @@ fn what_is_farther_than_numbers_go_is_told() {
     let far = Shape::Sphere { center: DVec3::splat(1e10), radius: 1.0 };
     let scene = lit(vec![Object { transform, ..far.into() }]);
     assert!(said(&scene)[0].contains("units from the origin; scenes go up to 1e18"));
+}
+
+#[test]
+fn what_was_found_sound_is_not_read_again_and_what_changes_about_it_is_told() {
+    let mut mesh = triangle();
+    mesh.face_materials = [1].into();
+    let scene = Scene {
+        materials: vec![Material::default(); 2],
+        ..lit(vec![mesh.clone().into(), triangle().into()])
+    };
+    let mut known = SoundArrays::default();
+    let mut said = |scene: &Scene| -> Vec<String> {
+        let again = scene.check_objects_again(&mut known);
+        assert_eq!(again, scene.check_objects());
+        again.iter().map(ToString::to_string).collect()
+    };
+    assert_eq!(said(&scene), [""; 0]);
+    assert_eq!(said(&scene), [""; 0]);
+    let fewer = Scene { materials: vec![Material::default()], ..scene.clone() };
+    assert!(said(&fewer)[0].contains("`face_materials` 0 is 1, but there are 1 materials"));
+    let mut far = scene.clone();
+    let farthest = DVec3::splat(9e17);
+    far.objects[1].transform = DAffine3 { translation: farthest, ..DAffine3::from_scale(farthest) };
+    assert!(said(&far)[0].contains("units from the origin"), "{:?}", said(&far));
+    let mut broken = scene.clone();
+    let Shape::Mesh(mesh) = &mut broken.objects[1].shape else { panic!("a mesh") };
+    mesh.positions[0].x = f32::NAN;
+    assert!(said(&broken)[0].contains("`positions` 0 is NaN"));
+    assert_eq!(said(&scene), [""; 0]);
 }
 
 #[test]

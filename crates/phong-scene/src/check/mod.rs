@@ -8,6 +8,7 @@ mod coplanar;
 mod detail;
 pub(crate) mod fault;
 mod groups;
+mod known;
 pub(crate) mod material;
 pub(crate) mod settings;
 pub(crate) mod shape;
@@ -15,8 +16,11 @@ mod suspicion;
 pub(crate) mod texture;
 mod value;
 
+use glam::DAffine3;
+
 use self::fault::{Fault, Faults};
 pub(crate) use self::groups::MOST_OBJECTS;
+pub use self::known::SoundArrays;
 use crate::bounds::Bounds;
 use crate::diagnostic::{Diagnostic, Place, Severity, Span};
 use crate::limits::LARGEST;
@@ -49,10 +53,12 @@ impl Scene {
     /// ```
     #[must_use]
     pub fn check(&self) -> Vec<Diagnostic> {
-        let mut judge = Judge::new(self);
+        let earlier = SoundArrays::default();
+        let mut judge = Judge::new(self, &earlier);
         judge.look();
         judge.geometry();
-        if !judge.said.iter().any(Diagnostic::is_error) {
+        judge.exact_extents();
+        if !judge.has_errors() {
             let bounds = std::mem::take(&mut judge.bounds);
             suspicion::check(self, &bounds, &mut |warning| judge.say(warning));
             coplanar::check(self, &mut |warning| judge.say(warning));
@@ -65,9 +71,27 @@ impl Scene {
     /// materials and picture, and without what can hardly be meant.
     #[must_use]
     pub fn check_objects(&self) -> Vec<Diagnostic> {
-        let mut judge = Judge::new(self);
+        self.check_objects_again(&mut SoundArrays::default())
+    }
+
+    /// The same of a scene that may share arrays with one that was checked before: of those which
+    /// were sound then, as `known` has it, nothing is read again. Afterwards it has those of this scene.
+    #[must_use]
+    pub fn check_objects_again(&self, known: &mut SoundArrays) -> Vec<Diagnostic> {
+        let mut judge = Judge::new(self, known);
         judge.geometry();
-        judge.finish()
+        if !judge.has_errors() {
+            judge.extents(false);
+            if judge.has_errors() {
+                // What is known of arrays is only where they lie at most.
+                judge.said.clear();
+                judge.exact_extents();
+            }
+        }
+        let sound = std::mem::take(&mut judge.sound);
+        let said = judge.finish();
+        *known = sound;
+        said
     }
 }
 
@@ -88,11 +112,19 @@ struct Judge<'s> {
     untold: [usize; 2],
     /// The boxes of the scene's objects.
     bounds: Vec<Bounds>,
+    /// Arrays in which an earlier check found nothing wrong, and those of this scene.
+    earlier: &'s SoundArrays,
+    sound: SoundArrays,
 }
 
 impl<'s> Judge<'s> {
-    fn new(scene: &'s Scene) -> Self {
-        Self { scene, said: Vec::new(), untold: [0; 2], bounds: Vec::new() }
+    fn new(scene: &'s Scene, earlier: &'s SoundArrays) -> Self {
+        let (said, untold, bounds) = (Vec::new(), [0; 2], Vec::new());
+        Self { scene, said, untold, bounds, earlier, sound: SoundArrays::default() }
+    }
+
+    fn has_errors(&self) -> bool {
+        self.said.iter().any(Diagnostic::is_error)
     }
 
     fn say(&mut self, diagnostic: Diagnostic) {
@@ -136,7 +168,7 @@ impl<'s> Judge<'s> {
         }
     }
 
-    /// The objects and groups, and how far they reach.
+    /// The objects and groups.
     fn geometry(&mut self) {
         let scene = self.scene;
         for (i, object) in scene.objects.iter().enumerate() {
@@ -148,29 +180,33 @@ impl<'s> Judge<'s> {
             }
         }
         self.groups();
-        if !self.said.iter().any(Diagnostic::is_error) {
-            self.extents();
-        }
     }
 
     fn object(&mut self, stands: At, object: &Object) {
         let materials = self.scene.materials.len();
+        let known = self.sound.take_over(&object.shape, self.earlier, materials);
+        let mut sound = false;
         self.judge(
             &object.place,
             || name_of(stands, object),
             |faults| {
                 shape::shape(&object.shape, faults);
                 shape::transform(&object.transform, faults);
-                let mut own = !matches!(object.shape, Shape::Instance(_));
+                let mut arrays = Faults::default();
                 match &object.shape {
-                    Shape::Mesh(mesh) => {
-                        bulk::mesh(mesh, materials, faults);
-                        own = mesh.face_materials.is_empty();
-                    }
-                    Shape::Points(points) => bulk::points(points, faults),
-                    Shape::Cylinders(cylinders) => bulk::cylinders(cylinders, faults),
+                    _ if known => {}
+                    Shape::Mesh(mesh) => bulk::mesh(mesh, materials, &mut arrays),
+                    Shape::Points(points) => bulk::points(points, &mut arrays),
+                    Shape::Cylinders(cylinders) => bulk::cylinders(cylinders, &mut arrays),
                     _ => {}
                 }
+                sound = arrays.all.is_empty();
+                faults.all.append(&mut arrays.all);
+                let own = match &object.shape {
+                    Shape::Instance(_) => false,
+                    Shape::Mesh(mesh) => mesh.face_materials.is_empty(),
+                    _ => true,
+                };
                 if own && object.material.0 as usize >= materials {
                     let number = object.material.0;
                     let message = format!(
@@ -180,6 +216,9 @@ impl<'s> Judge<'s> {
                 }
             },
         );
+        if sound && !known {
+            self.sound.add(&object.shape);
+        }
     }
 
     fn object_error(&mut self, stands: At, object: &Object, message: &str) {
@@ -187,20 +226,28 @@ impl<'s> Judge<'s> {
         self.say(Diagnostic::error(message, at(&object.place)));
     }
 
-    /// Says which objects are farther away, or larger, than numbers can hold.
-    fn extents(&mut self) {
+    /// How far the objects reach, if nothing else is wrong with them.
+    fn exact_extents(&mut self) {
+        if !self.has_errors() {
+            self.extents(true);
+        }
+    }
+
+    /// Says which objects are farther away, or larger, than numbers can hold; if not `exact`, arrays
+    /// whose box is known are not read.
+    fn extents(&mut self, exact: bool) {
         let scene = self.scene;
         let mut groups = Vec::with_capacity(scene.groups.len());
         let mut all = Bounds::EMPTY;
         for (number, group) in scene.groups.iter().enumerate() {
             let mut whole = Bounds::EMPTY;
             for (i, object) in group.objects.iter().enumerate() {
-                whole = whole.union(self.extent(At::Group(number, i), object, &groups));
+                whole = whole.union(self.extent(At::Group(number, i), object, &groups, exact));
             }
             groups.push(whole);
         }
         for (i, object) in scene.objects.iter().enumerate() {
-            let bounds = self.extent(At::Top(i), object, &groups);
+            let bounds = self.extent(At::Top(i), object, &groups, exact);
             self.bounds.push(bounds);
             all = all.union(bounds);
         }
@@ -212,8 +259,17 @@ impl<'s> Judge<'s> {
         }
     }
 
-    fn extent(&mut self, stands: At, object: &Object, groups: &[Bounds]) -> Bounds {
-        let bounds = object.bounds(groups);
+    fn extent(&mut self, stands: At, object: &Object, groups: &[Bounds], exact: bool) -> Bounds {
+        let to_world = object.transform;
+        let placed = |own: Bounds| {
+            if to_world == DAffine3::IDENTITY {
+                return Some(own);
+            }
+            let corners = own.corners().map(|p| to_world.transform_point3(p));
+            (!exact).then(|| corners.into_iter().fold(Bounds::EMPTY, Bounds::with))
+        };
+        let known = self.sound.bounds(&object.shape).and_then(placed);
+        let bounds = known.unwrap_or_else(|| object.bounds(groups));
         let farthest = bounds.min.abs().max(bounds.max.abs()).max_element();
         if !bounds.is_empty() && (farthest.is_nan() || farthest > LARGEST) {
             let message = format!(

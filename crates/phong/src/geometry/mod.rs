@@ -16,7 +16,7 @@ mod trees;
 
 use glam::{DAffine3, DVec3};
 use phong_bvh::{BuildError, BuildOptions, Coordinates, Hit, Preset, Primitives, Ray, World};
-use phong_scene::{Diagnostic, Place, Scene, Shape};
+use phong_scene::{Diagnostic, Place, Scene, Shape, SoundArrays};
 use thiserror::Error;
 
 pub(crate) use batch::Batch;
@@ -56,6 +56,8 @@ pub struct Geometry {
     materials: u32,
     /// The trees of meshes and clouds.
     trees: Trees,
+    /// The arrays of meshes and clouds, which are sound.
+    sound: SoundArrays,
     /// How it was built, and is built again.
     options: GeometryOptions,
 }
@@ -149,27 +151,28 @@ impl Geometry {
     pub fn new(scene: &Scene, options: GeometryOptions) -> Result<Self, GeometryError> {
         let build = options.build.unwrap_or_else(|| soonest(scene, options.rays));
         let options = GeometryOptions { build: Some(build), ..options };
-        Self::with_trees(scene, options, &Trees::default())
+        Self::with_trees(scene, options, &Trees::default(), SoundArrays::default())
     }
 
     /// The geometry of a scene that differs in some objects: as [`Geometry::new`] would build it, to
     /// the bit, with the same options. Trees of meshes and clouds whose arrays are the very same, as
     /// those of a clone of the scene are, are taken over, so moving, adding or removing one of those
-    /// builds only the tree above them. Of what it takes then, only the check of the scene grows with
-    /// their size.
+    /// builds only the tree above them, and nothing of those arrays is read again but the numbers of
+    /// faces' materials.
     ///
     /// # Errors
     /// [`GeometryError`].
     pub fn update(&self, scene: &Scene) -> Result<Self, GeometryError> {
-        Self::with_trees(scene, self.options, &self.trees)
+        Self::with_trees(scene, self.options, &self.trees, self.sound.clone())
     }
 
     fn with_trees(
         scene: &Scene,
         options: GeometryOptions,
         earlier: &Trees,
+        mut sound: SoundArrays,
     ) -> Result<Self, GeometryError> {
-        let broken = scene.check_objects();
+        let broken = scene.check_objects_again(&mut sound);
         if !broken.is_empty() {
             return Err(GeometryError::Scene(broken));
         }
@@ -188,7 +191,7 @@ impl Geometry {
         let materials = batches.iter().filter_map(Batch::highest_material).max();
         let materials = materials.map_or(0, |highest| highest.saturating_add(1));
         let world = World::build(parts, center, build)?;
-        Ok(Self { center, world, batches, objects, own_spaces, materials, trees, options })
+        Ok(Self { center, world, batches, objects, own_spaces, materials, trees, sound, options })
     }
 
     /// The middle of all, about which things that are written one by one keep their detail in f32.
