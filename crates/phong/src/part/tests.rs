@@ -217,3 +217,50 @@ fn a_scene_is_known_by_what_it_holds_and_not_by_where_it_was_written() {
     other.materials[0].shininess = 33.0.into();
     assert_ne!(fingerprint(&other), fingerprint(&scene));
 }
+
+/// Between them, of every camera, shape, model, light, filter and texture some.
+const DRAWN: [&str; 17] = [
+    "cameras/fisheye",
+    "cameras/lens",
+    "film/filter_mitchell",
+    "film/transparent",
+    "lights/attenuation",
+    "lights/spot",
+    "materials/cook_torrance",
+    "materials/oren_nayar",
+    "materials/ward",
+    "shapes/cylinders",
+    "shapes/mesh_smooth",
+    "shapes/sphere_far",
+    "shapes/torus",
+    "terms/sum",
+    "terms/transmission",
+    "textures/numbers",
+    "transforms/instance_nested",
+];
+
+#[test]
+fn who_moves_a_bit_of_a_picture_raises_the_version_of_the_arithmetic() {
+    let golden = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden");
+    let mut sum = crc32fast::Hasher::new();
+    for name in DRAWN {
+        let path = golden.join(format!("{name}.toml"));
+        let limits = phong_scene::Limits::default();
+        let read = phong_scene::read(&path.to_string_lossy(), None, &phong_scene::Folder, &limits);
+        let scene = read.into_scene().unwrap();
+        let options = RenderOptions::of(&scene.image).unwrap().with_terms(TermSet::ALL);
+        let view = crate::view::View::of(&scene).unwrap();
+        let film = crate::render::render(&view, &options, &|_| {}, &crate::render::Cancel::new());
+        for value in film.film.layers.iter().flat_map(|layer| layer.values.iter()) {
+            sum.update(&value.to_bits().to_le_bytes());
+        }
+    }
+    let drawn = (ARITHMETIC, sum.finalize());
+    assert_eq!(
+        drawn,
+        FILMS,
+        "bits of pictures moved: raise `part::ARITHMETIC` and write ({}, {:#010x}) into `part::FILMS`",
+        ARITHMETIC + u32::from(ARITHMETIC == FILMS.0),
+        drawn.1,
+    );
+}
