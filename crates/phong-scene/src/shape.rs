@@ -190,7 +190,9 @@
 //! | `translate` | three numbers, `[x, y, z]` | `[0, 0, 0]` | Then: the shift. |
 //! | `matrix` | four rows of four numbers | the three above | Instead of all three: four rows of four, for column vectors. |
 
-use glam::{DVec2, DVec3};
+use std::array::from_fn;
+
+use glam::{BVec3, DVec2, DVec3};
 
 use crate::mesh::{Cylinders, Mesh, Points};
 use crate::wording::{Word, words};
@@ -332,4 +334,58 @@ impl Shape {
     pub fn kind(&self) -> &'static str {
         self.word()
     }
+
+    /// The largest `p · n` of all its points p, for each n of `along`; `None` if it has no end, or is
+    /// made of arrays or a group.
+    pub(crate) fn own_reach<const N: usize>(&self, along: [DVec3; N]) -> Option<[f64; N]> {
+        let disc = |center: DVec3, normal: DVec3, radius: f64| disc(along, center, normal, radius);
+        Some(match *self {
+            Self::Sphere { center, radius } => along.map(|n| center.dot(n) + radius * n.length()),
+            Self::Triangle { ref points, .. } => farthest(along, points),
+            Self::Disc { center, normal, radius } => disc(center, normal, radius),
+            Self::Box { min, max } => {
+                let corner = |i: usize| {
+                    let high = |bit: usize| i >> bit & 1 != 0;
+                    DVec3::select(BVec3::new(high(0), high(1), high(2)), max, min)
+                };
+                farthest(along, &from_fn::<_, 8, _>(corner))
+            }
+            Self::Cylinder { from, to, radius, .. } => {
+                farther(disc(from, to - from, radius), disc(to, to - from, radius))
+            }
+            Self::Cone { from, to, radius, radius_to, .. } => {
+                farther(disc(from, to - from, radius), disc(to, to - from, radius_to))
+            }
+            Self::Torus { center, axis, radius, tube } => {
+                let ring = disc(center, axis, radius);
+                from_fn(|i| ring[i] + tube * along[i].length())
+            }
+            Self::Plane { .. }
+            | Self::Mesh(_)
+            | Self::Points(_)
+            | Self::Cylinders(_)
+            | Self::Instance(_) => return None,
+        })
+    }
+}
+
+/// How far a disc reaches.
+pub(crate) fn disc<const N: usize>(
+    along: [DVec3; N],
+    center: DVec3,
+    normal: DVec3,
+    radius: f64,
+) -> [f64; N] {
+    let axis = normal.normalize_or_zero();
+    along.map(|n| center.dot(n) + radius * (n - axis * axis.dot(n)).length())
+}
+
+/// How far some points reach.
+pub(crate) fn farthest<const N: usize>(along: [DVec3; N], points: &[DVec3]) -> [f64; N] {
+    let reaches = points.iter().map(|p| along.map(|n| p.dot(n)));
+    reaches.fold([f64::NEG_INFINITY; N], farther)
+}
+
+pub(crate) fn farther<const N: usize>(a: [f64; N], b: [f64; N]) -> [f64; N] {
+    from_fn(|i| a[i].max(b[i]))
 }

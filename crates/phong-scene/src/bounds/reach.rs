@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use super::Bounds;
 use crate::mesh::{Caps, Cylinders, Mesh, Points};
 use crate::scene::{Object, Scene};
-use crate::shape::Shape;
+use crate::shape::{Shape, disc, farther, farthest};
 
 impl Scene {
     /// The largest `p · n` of all points p of all objects but planes, for each n of `along`;
@@ -43,34 +43,15 @@ impl Shape {
         along: [DVec3; N],
         groups: &[Bounds],
     ) -> Option<[f64; N]> {
-        let disc = |center: DVec3, normal: DVec3, radius: f64| disc(along, center, normal, radius);
-        let all = |points: &[DVec3]| {
-            let reaches = points.iter().map(|p| along.map(|n| p.dot(n)));
-            reaches.fold([f64::NEG_INFINITY; N], farther)
-        };
         Some(match *self {
-            Self::Plane { .. } => return None,
-            Self::Sphere { center, radius } => along.map(|n| center.dot(n) + radius * n.length()),
-            Self::Triangle { ref points, .. } => all(points),
-            Self::Disc { center, normal, radius } => disc(center, normal, radius),
-            Self::Box { min, max } => all(&Bounds { min, max }.corners()),
-            Self::Cylinder { from, to, radius, .. } => {
-                farther(disc(from, to - from, radius), disc(to, to - from, radius))
-            }
-            Self::Cone { from, to, radius, radius_to, .. } => {
-                farther(disc(from, to - from, radius), disc(to, to - from, radius_to))
-            }
-            Self::Torus { center, axis, radius, tube } => {
-                let ring = disc(center, axis, radius);
-                from_fn(|i| ring[i] + tube * along[i].length())
-            }
             Self::Mesh(ref mesh) => mesh.reach(along),
             Self::Points(ref points) => points.reach(along),
             Self::Cylinders(ref cylinders) => cylinders.reach(along),
             Self::Instance(group) => match groups.get(group.0 as usize) {
-                Some(bounds) if !bounds.is_empty() => all(&bounds.corners()),
+                Some(bounds) if !bounds.is_empty() => farthest(along, &bounds.corners()),
                 _ => return None,
             },
+            ref single => return single.own_reach(along),
         })
     }
 }
@@ -116,14 +97,4 @@ impl Cylinders {
         let reach = segments.reduce(|| [f64::NEG_INFINITY; N], farther);
         from_fn(|i| reach[i] + self.origin.dot(along[i]))
     }
-}
-
-/// How far a disc reaches.
-fn disc<const N: usize>(along: [DVec3; N], center: DVec3, normal: DVec3, radius: f64) -> [f64; N] {
-    let axis = normal.normalize_or_zero();
-    along.map(|n| center.dot(n) + radius * (n - axis * axis.dot(n)).length())
-}
-
-fn farther<const N: usize>(a: [f64; N], b: [f64; N]) -> [f64; N] {
-    from_fn(|i| a[i].max(b[i]))
 }

@@ -204,14 +204,8 @@ fn faces_of(object: usize, shape: &Shape, transform: DAffine3, to: &mut Vec<Face
                 }
             }
         }
-        Shape::Sphere { .. }
-        | Shape::Cylinder { .. }
-        | Shape::Cone { .. }
-        | Shape::Torus { .. }
-        | Shape::Mesh(_)
-        | Shape::Points(_)
-        | Shape::Cylinders(_)
-        | Shape::Instance(_) => {}
+        // Without a flat face of its own.
+        _ => {}
     }
 }
 
