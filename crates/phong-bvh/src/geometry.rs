@@ -177,3 +177,19 @@ pub enum Canonical {
         tube: f64,
     },
 }
+
+impl Canonical {
+    /// Whether it has an inside that nothing gets into but through its surface.
+    pub const fn is_closed(&self) -> bool {
+        match self {
+            Self::Sphere | Self::Box | Self::Torus { .. } => true,
+            Self::Cylinder { capped } | Self::Cone { capped, .. } => *capped,
+            Self::Disc | Self::Triangle => false,
+        }
+    }
+
+    /// Whether it is closed, and a line enters it once and leaves it once.
+    pub const fn is_convex(&self) -> bool {
+        self.is_closed() && !matches!(self, Self::Torus { .. })
+    }
+}

@@ -282,9 +282,6 @@ impl Shape {
             Self { flats: caps.filter(|_| closed).collect(), curve: curve(Some(axis)), closed }
         };
         match *shape {
-            Canonical::Sphere | Canonical::Torus { .. } => {
-                Self { flats: Vec::new(), curve: curve(Some(axis)), closed: true }
-            }
             Canonical::Disc | Canonical::Triangle => Self {
                 flats: Flat::new(normals.z_axis, middle, across).into_iter().collect(),
                 curve: None,
@@ -301,6 +298,11 @@ impl Shape {
                 Self { flats: flats.collect(), curve: None, closed: true }
             }
             Canonical::Cylinder { capped } | Canonical::Cone { capped, .. } => caps(capped),
+            // Whatever has no flat face is taken to be curved.
+            ref curved => {
+                let closed = curved.is_closed();
+                Self { flats: Vec::new(), curve: curve(Some(axis)), closed }
+            }
         }
     }
 }

@@ -5,7 +5,7 @@
 //! the body.
 
 use glam::{DVec3, Vec3};
-use phong_bvh::{Canonical, Hit, Primitives, Ray, World};
+use phong_bvh::{Hit, Primitives, Ray, World};
 
 use crate::geometry::Geometry;
 use crate::material::Material;
@@ -117,11 +117,7 @@ fn bodies(geometry: &Geometry, materials: &[Material], at: DVec3) -> Vec<[u32; 2
 fn is_convex(primitives: &Primitives) -> bool {
     match primitives {
         Primitives::Spheres(_) => true,
-        Primitives::Solid(solid) => match solid.shape {
-            Canonical::Sphere | Canonical::Box => true,
-            Canonical::Cylinder { capped } | Canonical::Cone { capped, .. } => capped,
-            Canonical::Disc | Canonical::Triangle | Canonical::Torus { .. } => false,
-        },
+        Primitives::Solid(solid) => solid.shape.is_convex(),
         Primitives::Triangles { .. } | Primitives::Plane(_) | Primitives::Cylinders { .. } => false,
     }
 }
