@@ -10,6 +10,7 @@ pub(crate) mod ply;
 pub(crate) mod table;
 mod text;
 pub(crate) mod toml;
+mod triangles;
 
 use self::export::{Account, File, PlyEncoding, Writing};
 use self::input::Input;

@@ -1,6 +1,14 @@
 //! Where positions are counted from, so that f32 keeps the detail of data far from the origin.
 
+use std::io;
+
 use glam::DVec3;
+
+use super::text::{Cursor, Decimal, Piece};
+use crate::source::Blob;
+
+/// Bytes that are looked through for positions at each of the places that are sampled.
+const SAMPLE: usize = 4 << 10;
 
 /// How many samples along each way a reader takes: that many places, that many positions each.
 pub(crate) const SAMPLES: usize = 64;
@@ -31,6 +39,43 @@ pub fn origin_of(samples: impl IntoIterator<Item = DVec3>) -> DVec3 {
         if middle.abs() >= FAR * extent && origin.is_finite() { origin } else { 0.0 }
     };
     DVec3::new(axis(middle.x), axis(middle.y), axis(middle.z))
+}
+
+/// Positions from places all over a text: three numbers behind what `is_position` goes over, on lines
+/// of which it says that there are some. `joined` as in [`Lines`](super::text::Lines).
+pub(crate) fn sample(
+    blob: &dyn Blob,
+    joined: bool,
+    is_position: impl Fn(&mut Cursor<'_>) -> bool,
+) -> io::Result<Vec<DVec3>> {
+    let mut samples = Vec::new();
+    let mut text = vec![0; SAMPLE];
+    let step = (blob.len() / SAMPLES as u64).max(SAMPLE as u64);
+    for place in 0..SAMPLES as u64 {
+        let read = blob.read_full(&mut text, place * step)?;
+        let whole = text[..read].iter().rposition(|&b| b == b'\n').map_or(read, |end| end + 1);
+        let piece = Piece { text: &text[..whole], offset: 0, line: 1, rows: 0 };
+        let mut cursor = Cursor::new(piece, joined);
+        if place > 0 {
+            // It began before.
+            cursor.next_line();
+        }
+        let wanted = samples.len() + SAMPLES;
+        while !cursor.is_done() && samples.len() < wanted {
+            if is_position(&mut cursor) {
+                let mut number =
+                    || if cursor.more() { cursor.decimal().map(Decimal::to_f64) } else { None };
+                if let (Some(x), Some(y), Some(z)) = (number(), number(), number()) {
+                    samples.push(DVec3::new(x, y, z));
+                }
+            }
+            cursor.next_line();
+        }
+        if read < SAMPLE {
+            break;
+        }
+    }
+    Ok(samples)
 }
 
 #[cfg(test)]

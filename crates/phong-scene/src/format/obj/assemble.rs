@@ -12,10 +12,11 @@ use crate::color::{Rgb, are_bytes, srgb_decode};
 use crate::diagnostic::Span;
 use crate::format::input::Input;
 use crate::format::text::{Cursor, Findings, Piece, TOLD, whole};
-use crate::fragment::{Fragment, flat};
+use crate::format::triangles::{cut, tidy};
+use crate::fragment::Fragment;
 use crate::limits::Limits;
 use crate::material::Material;
-use crate::mesh::{FLAT, Mesh, NO_INDEX, Points, Shared, collapse_faces, cut_polygons};
+use crate::mesh::{FLAT, Mesh, NO_INDEX, Points, Shared, collapse_faces};
 use crate::scene::Object;
 use crate::shape::Shape;
 use crate::source::Blob;
@@ -200,19 +201,7 @@ impl Assembly {
             });
             gone += triangles;
         }
-        let tangled = cut_polygons(
-            &mesh.positions,
-            &self.polygons,
-            &mut mesh.indices,
-            [&mut mesh.normal_indices, &mut mesh.uv_indices],
-        );
-        if tangled > 0 {
-            findings.warning("tangled polygons", at_file, || {
-                format!(
-                    "polygons that cross themselves or have no area: {tangled}; their shape is a guess"
-                )
-            });
-        }
+        cut(&mut mesh, &self.polygons, findings, &context.file);
         if mesh.normals.is_empty() && !self.smoothing.is_empty() {
             let ends = self.smoothing.iter().map(|(start, _)| *start).chain([u32::MAX]);
             let mut groups = vec![FLAT; mesh.indices.len()];
@@ -224,32 +213,17 @@ impl Assembly {
             }
             mesh.smooth_groups(&groups);
         }
-        let collapsed = mesh.drop_collapsed().saturating_sub(gone);
-        if collapsed > 0 {
-            findings.warning("collapsed triangles", at_file, || {
-                format!("triangles that use a vertex twice: {collapsed}; they are left out")
-            });
-        }
-        if mesh.normals.len() == mesh.positions.len() && mesh.normal_indices == mesh.indices {
+        tidy(&mut mesh, gone, findings, &context.file);
+        let positions = mesh.positions.len();
+        if mesh.normals.len() == positions && mesh.normal_indices == mesh.indices {
             mesh.normal_indices = Shared::default();
         }
-        if mesh.uvs.len() == mesh.positions.len() && mesh.uv_indices == mesh.indices {
+        if mesh.uvs.len() == positions && mesh.uv_indices == mesh.indices {
             mesh.uv_indices = Shared::default();
-        }
-        let zeros = mesh.mend_normals();
-        if zeros > 0 {
-            findings.warning("normals of length 0", at_file, || {
-                format!(
-                    "normals without a direction: {zeros}; the geometric one stands in for them"
-                )
-            });
         }
         mesh.uvs.iter_mut().filter(|uv| !uv.is_finite()).for_each(|uv| *uv = Vec2::ZERO);
         if mesh.indices.is_empty() {
             return None;
-        }
-        if mesh.is_flat() {
-            findings.warning("flat models", at_file, || flat(mesh.indices.len()));
         }
         Some(mesh)
     }

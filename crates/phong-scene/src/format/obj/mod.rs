@@ -33,23 +33,18 @@ mod write;
 use std::io;
 use std::sync::Arc;
 
-use glam::DVec3;
-
 use self::assemble::{Assembly, start_of};
 use self::block::{Block, Context};
 use self::libraries::Libraries;
 use super::input::Input;
-use super::origin::{SAMPLES, origin_of};
-use super::text::{Cursor, Decimal, Lines, Piece, open_text, whole};
+use super::origin::{origin_of, sample};
+use super::text::{Cursor, Lines, open_text, whole};
 use crate::diagnostic::Diagnostic;
 use crate::fragment::Fragment;
-use crate::source::{Blob, trouble};
+use crate::source::trouble;
 
 #[cfg(test)]
 mod tests;
-
-/// Bytes that are looked through for positions at each of the places that are sampled.
-const SAMPLE: usize = 4 << 10;
 
 /// Reads an OBJ file and the MTL files it names; `None` if a diagnostic is an error.
 pub(crate) fn read(input: &Input<'_>, out: &mut Vec<Diagnostic>) -> Option<Fragment> {
@@ -57,7 +52,8 @@ pub(crate) fn read(input: &Input<'_>, out: &mut Vec<Diagnostic>) -> Option<Fragm
     let file: Arc<str> = path.into();
     let read = || -> io::Result<_> {
         let blob = open_text(source, path, limits)?;
-        let origin = origin_of(sample(blob.as_ref())?);
+        let is_position = |cursor: &mut Cursor<'_>| cursor.word() == b"v";
+        let origin = origin_of(sample(blob.as_ref(), true, is_position)?);
         let context = Context { file: Arc::clone(&file), origin, marks: false };
         let mut assembly = Assembly::default();
         let lines = Lines { blob: blob.as_ref(), start: 0, line: 1, joined: true, rows: false };
@@ -87,36 +83,4 @@ pub(crate) fn read(input: &Input<'_>, out: &mut Vec<Diagnostic>) -> Option<Fragm
             None
         }
     }
-}
-
-/// Positions from places all over the file.
-fn sample(blob: &dyn Blob) -> io::Result<Vec<DVec3>> {
-    let mut samples = Vec::new();
-    let mut text = vec![0; SAMPLE];
-    let step = (blob.len() / SAMPLES as u64).max(SAMPLE as u64);
-    for place in 0..SAMPLES as u64 {
-        let read = blob.read_full(&mut text, place * step)?;
-        let whole = text[..read].iter().rposition(|&b| b == b'\n').map_or(read, |end| end + 1);
-        let piece = Piece { text: &text[..whole], offset: 0, line: 1, rows: 0 };
-        let mut cursor = Cursor::new(piece, true);
-        if place > 0 {
-            // It began before.
-            cursor.next_line();
-        }
-        let wanted = samples.len() + SAMPLES;
-        while !cursor.is_done() && samples.len() < wanted {
-            if cursor.word() == b"v" {
-                let mut number =
-                    || if cursor.more() { cursor.decimal().map(Decimal::to_f64) } else { None };
-                if let (Some(x), Some(y), Some(z)) = (number(), number(), number()) {
-                    samples.push(DVec3::new(x, y, z));
-                }
-            }
-            cursor.next_line();
-        }
-        if read < SAMPLE {
-            break;
-        }
-    }
-    Ok(samples)
 }

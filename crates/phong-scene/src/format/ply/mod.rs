@@ -56,11 +56,17 @@ use self::names::RADIUS;
 use self::vertices::{Plan, Vertices};
 use super::input::{Input, Wanted};
 use super::text::{Findings, whole};
+use super::triangles::{any_left, cut, tell_small, tidy};
 use crate::diagnostic::Diagnostic;
-use crate::fragment::{Fragment, flat};
-use crate::mesh::{collapse_faces, cut_polygons};
+use crate::fragment::Fragment;
+use crate::mesh::collapse_faces;
 use crate::shape::Shape;
 use crate::source::trouble;
+
+/// Whether a file that begins so is surely PLY.
+pub(crate) fn is_ply(head: &[u8]) -> bool {
+    head.starts_with(b"ply\n") || head.starts_with(b"ply\r")
+}
 
 /// Reads a PLY file; `None` if a diagnostic is an error. A file without faces is a cloud of
 /// points, drawn as spheres.
@@ -228,45 +234,11 @@ impl Body<'_> {
                 format!("faces of which a vertex is left out: {gone}; they are left out")
             });
         }
-        let tangled =
-            cut_polygons(&mesh.positions, &polygons, &mut mesh.indices, [&mut [], &mut []]);
-        if tangled > 0 {
-            self.warn("tangled polygons", || {
-                format!(
-                    "polygons that cross themselves or have no area: {tangled}; their shape is a guess"
-                )
-            });
-        }
-        if faces.dropped > 0 {
-            self.warn("small faces", || {
-                format!("faces of fewer than three corners: {}; they are left out", faces.dropped)
-            });
-        }
-        let collapsed = mesh.drop_collapsed().saturating_sub(triangles);
-        if collapsed > 0 {
-            self.warn("collapsed triangles", || {
-                format!("triangles that use a vertex twice: {collapsed}; they are left out")
-            });
-        }
-        let zeros = mesh.mend_normals();
-        if zeros > 0 {
-            self.warn("normals of length 0", || {
-                format!(
-                    "normals without a direction: {zeros}; the geometric one stands in for them"
-                )
-            });
-        }
-        if mesh.indices.is_empty() {
-            let span = self.whole();
-            self.findings.error(
-                "empty models",
-                || span,
-                || "there is nothing to draw: no face is left".to_owned(),
-            );
+        cut(&mut mesh, &polygons, &mut self.findings, self.file);
+        tell_small(faces.dropped, &mut self.findings, self.file);
+        tidy(&mut mesh, triangles, &mut self.findings, self.file);
+        if !any_left(&mesh, &mut self.findings, self.file) {
             return None;
-        }
-        if mesh.is_flat() {
-            self.warn("flat models", || flat(mesh.indices.len()));
         }
         Some(mesh.into())
     }
