@@ -112,9 +112,16 @@ impl Input {
     }
 }
 
-/// What INPUT is, by `--format` or by its name, for telling.
+/// What INPUT is, by `--format`, by what it begins with or by its name, for telling.
 pub(crate) fn format(args: &InputArgs) -> Option<Format> {
-    args.format.or_else(|| Format::of_path(&args.input))
+    // A pipe is read once.
+    let is_file = allowed(&path_of(&args.input)).is_ok_and(|path| path.is_file());
+    let files = Files { input: args.input.clone(), ..Files::default() };
+    let of_input = || match is_file {
+        true => Format::of_file(&args.input, &files),
+        false => Format::of_path(&args.input),
+    };
+    args.format.or_else(of_input)
 }
 
 /// A file that cannot be read, with the way out.

@@ -54,8 +54,8 @@ fn the_same_scene_gives_the_same_bytes() {
 #[test]
 fn what_is_wrong_with_the_words_is_said_before_anything_is_read() {
     let folder = given(&[("a.toml", BALLS), ("nan.toml", &BALLS.replace("0.7", "nan"))]);
-    folder.when("convert a.toml b.docx").is_refused(&["b.docx", ".toml, .obj or .ply"]);
-    folder.when("convert a.toml b.stl").is_refused(&["STL", "not written yet"]);
+    folder.when("convert a.toml b.docx").is_refused(&["b.docx", ".toml, .obj, .ply or .stl"]);
+    folder.when("convert a.toml b.nff").is_refused(&["NFF", "not written yet"]);
     folder.when("convert a.toml").is_refused(&["OUT"]);
     folder.when("convert a.toml -").is_refused(&["--to"]);
     folder.when("convert a.toml - --to toml --json").is_refused(&["standard output"]);

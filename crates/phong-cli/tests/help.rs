@@ -13,8 +13,11 @@ fn told(words: &str) -> String {
 fn only_what_is_read_is_listed_as_an_input() {
     for command in ["render", "explain", "check", "info", "convert", "grade", "bench"] {
         let help = told(&format!("{command} --help"));
-        assert!(help.contains(".obj .ply") && help.contains("toml, obj or ply"), "{help}");
-        for ending in ["stl", "gltf", "glb", "pdb", "cif", "xyz", "nff"] {
+        assert!(
+            help.contains(".obj .ply .stl") && help.contains("toml, obj, ply or stl"),
+            "{help}"
+        );
+        for ending in ["gltf", "glb", "pdb", "cif", "xyz", "nff"] {
             assert!(!help.contains(&format!(".{ending}")), "{command}: {ending}");
         }
     }

@@ -104,3 +104,21 @@ fn ply_points(bencher: Bencher<'_, '_>) {
     let source = Memory::new().with("a.ply", file);
     bencher.counter(size).bench_local(|| read("a.ply", None, &source, &Limits::default()));
 }
+
+/// Half a million facets, of which each corner stands six times. A scene that says `smooth = false`
+/// reads them alone: making normals would take longer.
+#[divan::bench(sample_count = 20)]
+fn stl_mesh(bencher: Bencher<'_, '_>) {
+    let place = |i: usize| [i % SIDE, 0, i / SIDE].map(|c| c as f32);
+    let mut file = [&[b' '; 80][..], &(triangles().count() as u32).to_le_bytes()].concat();
+    for triangle in triangles() {
+        let corners = triangle.into_iter().flat_map(place);
+        file.extend([0.0, 1.0, 0.0].into_iter().chain(corners).flat_map(f32::to_le_bytes));
+        file.extend([0, 0]);
+    }
+    let size = BytesCount::new(file.len());
+    let scene = b"version = 1\n[camera]\neye = [0, 9, 0]\nlook_at = [1, 0, 1]\n\
+                  [[mesh]]\nfile = \"a.stl\"\nsmooth = false\n";
+    let source = Memory::new().with("a.stl", file).with("a.toml", *scene);
+    bencher.counter(size).bench_local(|| read("a.toml", None, &source, &Limits::default()));
+}

@@ -11,6 +11,9 @@ use crate::source::{Blob, Memory, Source, read_stream, trouble};
 /// The most that a packed file may hold, whatever the limits say: few bytes may hold any number.
 const MOST: u64 = 8 << 30;
 
+/// What a packed file begins with. Of the ways to pack, only deflate was ever defined.
+const MAGIC: [u8; 3] = [0x1f, 0x8b, 8];
+
 /// A source whose packed files are read as what they hold.
 pub(crate) struct Unpacked<'a> {
     source: &'a dyn Source,
@@ -33,10 +36,9 @@ impl fmt::Debug for Unpacked<'_> {
 impl Source for Unpacked<'_> {
     fn open(&self, path: &str) -> io::Result<Box<dyn Blob>> {
         let blob = self.source.open(path)?;
-        let mut head = [0; 3];
+        let mut head = [0; MAGIC.len()];
         let read = blob.read_full(&mut head, 0)?;
-        // Of the ways to pack, only deflate was ever defined.
-        if !head[..read].starts_with(&[0x1f, 0x8b, 8]) {
+        if head[..read] != MAGIC {
             return Ok(blob);
         }
         let packed = io::BufReader::with_capacity(1 << 16, Reader { blob: &*blob, at: 0 });
@@ -51,6 +53,24 @@ impl Source for Unpacked<'_> {
         })?;
         Memory::new().with(path, bytes).open(path)
     }
+}
+
+/// What a file begins with, or what it holds begins with if it is packed: at most so many bytes, of
+/// which no more are unpacked.
+///
+/// # Errors
+/// What the source says; of a packed file also that it cannot be unpacked.
+pub(crate) fn head_of(source: &dyn Source, path: &str, most: usize) -> io::Result<Vec<u8>> {
+    let blob = source.open(path)?;
+    let mut head = vec![0; most];
+    let read = blob.read_full(&mut head, 0)?;
+    head.truncate(read);
+    if head.starts_with(&MAGIC) {
+        let packed = MultiGzDecoder::new(Reader { blob: &*blob, at: 0 });
+        head = Vec::new();
+        packed.take(most as u64).read_to_end(&mut head)?;
+    }
+    Ok(head)
 }
 
 /// A blob, read from its beginning on.

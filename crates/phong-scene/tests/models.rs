@@ -1,6 +1,6 @@
 //! Model files in, summaries and diagnostics out.
 //!
-//! Beside every `NAME.obj`, `.mtl` and `.ply` lies `NAME.txt`: what reading it gives, as text.
+//! Beside every `NAME.obj`, `.mtl`, `.ply` and `.stl` lies `NAME.txt`: what reading it gives, as text.
 //! `PHONG_BLESS=1` writes the texts anew.
 
 mod differing;
@@ -24,6 +24,11 @@ fn obj_files_give_what_lies_beside_them() -> io::Result<()> {
 #[test]
 fn ply_files_give_what_lies_beside_them() -> io::Result<()> {
     for_each("ply", |name, source| Ok(read(name, None, source, &Limits::default())))
+}
+
+#[test]
+fn stl_files_give_what_lies_beside_them() -> io::Result<()> {
+    for_each("stl", |name, source| Ok(read(name, None, source, &Limits::default())))
 }
 
 #[test]

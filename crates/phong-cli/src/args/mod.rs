@@ -13,8 +13,8 @@ use phong_scene::Change;
 
 pub(crate) use picture::{ImageArgs, RenderArgs};
 pub(crate) use values::{
-    Crop, PictureSize, Vec3Arg, color, input_help, size, vector, whole, written_format,
-    written_help,
+    Crop, PictureSize, Vec3Arg, color, input_help, output_help, size, vector, whole,
+    written_endings, written_format, written_help,
 };
 
 /// What no command goes beyond.

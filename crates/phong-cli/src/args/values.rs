@@ -191,12 +191,9 @@ pub(crate) fn path() -> impl TypedValueParser<Value = String> {
 
 /// What INPUT may be.
 pub(crate) fn input_help() -> String {
-    let models = Format::readable().into_iter().filter(|format| format.is_bare());
-    let models: Vec<_> = models.map(|format| format!(".{}", format.ending())).collect();
-    format!(
-        "A .toml scene or a bare model ({}); - reads standard input, with --format",
-        models.join(" ")
-    )
+    let models: Vec<_> = Format::readable().into_iter().filter(|format| format.is_bare()).collect();
+    let models = dotted(&models).join(" ");
+    format!("A .toml scene or a bare model ({models}); - reads standard input, with --format")
 }
 
 /// What `--format` may be.
@@ -209,9 +206,29 @@ pub(crate) fn written_help() -> String {
     format!("What OUT is, whatever its name says: {}", alternatives(&Format::writable()))
 }
 
+/// What OUT may be, where a scene is written.
+pub(crate) fn output_help() -> String {
+    let endings: Vec<_> = dotted(&Format::writable());
+    format!("The file to write ({}); - is standard output, with --to", endings.join(" "))
+}
+
+/// `.toml, .obj or .ply`: the formats that are written.
+pub(crate) fn written_endings() -> String {
+    either(&dotted(&Format::writable()))
+}
+
+fn dotted(formats: &[Format]) -> Vec<String> {
+    formats.iter().map(|format| format!(".{}", format.ending())).collect()
+}
+
 /// `toml, obj or ply`.
 fn alternatives(formats: &[Format]) -> String {
-    let names: Vec<&str> = formats.iter().map(|format| format.ending()).collect();
+    let names: Vec<_> = formats.iter().map(|format| format.ending().to_owned()).collect();
+    either(&names)
+}
+
+/// `a, b or c`.
+fn either(names: &[String]) -> String {
     names
         .split_last()
         .map_or_else(String::new, |(last, rest)| format!("{} or {last}", rest.join(", ")))

@@ -10,7 +10,10 @@ use phong_scene::{
 use serde_json::json;
 
 use super::check;
-use crate::args::{InputArgs, PictureSize, ViewArgs, size, written_format, written_help};
+use crate::args::{
+    InputArgs, PictureSize, ViewArgs, output_help, size, written_endings, written_format,
+    written_help,
+};
 use crate::failure::Failure;
 use crate::output::{Output, keep_inputs_safe};
 use crate::progress::Meter;
@@ -34,8 +37,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     input: InputArgs,
 
-    /// The file to write (.toml .obj .ply); - is standard output, with --to
-    #[arg(value_name = "OUT")]
+    #[arg(value_name = "OUT", help = output_help())]
     output: PathBuf,
 
     #[arg(long, value_name = "NAME", value_parser = written_format, help = written_help())]
@@ -133,7 +135,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 /// What to write, by `--to` or by OUT's name.
 fn output_format(args: &Args) -> Result<Format, Failure> {
     let format = args.to.or_else(|| Format::of_path(&args.output.to_string_lossy()));
-    let help = "end OUT in .toml, .obj or .ply, or give --to";
+    let help = format!("end OUT in {}, or give --to", written_endings());
     match format {
         Some(format) if Format::writable().contains(&format) => Ok(format),
         Some(other) => {

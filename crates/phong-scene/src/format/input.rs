@@ -51,13 +51,13 @@ pub(crate) type ReadScene = fn(&Input<'_>, &'static Models) -> Reading;
 /// The table of formats as scenes see it, which stands above all readers.
 #[derive(Debug)]
 pub(crate) struct Models {
-    /// What a path names, by its ending.
-    pub(crate) find: fn(&str) -> Named,
+    /// What a path names, by what the file begins with, or else by its ending.
+    pub(crate) find: fn(&str, &dyn Source) -> Named,
     /// What models are read from, as a way out.
     pub(crate) help: fn() -> String,
 }
 
-/// What a file is, by its name.
+/// What a file is.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Named {
     /// A model that this reads.

@@ -7,6 +7,7 @@ pub(crate) mod mtl;
 pub(crate) mod obj;
 pub(crate) mod origin;
 pub(crate) mod ply;
+pub(crate) mod stl;
 pub(crate) mod table;
 mod text;
 pub(crate) mod toml;
@@ -25,7 +26,8 @@ use crate::unpack::Unpacked;
 
 /// Reads a scene or a bare model, and everything there is to say about it.
 ///
-/// `format` `None` means what the path's ending says. A bare model is seen from the default
+/// `format` `None` means what the file begins with says, or else the path's ending
+/// ([`Format::of_file`]). A bare model is seen from the default
 /// [`Framing`]; [`Scene::frame`](crate::Scene::frame) looks at it from another.
 ///
 /// ```
@@ -61,7 +63,7 @@ pub fn read_changed(
         let diagnostics = vec![Diagnostic::error(message, span).with_help(help)];
         Reading { scene: None, bare, diagnostics }
     };
-    let Some(format) = format.or_else(|| Format::of_path(path)) else {
+    let Some(format) = format.or_else(|| Format::of_file(path, source)) else {
         let message = "its name does not say what the file is written in".to_owned();
         let help =
             format!("names end in {}; or the format is given", endings(&Format::readable(), "or"));
@@ -104,7 +106,7 @@ pub fn read_changed(
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct ExportOptions {
-    /// The format. Default: [`Format::Toml`]; OBJ and PLY are written as well.
+    /// The format. Default: [`Format::Toml`]; OBJ, PLY and STL are written as well.
     pub format: Format,
     /// How numbers stand in PLY files.
     pub ply: PlyEncoding,
@@ -184,7 +186,7 @@ mod tests {
 
     #[test]
     fn a_known_format_that_is_not_built_says_not_yet() {
-        for path in ["a.stl", "a.gltf", "a.glb", "a.pdb", "a.cif", "a.xyz", "a.dat", "a.nff"] {
+        for path in ["a.gltf", "a.glb", "a.pdb", "a.cif", "a.xyz", "a.dat", "a.nff"] {
             let reading = read(path, None, &Memory::new().with(path, *b""), &Limits::default());
             let said = reading.diagnostics[0].to_string();
             assert!(reading.scene.is_none() && said.contains("not read yet"), "{said}");

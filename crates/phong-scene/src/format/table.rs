@@ -6,7 +6,13 @@ use std::fmt;
 
 use super::export::WriteScene;
 use super::input::{Models, Named, ReadModel, ReadScene};
-use super::{obj, ply, toml};
+use super::text::decode;
+use super::{obj, ply, stl, toml};
+use crate::source::Source;
+use crate::unpack::head_of;
+
+/// Bytes from the beginning of a file that are looked at to tell its format.
+const LOOK: usize = 1 << 10;
 
 /// What a file is written in.
 ///
@@ -23,7 +29,7 @@ pub enum Format {
     Obj,
     /// Stanford PLY: meshes and clouds of points.
     Ply,
-    /// Stereolithography. Known, not read yet.
+    /// STL, stereolithography: triangles, binary or as text.
     Stl,
     /// glTF 2.0, as text or binary. Known, not read yet.
     Gltf,
@@ -46,6 +52,8 @@ struct Entry {
     name: &'static str,
     /// The endings of its files, without the dot; the usual one first.
     endings: &'static [&'static str],
+    /// Whether a file that begins so, as text if it is some, is surely of it. `None`: its name says so.
+    tells: Option<fn(&[u8]) -> bool>,
     /// Whether it holds a model without camera and lights.
     bare: bool,
     /// `None`: known, but not read yet.
@@ -69,6 +77,7 @@ static TABLE: [Entry; 10] = [
         format: Format::Toml,
         name: "TOML scene",
         endings: &["toml"],
+        tells: None,
         bare: false,
         read: Some(Read::Scene(toml::read)),
         write: Some(toml::write::write_toml),
@@ -77,6 +86,7 @@ static TABLE: [Entry; 10] = [
         format: Format::Obj,
         name: "OBJ",
         endings: &["obj"],
+        tells: None,
         bare: true,
         read: Some(Read::Model(obj::read)),
         write: Some(obj::export::write_obj),
@@ -85,6 +95,7 @@ static TABLE: [Entry; 10] = [
         format: Format::Ply,
         name: "PLY",
         endings: &["ply"],
+        tells: Some(ply::is_ply),
         bare: true,
         read: Some(Read::Model(ply::read)),
         write: Some(ply::export::write_ply),
@@ -93,14 +104,16 @@ static TABLE: [Entry; 10] = [
         format: Format::Stl,
         name: "STL",
         endings: &["stl"],
+        tells: Some(stl::is_stl),
         bare: true,
-        read: None,
-        write: None,
+        read: Some(Read::Model(stl::read)),
+        write: Some(stl::export::write_stl),
     },
     Entry {
         format: Format::Gltf,
         name: "glTF",
         endings: &["gltf", "glb"],
+        tells: None,
         bare: true,
         read: None,
         write: None,
@@ -109,6 +122,7 @@ static TABLE: [Entry; 10] = [
         format: Format::Pdb,
         name: "PDB",
         endings: &["pdb"],
+        tells: None,
         bare: true,
         read: None,
         write: None,
@@ -117,6 +131,7 @@ static TABLE: [Entry; 10] = [
         format: Format::Cif,
         name: "mmCIF",
         endings: &["cif"],
+        tells: None,
         bare: true,
         read: None,
         write: None,
@@ -125,6 +140,7 @@ static TABLE: [Entry; 10] = [
         format: Format::Xyz,
         name: "XYZ",
         endings: &["xyz"],
+        tells: None,
         bare: true,
         read: None,
         write: None,
@@ -133,6 +149,7 @@ static TABLE: [Entry; 10] = [
         format: Format::Tachyon,
         name: "Tachyon",
         endings: &["dat"],
+        tells: None,
         bare: false,
         read: None,
         write: None,
@@ -141,6 +158,7 @@ static TABLE: [Entry; 10] = [
         format: Format::Nff,
         name: "NFF",
         endings: &["nff"],
+        tells: None,
         bare: false,
         read: None,
         write: None,
@@ -175,6 +193,22 @@ impl Format {
     #[must_use]
     pub fn ending(self) -> &'static str {
         self.entry().endings[0]
+    }
+
+    /// The format of a file: what it begins with says it, or else its ending, as of
+    /// [`of_path`](Self::of_path). A file that cannot be opened is what its ending says.
+    ///
+    /// ```
+    /// use phong_scene::{Format, Memory};
+    /// let files = Memory::new().with("scan.stl", *b"ply\nformat ascii 1.0\n");
+    /// assert_eq!(Format::of_file("scan.stl", &files), Some(Format::Ply));
+    /// assert_eq!(Format::of_file("gone.stl", &files), Some(Format::Stl));
+    /// ```
+    #[must_use]
+    pub fn of_file(path: &str, source: &dyn Source) -> Option<Self> {
+        let head = head_of(source, path, LOOK).map(decode).unwrap_or_default();
+        let tells = |entry: &&Entry| entry.tells.is_some_and(|tells| tells(&head));
+        TABLE.iter().find(tells).map(|entry| entry.format).or_else(|| Self::of_path(path))
     }
 
     /// The format that the ending of a path stands for, in capitals or not; that it is packed
@@ -224,8 +258,11 @@ impl fmt::Display for Format {
     }
 }
 
-fn find(path: &str) -> Named {
-    match Format::of_path(path).map(Format::entry) {
+fn find(path: &str, source: &dyn Source) -> Named {
+    // What is packed would be unpacked for it, so there the name alone counts if it says something.
+    let packed = path.len() > 3 && path.as_bytes()[path.len() - 3..].eq_ignore_ascii_case(b".gz");
+    let format = Format::of_path(path).filter(|_| packed);
+    match format.or_else(|| Format::of_file(path, source)).map(Format::entry) {
         None => Named::Unknown,
         Some(Entry { read: Some(Read::Model(read)), .. }) => Named::Model(*read),
         Some(Entry { read: Some(Read::Scene(_)), .. }) => Named::Scene,

@@ -12,12 +12,14 @@ mod shared;
 mod smooth;
 mod spacing;
 mod tidy;
+mod weld;
 
 pub use cylinders::{Caps, Cylinders};
 pub(crate) use groups::FLAT;
 pub(crate) use polygon::cut_polygons;
 pub use shared::Shared;
 pub(crate) use tidy::collapse_faces;
+pub(crate) use weld::{Hash, Weld};
 
 use glam::{DVec3, Vec2, Vec3};
 

@@ -1,6 +1,6 @@
 //! What is said of a scene where a format holds but its triangles or spheres.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::{Account, Writing, split_all};
 use crate::color::Rgb;
@@ -98,6 +98,16 @@ pub(crate) fn has_colors(shape: &Shape) -> bool {
         Shape::Points(points) => !points.colors.is_empty(),
         Shape::Cylinders(cylinders) => !cylinders.colors.is_empty(),
         _ => false,
+    }
+}
+
+/// The materials of an object.
+pub(crate) fn used_by(object: &Object) -> BTreeSet<u32> {
+    match &object.shape {
+        Shape::Mesh(mesh) if !mesh.face_materials.is_empty() => {
+            mesh.face_materials.iter().copied().collect()
+        }
+        _ => BTreeSet::from([object.material.0]),
     }
 }
 

@@ -2,6 +2,8 @@
 
 use proptest::prelude::*;
 
+use glam::DVec3;
+
 use super::*;
 use crate::limits::Limits;
 use crate::mesh::Mesh;

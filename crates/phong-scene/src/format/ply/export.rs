@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::diagnostic::Diagnostic;
 use crate::format::export::flat::{
     each_object, has_colors, is_cylinders, is_spheres, is_triangles, leave_out, listed, nothing,
-    say_unfolded, split_scene, warning,
+    say_unfolded, split_scene, used_by, warning,
 };
 use crate::format::export::merge::{Size, cylinders, merge, spheres};
 use crate::format::export::{Account, File, Writing};
@@ -106,16 +106,6 @@ fn say_uneven(uneven: &BTreeMap<String, usize>, what: &str, account: &mut Accoun
         let names = listed(uneven.keys().map(String::as_str), uneven.len());
         let message = format!("PLY holds no {what}; {count} are left out: {names}");
         account.drop(Diagnostic::warning(message, None));
-    }
-}
-
-/// The materials of an object.
-fn used_by(object: &Object) -> BTreeSet<u32> {
-    match &object.shape {
-        Shape::Mesh(mesh) if !mesh.face_materials.is_empty() => {
-            mesh.face_materials.iter().copied().collect()
-        }
-        _ => BTreeSet::from([object.material.0]),
     }
 }
 

@@ -31,7 +31,14 @@ pub(crate) fn open_text(
     path: &str,
     limits: &Limits,
 ) -> io::Result<Box<dyn Blob>> {
-    let blob = source.open(path)?;
+    as_text(source.open(path)?, limits)
+}
+
+/// A file as text, as [`open_text`] opens it.
+///
+/// # Errors
+/// As of [`open_text`].
+pub(crate) fn as_text(blob: Box<dyn Blob>, limits: &Limits) -> io::Result<Box<dyn Blob>> {
     let mut head = vec![0; 1 << 12];
     let count = blob.read_full(&mut head, 0)?;
     let head = &head[..count];

@@ -45,7 +45,7 @@ impl Reader<'_> {
         }
         let mut limits = self.limits.clone();
         limits.text_bytes = limits.text_bytes.saturating_sub(self.bytes);
-        if matches!((self.models.find)(&inner), Named::Model(_) | Named::NotYet(_)) {
+        if matches!((self.models.find)(&inner, self.source), Named::Model(_) | Named::NotYet(_)) {
             return self.include_model(v, path);
         }
         match text::load(&inner, self.source, &limits) {
@@ -243,7 +243,7 @@ impl Reader<'_> {
         let name = v.text("file")?;
         let spot = v.spot_of("file");
         let file = join(path, &name);
-        let message = match (self.models.find)(&file) {
+        let message = match (self.models.find)(&file, self.source) {
             Named::Model(read) => return self.read_fragment(v, file, read, wanted, radius),
             Named::Scene => "a scene cannot be drawn as a model".to_owned(),
             Named::NotYet(format) => format!("{format} files are not read yet"),

@@ -238,7 +238,7 @@ mod tests {
         })
     }
 
-    static MODELS: Models = Models { find: |_| Named::Model(textured), help: String::new };
+    static MODELS: Models = Models { find: |_, _| Named::Model(textured), help: String::new };
 
     #[test]
     fn textures_of_included_models_follow_those_of_the_text() {
