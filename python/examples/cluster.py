@@ -29,7 +29,10 @@ def scene(turn: float = 0.0) -> phong.Scene:
 
 def main() -> None:
     """Draws all three."""
-    with LocalCluster(n_workers=2, threads_per_worker=1) as cluster, Client(cluster) as client:
+    with (
+        LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0") as cluster,
+        Client(cluster) as client,
+    ):
         # Finished shares are kept in a folder: after a mishap, the same call goes on from there.
         image = phong.dask.render(scene(), client, size=(960, 540), samples=16, store="shares")
         image.save("ring.png")
@@ -38,7 +41,7 @@ def main() -> None:
         frames = (scene(float(turn)) for turn in turns)
         phong.dask.render_frames(frames, client, "frames/ring-{:03}.png", size=(320, 180))
 
-        parameters = {"camera.fov": [25, 40, 60], "lights.0.color": [0.5, 1.0]}
+        parameters = {"camera.fov": [25, 40, 60], "light.1.color": [0.5, 1.0]}
         for number, one in enumerate(
             phong.dask.sweep(scene(), parameters, client, size=(320, 180), samples=4)
         ):

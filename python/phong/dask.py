@@ -189,9 +189,9 @@ def sweep(
 
     ``parameters``: ``{"camera.fov": [20, 40], "samples": [1, 16]}`` is all combinations, the last
     key changing fastest; a sequence of dicts is just those. A key is an option of ``phong.render``,
-    or a path in the scene: ``camera.KEY``, ``lights.NUMBER.KEY`` (from 0), ``materials.NAME.KEY``,
-    ``ambient`` or ``background``. The scene itself is not changed. ``store``, ``progress``,
-    ``timeout`` and ``options`` as in :func:`render`.
+    or a path as in ``phong batch``: ``camera.KEY``, ``light.NUMBER.KEY`` (from 1),
+    ``materials.NAME.KEY``, ``image.KEY`` or ``ambient.color``. The scene itself is not changed.
+    ``store``, ``progress``, ``timeout`` and ``options`` as in :func:`render`.
 
     Returns the variations, in order. Raises ClusterError, KeyError for a path that is not
     there, and what ``phong.render`` raises.
@@ -373,7 +373,7 @@ def _combinations(
 
 def _split(scene: phong.Scene, chosen: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
     """What changes the scene, and what are options; tried out, so that errors are told at once."""
-    of_scene = ("camera", "lights", "materials", "ambient", "background")
+    of_scene = ("camera", "light", "materials", "ambient", "image")
     paths = {path: value for path, value in chosen.items() if path.partition(".")[0] in of_scene}
     _varied(scene, paths)
     return paths, {key: value for key, value in chosen.items() if key not in paths}
@@ -385,15 +385,18 @@ def _varied(scene: phong.Scene, paths: Mapping[str, Any]) -> phong.Scene:
     for path, value in paths.items():
         kind, _, rest = path.partition(".")
         name, _, key = rest.rpartition(".")
-        if kind in ("ambient", "background") and not rest:
-            setattr(made, kind, value)
-        elif kind == "camera" and key and not name:
-            made.camera = made.camera.replace(**{key: value})
-        elif kind == "lights" and name:
+        if path == "ambient.color":
+            made.ambient = value
+        elif kind in ("camera", "image") and key and not name:
+            if kind == "image":
+                made.image = {key: value}
+            else:
+                made.camera = made.camera.replace(**{key: value})
+        elif kind == "light" and name:
             lights = made.lights
-            if not name.isdecimal() or int(name) >= len(lights):
-                raise KeyError(f"{path}: the scene has {len(lights)} lights, counted from 0")
-            lights[int(name)] = lights[int(name)].replace(**{key: value})
+            if not name.isdecimal() or not 1 <= int(name) <= len(lights):
+                raise KeyError(f"{path}: the scene has {len(lights)} lights, counted from 1")
+            lights[int(name) - 1] = lights[int(name) - 1].replace(**{key: value})
             made.lights = lights
         elif kind == "materials" and name:
             materials = made.materials
@@ -402,7 +405,7 @@ def _varied(scene: phong.Scene, paths: Mapping[str, Any]) -> phong.Scene:
             made.set_material(name, materials[name].replace(**{key: value}))
         else:
             raise KeyError(
-                f"{path}: wanted is camera.KEY, lights.NUMBER.KEY, materials.NAME.KEY, ambient "
-                "or background"
+                f"{path}: wanted is camera.KEY, light.NUMBER.KEY, materials.NAME.KEY, image.KEY "
+                "or ambient.color"
             )
     return made

@@ -9,12 +9,18 @@ from pathlib import Path
 import pytest
 from drawing import need
 
+# Other packages warn of what is to come.
+pytestmark = pytest.mark.filterwarnings("default")
+
 BOOK = Path(__file__).resolve().parents[2] / "book/src"
 SCENES = BOOK.parents[1] / "scenes"
 BLOCK = re.compile(r"^```python\n(.*?)^```$", re.M | re.S)
 
 
-@pytest.mark.parametrize("page", ["notebook", "cluster"])
+PAGES = [path.stem for path in sorted(BOOK.glob("*.md")) if "import phong" in path.read_text()]
+
+
+@pytest.mark.parametrize("page", PAGES)
 def test_the_python_of_a_page_runs(
     page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

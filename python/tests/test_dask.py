@@ -21,6 +21,9 @@ import phong
 if TYPE_CHECKING:
     from distributed import Client, LocalCluster
 
+# Dask leaves sockets to the collector, and warns of ports that are taken.
+pytestmark = pytest.mark.filterwarnings("default")
+
 SCENES = Path(__file__).resolve().parents[2] / "scenes"
 THREE = ["two-balls.toml", "glass.toml", "solids.toml"]
 SMALL = {"size": (96, 54), "samples": 4, "progress": False}
@@ -31,7 +34,7 @@ def cluster() -> Iterator[LocalCluster]:
     need("distributed")
     from distributed import LocalCluster
 
-    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0") as cluster:
         yield cluster
 
 
@@ -40,6 +43,7 @@ def client(cluster: LocalCluster) -> Iterator[Client]:
     from distributed import Client
 
     with Client(cluster) as client:
+        client.wait_for_workers(2, timeout=300)
         yield client
 
 
@@ -140,7 +144,7 @@ def test_a_sweep_draws_every_combination(client: Client, tmp_path: Path) -> None
     with pytest.raises(phong.SceneError, match="zoom"):
         phong.dask.sweep(balls(), [{"camera.zoom": 1}], client)
     with pytest.raises(KeyError, match="the scene has 0 lights"):
-        phong.dask.sweep(balls(), [{"lights.7.color": 1}], client)
+        phong.dask.sweep(balls(), [{"light.7.color": 1}], client)
 
 
 def test_ctrl_c_cancels_what_is_under_way(client: Client) -> None:
@@ -179,7 +183,7 @@ def test_no_worker_at_all_is_an_error_and_no_hang() -> None:
     from distributed import Client, LocalCluster
 
     with (
-        LocalCluster(n_workers=0, dashboard_address=None) as cluster,
+        LocalCluster(n_workers=0, dashboard_address=":0") as cluster,
         Client(cluster) as client,
         pytest.raises(phong.dask.ClusterError, match="the cluster has no worker"),
     ):
@@ -191,7 +195,7 @@ def test_workers_without_memory_end_in_an_error_that_says_so() -> None:
 
     with (
         LocalCluster(
-            n_workers=1, threads_per_worker=1, dashboard_address=None, memory_limit="300MB"
+            n_workers=1, threads_per_worker=1, dashboard_address=":0", memory_limit="300MB"
         ) as cluster,
         Client(cluster) as client,
         pytest.raises(phong.dask.ClusterError, match=r"4 workers died .* 300 MB of memory"),
@@ -230,13 +234,14 @@ class Processes:
         port = self.address.rpartition(":")[2]
         return self.start(
             sys.executable, "-m", "distributed.cli.dask_scheduler", "--host", "127.0.0.1",
-            "--port", port, "--no-dashboard",
+            "--port", port, "--no-dashboard", "--dashboard-address", ":0",
         )  # fmt: skip
 
     def worker(self, *before: str) -> subprocess.Popen[bytes]:
         return self.start(
             *before, sys.executable, "-m", "distributed.cli.dask_worker", self.address,
-            "--nthreads", "1", "--no-nanny", "--no-dashboard", "--death-timeout", "120",
+            "--nthreads", "1", "--no-nanny", "--no-dashboard", "--dashboard-address", ":0",
+            "--death-timeout", "120",
         )  # fmt: skip
 
     def stop(self) -> None:

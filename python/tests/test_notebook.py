@@ -25,6 +25,9 @@ import phong
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
+# What servers and browsers warn of is not ours.
+pytestmark = pytest.mark.filterwarnings("default")
+
 SETUP = """\
 import phong
 scene = phong.Scene(
@@ -191,6 +194,15 @@ def test_a_notebook_is_turned_lit_and_explained(
     canvas.wait_for()
     first = finished_after(page, 0)
 
+    # Every control has a name, and the picture can be reached by keys.
+    unnamed = page.locator(".phong").evaluate(
+        """root => Array.from(root.querySelectorAll("input, button, canvas"))
+            .filter(e => !(e.ariaLabel || e.textContent.trim() || e.labels?.length))
+            .map(e => e.outerHTML)"""
+    )
+    assert unnamed == []
+    assert canvas.get_attribute("tabindex") == "0"
+
     # What is shown is the picture that the package draws.
     scope: dict[str, phong.Scene] = {}
     exec(SETUP, scope)
@@ -233,16 +245,3 @@ def test_a_notebook_is_turned_lit_and_explained(
     finished_after(page, fourth)
     assert pixels(page) != before
     page.screenshot(path=os.environ.get("PHONG_SCREENSHOT", str(tmp_path / "lab.png")))
-
-
-def test_every_control_of_the_widget_has_a_name(lab: str, browser_page: Page) -> None:
-    page = browser_page
-    run_all(page, lab)
-    page.locator(".phong canvas").wait_for()
-    unnamed = page.locator(".phong").evaluate(
-        """root => Array.from(root.querySelectorAll("input, button, canvas"))
-            .filter(e => !(e.ariaLabel || e.textContent.trim() || e.labels?.length))
-            .map(e => e.outerHTML)"""
-    )
-    assert unnamed == []
-    assert page.locator(".phong canvas").get_attribute("tabindex") == "0"
