@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 import phong
 
 #: What may be raised for an argument.
-REFUSED = (ValueError, TypeError, OverflowError, MemoryError)
+REFUSED = (ValueError, TypeError, OverflowError, MemoryError, OSError)
 SETTINGS = settings(
     max_examples=60,
     deadline=None,
