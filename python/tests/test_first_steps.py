@@ -113,3 +113,22 @@ def test_a_broken_text_is_told_with_its_line() -> None:
     with pytest.raises(phong.SceneError) as caught:
         phong.Scene.parse(TEXT.replace("radius = 1", "radius = -1"))
     assert caught.value.diagnostics[0].line == 14
+
+
+def test_without_lights_two_stand_behind_the_camera_and_none_if_none_are_wanted() -> None:
+    camera = phong.Camera(eye=(0, 0, 5), look_at=(0, 0, 0))
+    scenes = [phong.Scene(camera=camera), phong.Scene(camera=camera, lights=[])]
+    for scene in scenes:
+        scene.add(phong.Sphere(center=(0, 0, 0), radius=1))
+    lit, unlit = (phong.explain(scene, 24, 16, **SMALL) for scene in scenes)
+    assert len(scenes[0].lights) == 2
+    assert max(lit.terms.diffuse) > 0
+    assert max(unlit.terms.diffuse) == 0
+
+
+def test_warnings_stay_with_every_picture() -> None:
+    scene = phong.Scene(camera=phong.Camera(eye=(0, 0, 5), look_at=(0, 0, 0)))
+    scene.add(phong.Sphere(center=(0, 0, 0), radius=1))
+    scene.add(phong.Sphere(center=(0, 0, 0), radius=1))
+    first, second = (phong.render(scene, **SMALL).warnings for _ in range(2))
+    assert first == second

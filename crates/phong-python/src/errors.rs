@@ -3,7 +3,10 @@
 use phong::geometry::GeometryError;
 use phong::view::ViewError;
 use phong_scene::{Diagnostic, Severity};
-use pyo3::exceptions::{PyMemoryError, PyOSError, PyRuntimeError, PyTypeError, PyValueError};
+use pyo3::exceptions::{
+    PyFileNotFoundError, PyIsADirectoryError, PyMemoryError, PyOSError, PyPermissionError,
+    PyRuntimeError, PyTypeError, PyValueError,
+};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 
@@ -92,6 +95,17 @@ pub(crate) fn type_error(message: impl Into<String>) -> PyErr {
 /// Something that is no argument's fault.
 pub(crate) fn runtime_error(message: impl Into<String>) -> PyErr {
     PyRuntimeError::new_err(message.into())
+}
+
+/// A file that cannot be read; `what` names it.
+pub(crate) fn unreadable(what: &str, error: &std::io::Error) -> PyErr {
+    let message = format!("{what}: {}", phong_scene::trouble(error));
+    match error.kind() {
+        std::io::ErrorKind::NotFound => PyFileNotFoundError::new_err(message),
+        std::io::ErrorKind::PermissionDenied => PyPermissionError::new_err(message),
+        std::io::ErrorKind::IsADirectory => PyIsADirectoryError::new_err(message),
+        _ => PyOSError::new_err(message),
+    }
 }
 
 /// What the system says of a file.

@@ -15,7 +15,7 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyBytes, PyDict, PyList, PyTuple};
 
 use crate::arrays::frozen;
-use crate::errors::{diagnostics, os_error, value_error};
+use crate::errors::{diagnostics, os_error, unreadable, value_error};
 use crate::files::{memory, path_of};
 
 /// A picture that was rendered.
@@ -322,13 +322,8 @@ pub(crate) fn merge(py: Python<'_>, parts: &Bound<'_, PyAny>) -> PyResult<Image>
             Ok(bytes) if !item.is_instance_of::<PyList>() => bytes,
             _ => {
                 let path = phong_scene::path_of(&path_of(&item)?);
-                std::fs::read(&path).map_err(|error| {
-                    os_error(format!(
-                        "{name}: {}: {}",
-                        path.display(),
-                        phong_scene::trouble(&error)
-                    ))
-                })?
+                std::fs::read(&path)
+                    .map_err(|error| unreadable(&format!("{name}: {}", path.display()), &error))?
             }
         };
         let limit = memory();

@@ -8,15 +8,13 @@ use phong_lab::eval::{self, Value};
 use phong_lab::figures::{CATALOGUE, Finish, Setting, find};
 use phong_lab::fit::{self, FitError, Model};
 use phong_lab::{compare, grade};
-use phong_scene::{
-    Export, ExportOptions, Folder, Format, Limits, PlyEncoding, Rgb, closest, read, trouble,
-};
+use phong_scene::{Export, ExportOptions, Folder, Format, Limits, PlyEncoding, Rgb, closest, read};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyList, PyString};
 use serde_json::{Map, Value as Json, json};
 
 use crate::arrays::{Numbers, colors, frozen, neither};
-use crate::errors::{diagnostics, os_error, type_error, value_error, view_error};
+use crate::errors::{diagnostics, os_error, type_error, unreadable, value_error, view_error};
 use crate::files::{format_of, memory, path_of};
 use crate::image::Image;
 use crate::scene::Scene;
@@ -31,9 +29,8 @@ fn picture(name: &'static str, object: &Bound<'_, PyAny>) -> PyResult<Picture> {
     if object.is_instance_of::<PyString>() || object.hasattr("__fspath__")? {
         let path = phong_scene::path_of(&path_of(object)?);
         let read = py.detach(|| -> Result<Picture, PyErr> {
-            let bytes = std::fs::read(&path).map_err(|error| {
-                os_error(format!("{name}: {}: {}", path.display(), trouble(&error)))
-            })?;
+            let bytes = std::fs::read(&path)
+                .map_err(|error| unreadable(&format!("{name}: {}", path.display()), &error))?;
             let limit = memory();
             Picture::read_within(&bytes, limit)
                 .map_err(|error| value_error(format!("{name}: {}: {error}", path.display())))

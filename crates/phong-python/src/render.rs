@@ -19,7 +19,7 @@ use crate::files::memory;
 use crate::image::{Image, part_bytes};
 use crate::look::image_with;
 use crate::scene::Scene;
-use crate::state::{Ready, Snapshot, check};
+use crate::state::{Ready, Snapshot};
 use crate::work;
 
 /// A way to stop work from another thread.
@@ -204,10 +204,8 @@ fn work_on(
     let Asked { snapshot, options, image, max_bytes, mut warnings, strict, .. } = asked;
     let began = Instant::now();
     let ready = snapshot.prepare(image, max_bytes)?;
-    // Everything else that can hardly be meant is looked for once, where there is something new.
-    let found = if ready.fresh { check(&ready.scene)? } else { Vec::new() };
-    warnings.extend(ready.warnings.iter().cloned());
-    warnings.extend(found.into_iter().filter(|one| !warnings.contains(one)).collect::<Vec<_>>());
+    let found = ready.warnings.iter().filter(|one| !warnings.contains(one));
+    warnings.extend(found.cloned().collect::<Vec<_>>());
     if strict && !warnings.is_empty() {
         return Err(ViewError::Look(warnings));
     }

@@ -44,8 +44,8 @@ struct Compiled {
     geometry: Option<Arc<Geometry>>,
     /// Whether objects have changed since it was built.
     stale: bool,
-    /// The last view, and what beside the scene it was made for.
-    view: Option<(Asked, Arc<View>)>,
+    /// What the last picture was made of, and what beside the scene it was made for.
+    last: Option<(Asked, Ready)>,
 }
 
 /// The size and the background of a picture that was asked for.
@@ -69,8 +69,6 @@ pub(crate) struct Ready {
     pub(crate) view: Arc<View>,
     /// What is to be said of it.
     pub(crate) warnings: Vec<Diagnostic>,
-    /// Whether its objects were not ready before.
-    pub(crate) fresh: bool,
     /// What beside the scene it was made for.
     asked: Asked,
     version: u64,
@@ -102,7 +100,7 @@ impl State {
     /// The scene, to change what it looks like.
     pub(crate) fn look(&mut self) -> &mut Scene {
         self.version += 1;
-        self.compiled.view = None;
+        self.compiled.last = None;
         Arc::make_mut(&mut self.scene)
     }
 
@@ -210,9 +208,9 @@ impl State {
     /// Keeps what was compiled of it, unless it has changed since.
     pub(crate) fn keep(&mut self, ready: &Ready) {
         if self.version == ready.version {
-            let geometry = Arc::clone(ready.view.geometry());
-            let view = Some((ready.asked, Arc::clone(&ready.view)));
-            self.compiled = Compiled { geometry: Some(geometry), stale: false, view };
+            let geometry = Some(Arc::clone(ready.view.geometry()));
+            let last = Some((ready.asked, ready.clone()));
+            self.compiled = Compiled { geometry, stale: false, last };
         }
     }
 
@@ -234,7 +232,12 @@ impl Snapshot {
     fn framed(&self, image: Image) -> (Scene, Vec<Diagnostic>) {
         let mut scene = Scene::clone(&self.scene);
         scene.image = image;
-        let Some(framing) = &self.framing else { return (scene, Vec::new()) };
+        let Some(framing) = &self.framing else {
+            if self.automatic.lights {
+                scene.light();
+            }
+            return (scene, Vec::new());
+        };
         let image = scene.image.clone();
         if self.automatic.bare {
             let said = scene.frame(framing);
@@ -260,29 +263,22 @@ impl Snapshot {
     /// [`ViewError`].
     pub(crate) fn prepare(self, image: Image, max_bytes: Option<u64>) -> Result<Ready, ViewError> {
         let asked = (image.size, image.background);
-        let (scene, warnings) = self.framed(image);
-        let version = self.version;
-        let Compiled { geometry, stale, view } = self.compiled;
-        if let Some((known, view)) = view
+        let Compiled { geometry, stale, last } = &self.compiled;
+        if let Some((known, ready)) = last
             && (self.framing.is_none() || known.0 == asked.0)
             && known.1 == asked.1
         {
-            return Ok(Ready {
-                scene: Arc::new(scene),
-                view,
-                warnings,
-                fresh: false,
-                asked,
-                version,
-            });
+            return Ok(ready.clone());
         }
+        let (scene, mut warnings) = self.framed(image);
+        let version = self.version;
         // Points whose radius was guessed are as large as the picture needs them.
         let guessed = scene.objects.iter().any(|object| {
             matches!(&object.shape, phong_scene::Shape::Points(points) if points.guessed.is_some())
         });
-        let fresh = stale || guessed || geometry.is_none();
+        let fresh = *stale || guessed || geometry.is_none();
         let geometry = match geometry {
-            Some(geometry) if !stale && !guessed => geometry,
+            Some(geometry) if !fresh => Arc::clone(geometry),
             Some(geometry) => Arc::new(geometry.update(&scene)?),
             None => {
                 let options = GeometryOptions { max_bytes, ..GeometryOptions::of(&scene) };
@@ -290,12 +286,17 @@ impl Snapshot {
             }
         };
         let view = Arc::new(View::new(geometry, Look::new(&scene))?);
-        Ok(Ready { scene: Arc::new(scene), view, warnings, fresh, asked, version })
+        if fresh {
+            // What can hardly be meant is looked for where there is something new.
+            let found = check(&scene)?;
+            warnings.extend(found);
+        }
+        Ok(Ready { scene: Arc::new(scene), view, warnings, asked, version })
     }
 }
 
 /// What is said where a scene holds nothing to be seen.
-pub(crate) fn check(scene: &Scene) -> Result<Vec<Diagnostic>, GeometryError> {
+fn check(scene: &Scene) -> Result<Vec<Diagnostic>, GeometryError> {
     let said = scene.check();
     if said.iter().any(Diagnostic::is_error) {
         return Err(GeometryError::Scene(said));

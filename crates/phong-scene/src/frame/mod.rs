@@ -172,6 +172,11 @@ impl Scene {
         said
     }
 
+    /// Lights it as a bare model is lit, from behind its own camera: replaces its lights.
+    pub fn light(&mut self) {
+        self.lights = lights(&self.camera);
+    }
+
     /// A warning about the file that the model is from.
     fn word(&self, message: &str, help: &str) -> Diagnostic {
         let place = self.objects.first().map(|object| object.place.clone());
