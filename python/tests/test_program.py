@@ -127,3 +127,16 @@ def test_importing_is_quick() -> None:
         float(subprocess.check_output([sys.executable, "-c", code], text=True)) for _ in range(3)
     ]
     assert min(runs) < 0.1
+
+
+def test_every_process_writes_the_same_bytes(tmp_path: Path) -> None:
+    code = (
+        "import sys, phong; image = phong.render(sys.argv[1], size=(20, 10), samples=1, "
+        "layers=('depth', 'diffuse', 'normal')); image.save(sys.argv[2])"
+    )
+    written = set()
+    for run in range(4):
+        path = tmp_path / f"{run}.exr"
+        subprocess.run([sys.executable, "-c", code, str(SCENE), str(path)], check=True)
+        written.add(path.read_bytes())
+    assert len(written) == 1

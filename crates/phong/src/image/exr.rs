@@ -1,5 +1,6 @@
 //! OpenEXR: every layer of a film as floats, in one part, ZIP-compressed by 16 rows.
 
+use std::collections::HashMap;
 use std::io::{Cursor, Seek, Write};
 
 use exr::block::lines::LineRefMut;
@@ -88,9 +89,8 @@ pub(super) fn write(
     let [software, scene] = picture.origin().map(|said| said.map(|(_, text)| text));
     let software_name = software.map(Text::new_or_panic);
     let mut attributes = LayerAttributes { software_name, ..LayerAttributes::default() };
-    let text = |text: String| AttributeValue::Text(Text::new_or_panic(text));
-    let own = scene.map(|sum| ("scene", sum)).into_iter().chain(sampled(film));
-    attributes.other.extend(own.map(|(name, said)| (Text::new_or_panic(name), text(said))));
+    let own: Vec<_> = sampled(film).chain(scene.map(|sum| ("scene", sum))).collect();
+    attributes.other = in_order(&own);
     let layer = Layer::new(
         (width, film.height() as usize),
         attributes,
@@ -106,6 +106,22 @@ pub(super) fn write(
         exr::error::Error::Io(error) => WriteError::Io(error),
         other => WriteError::Unsuitable(format!("OpenEXR: {other}")),
     })
+}
+
+/// Attributes as the crate takes them. It writes them in the order of its hash map, which is another
+/// one for each map: one is taken that has the names in order, so that the same picture has the same
+/// bytes.
+fn in_order(attributes: &[(&str, String)]) -> HashMap<Text, AttributeValue> {
+    loop {
+        let pairs = attributes.iter().map(|(name, said)| {
+            let said = AttributeValue::Text(Text::new_or_panic(said.as_str()));
+            (Text::new_or_panic(*name), said)
+        });
+        let map: HashMap<_, _> = pairs.collect();
+        if map.keys().map(Text::to_string).is_sorted() {
+            return map;
+        }
+    }
 }
 
 /// Which layers are the mean of a pixel's samples, and which are of the ray through its centre alone:
