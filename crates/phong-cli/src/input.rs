@@ -117,11 +117,9 @@ pub(crate) fn format(args: &InputArgs) -> Option<Format> {
     // A pipe is read once.
     let is_file = allowed(&path_of(&args.input)).is_ok_and(|path| path.is_file());
     let files = Files { input: args.input.clone(), ..Files::default() };
-    let of_input = || match is_file {
-        true => Format::of_file(&args.input, &files),
-        false => Format::of_path(&args.input),
-    };
-    args.format.or_else(of_input)
+    args.format.or_else(|| {
+        if is_file { Format::of_file(&args.input, &files) } else { Format::of_path(&args.input) }
+    })
 }
 
 /// A file that cannot be read, with the way out.
