@@ -203,7 +203,7 @@ def test_points_far_away_keep_their_detail() -> None:
     near, far = phong.Scene(), phong.Scene()
     centers = np.random.default_rng(3).random((50, 3))
     near.add_spheres(np.float32(centers), 0.05)
-    far.add_spheres(np.float32(centers).astype(float) + (2**22, 0, 0), 0.05)
+    far.add_spheres(np.float32(centers).astype(float) + np.array((2**22, 0, 0)), 0.05)
     for scene in (near, far):
         scene.frame("front")
     options: dict[str, Any] = {"size": (64, 64), "samples": 1}

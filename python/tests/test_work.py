@@ -76,9 +76,12 @@ def test_ctrl_c_stops_a_picture_in_a_fifth_of_a_second() -> None:
 
 def test_other_threads_run_meanwhile() -> None:
     scene, token, ticks = cloud(), phong.Cancel(), 0
-    thread = threading.Thread(
-        target=lambda: pytest.raises(phong.Cancelled, phong.render, scene, cancel=token, **LONG)
-    )
+
+    def work() -> None:
+        with pytest.raises(phong.Cancelled):
+            phong.render(scene, cancel=token, **LONG)
+
+    thread = threading.Thread(target=work)
     thread.start()
     until = time.monotonic() + 0.3
     while time.monotonic() < until:

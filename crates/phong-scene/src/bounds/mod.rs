@@ -1,5 +1,7 @@
 //! Boxes along the axes that hold geometry, in f64.
 
+#![expect(clippy::needless_bitwise_bool, reason = "a branch for each number would cost more")]
+
 mod reach;
 
 use glam::{DAffine3, DVec3, Vec3};

@@ -1,5 +1,7 @@
 //! Vertices: which property is what, and how rows become positions or spheres.
 
+#![expect(clippy::needless_bitwise_bool, reason = "a branch for each number would cost more")]
+
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
