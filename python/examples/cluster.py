@@ -41,7 +41,10 @@ def main() -> None:
         frames = (scene(float(turn)) for turn in turns)
         phong.dask.render_frames(frames, client, "frames/ring-{:03}.png", size=(320, 180))
 
-        parameters = {"camera.fov": [25, 40, 60], "light.1.color": [0.5, 1.0]}
+        parameters: dict[str, list[float]] = {
+            "camera.fov": [25, 40, 60],
+            "light.1.color": [0.5, 1.0],
+        }
         for number, one in enumerate(
             phong.dask.sweep(scene(), parameters, client, size=(320, 180), samples=4)
         ):

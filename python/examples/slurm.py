@@ -12,8 +12,9 @@ from __future__ import annotations
 
 import argparse
 import shutil
+from typing import Any
 
-from dask_jobqueue import SLURMCluster
+from dask_jobqueue.slurm import SLURMCluster
 from distributed import Client
 
 import phong.dask
@@ -30,6 +31,7 @@ def main() -> None:
     parser.add_argument("--store", default="shares")
     parser.add_argument("--script", action="store_true")
     asked = parser.parse_args()
+    cluster: Any
     with SLURMCluster(cores=8, processes=1, memory="16GB", walltime="01:00:00") as cluster:
         if asked.script or shutil.which("sbatch") is None:
             print(cluster.job_script())

@@ -7,10 +7,10 @@ import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import CancelledError
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 if TYPE_CHECKING:
-    from distributed import Client, Future
+    from distributed import Future
 
 Name = TypeVar("Name")
 
@@ -32,7 +32,7 @@ class Task(Generic[Name]):
     #: What messages call it.
     title: str
     #: Gives it to the scheduler, under a new key each time.
-    submit: Callable[[], Future]
+    submit: Callable[[], Future[Any]]
 
 
 @dataclass
@@ -40,14 +40,14 @@ class _Submitted(Generic[Name]):
     """A task that the scheduler knows."""
 
     task: Task[Name]
-    future: Future
+    future: Future[Any]
     tried: int
     #: How many tasks were done when it was submitted.
     done_before: int
 
 
 def run_tasks(
-    client: Client, tasks: Iterator[Task[Name]], *, timeout: float | None
+    client: Any, tasks: Iterator[Task[Name]], *, timeout: float | None
 ) -> Iterator[tuple[Name, bytes]]:
     """What comes of each task, as it comes.
 
@@ -57,8 +57,8 @@ def run_tasks(
 
     Raises ClusterError, or what the task raised.
     """
-    heard: queue.SimpleQueue[Future] = queue.SimpleQueue()
-    under_way: dict[str, _Submitted[Name]] = {}
+    heard: queue.SimpleQueue[Future[Any]] = queue.SimpleQueue()
+    under_way: dict[object, _Submitted[Name]] = {}
     watch = _Watch(client, timeout)
     done = 0
 
@@ -124,7 +124,7 @@ def _result(known: _Submitted[Name], done: int, timeout: float | None) -> bytes 
 class _Watch:
     """Looks at the cluster where nothing is heard of it, and says when there is no hope."""
 
-    def __init__(self, client: Client, timeout: float | None) -> None:
+    def __init__(self, client: Any, timeout: float | None) -> None:
         self.client = client
         self.timeout = timeout
         #: How many tasks are submitted at once.

@@ -77,6 +77,10 @@ class Viewer:
         self._thread: threading.Thread | None = None
         self._cancel = phong.Cancel()
         self._divisor = 8
+        # The orbit: angles, distance and middle, as `_orbit_of` finds them.
+        self._yaw = self._pitch = 0.0
+        self._distance = self._first_distance = 1.0
+        self._target: Vector = np.zeros(3)
         self._orbit_of(self._home)
 
     # What is asked.
@@ -203,8 +207,8 @@ class Viewer:
     def _away(self) -> Vector:
         """From the target to the eye, unit."""
         level = self._front * math.cos(self._yaw) + self._side * math.sin(self._yaw)
-        away: Vector = level * math.cos(self._pitch) + self._pole * math.sin(self._pitch)
-        return away
+        away = level * math.cos(self._pitch) + self._pole * math.sin(self._pitch)
+        return np.asarray(away, dtype=np.float64)
 
     def _axes(self) -> tuple[Vector, Vector]:
         """Right and up in the picture."""

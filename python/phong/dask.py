@@ -35,7 +35,7 @@ from ._progress import Listener
 from ._store import Store, digest_of, write_whole
 
 if TYPE_CHECKING:
-    from distributed import Client, Future
+    from distributed import Client
 
 __all__ = ["ClusterError", "Variation", "render", "render_frames", "sweep"]
 
@@ -82,22 +82,22 @@ def render(
 
     Raises ClusterError where the cluster cannot do it, and what ``phong.render`` raises.
     """
-    client = _client(client)
+    on = _client(client)
     scene = _read(scene)
     digest = scene.digest()
     threads = options.pop("threads", None)
     asked = digest_of(digest, _text(options), _ARITHMETIC)
     kept = Store(store) if store is not None else None
     there = kept.read(asked) if kept is not None else {}
-    count = _count(shares, there, client)
+    count = _count(shares, there, on)
     parts = {index: part for (index, of), part in there.items() if of == count}
     kind = f"phong-share-{uuid.uuid4().hex[:12]}"
     tries = itertools.count()
 
     def task(index: int) -> Task[int]:
-        def submit() -> Future:
-            return client.submit(
-                _share, _sent(scene, digest, client), index, count, threads, options,
+        def submit() -> Any:
+            return on.submit(
+                _share, _sent(scene, digest, on), index, count, threads, options,
                 key=f"{kind}-{index}-{next(tries)}", pure=False,
             )  # fmt: skip
 
@@ -106,7 +106,7 @@ def render(
     with Listener(progress) as listener:
         _tell(listener, len(parts), count)
         left = (task(index) for index in range(count) if index not in parts)
-        for index, part in run_tasks(client, left, timeout=timeout):
+        for index, part in run_tasks(on, left, timeout=timeout):
             parts[index] = part
             if kept is not None:
                 kept.write(asked, index, count, part)
@@ -138,7 +138,7 @@ def render_frames(
     Returns the files, in order. Raises ClusterError, ValueError where ``out`` names all frames
     alike, and what ``phong.render`` and ``Image.save`` raise.
     """
-    client = _client(client)
+    on = _client(client)
     pattern = os.fspath(out)
     if pattern.format(0) == pattern.format(1):
         raise ValueError(f"out is {pattern!r}; wanted is a name with {{}} for the frame's number")
@@ -159,9 +159,9 @@ def render_frames(
 
             def submit(
                 packed: bytes = packed, number: int = number, suffix: str = path.suffix
-            ) -> Future:
+            ) -> Any:
                 with _large():
-                    return client.submit(
+                    return on.submit(
                         _file, packed, suffix, bits, exposure, threads, options,
                         key=f"{kind}-{number}-{next(tries)}", pure=False,
                     )  # fmt: skip
@@ -169,7 +169,7 @@ def render_frames(
             yield Task(number, f"frame {number}", submit)
 
     with Listener(progress) as listener:
-        for done, (number, content) in enumerate(run_tasks(client, tasks(), timeout=timeout), 1):
+        for done, (number, content) in enumerate(run_tasks(on, tasks(), timeout=timeout), 1):
             write_whole(files[number], content)
             _tell(listener, done, total or len(files))
     return files
@@ -196,7 +196,7 @@ def sweep(
     Returns the variations, in order. Raises ClusterError, KeyError for a path that is not
     there, and what ``phong.render`` raises.
     """
-    client = _client(client)
+    on = _client(client)
     scene = _read(scene)
     threads = options.pop("threads", None)
     chosen = list(_combinations(parameters))
@@ -221,16 +221,16 @@ def sweep(
 
             def submit(
                 number: int = number, paths: dict[str, Any] = paths, own: dict[str, Any] = own
-            ) -> Future:
-                return client.submit(
-                    _variation, _sent(scene, base, client), paths, threads, {**options, **own},
+            ) -> Any:
+                return on.submit(
+                    _variation, _sent(scene, base, on), paths, threads, {**options, **own},
                     key=f"{kind}-{number}-{next(tries)}", pure=False,
                 )  # fmt: skip
 
             yield Task(number, f"variation {number} ({chosen[number]})", submit)
 
     with Listener(progress) as listener:
-        for number, part in run_tasks(client, tasks(), timeout=timeout):
+        for number, part in run_tasks(on, tasks(), timeout=timeout):
             images[number] = phong.merge([part])
             if kept is not None:
                 kept.write(names[number], 0, 1, part)
@@ -284,10 +284,10 @@ def _threads(threads: int | None) -> int:
 
 # Scenes on the cluster.
 
-_scenes: weakref.WeakKeyDictionary[Client, OrderedDict[str, Future]] = weakref.WeakKeyDictionary()
+_scenes: weakref.WeakKeyDictionary[Any, OrderedDict[str, Any]] = weakref.WeakKeyDictionary()
 
 
-def _sent(scene: phong.Scene, digest: str, client: Client) -> Future:
+def _sent(scene: phong.Scene, digest: str, client: Any) -> Any:
     """The scene on the cluster, sent unless it is there.
 
     It is a task that unpacks what the scheduler holds, so that it is made again where the workers
@@ -310,15 +310,15 @@ def _sent(scene: phong.Scene, digest: str, client: Client) -> Future:
 
 def _large() -> Any:
     """Dask warns of large arguments; here they are meant, and sent once."""
-    import dask
+    from dask import config
 
-    return dask.config.set({"distributed.admin.large-graph-warning-threshold": "1 TB"})
+    return config.set({"distributed.admin.large-graph-warning-threshold": "1 TB"})
 
 
 # What was asked for.
 
 
-def _client(client: Client | None) -> Client:
+def _client(client: Client | None) -> Any:
     try:
         import distributed
     except ModuleNotFoundError as error:
@@ -344,7 +344,7 @@ def _text(options: Mapping[str, Any]) -> str:
     return json.dumps(options, default=repr, sort_keys=True)
 
 
-def _count(shares: int | None, there: Mapping[tuple[int, int], bytes], client: Client) -> int:
+def _count(shares: int | None, there: Mapping[tuple[int, int], bytes], client: Any) -> int:
     if shares is not None:
         if shares < 1:
             raise ValueError(f"shares is {shares}; wanted is a whole number above 0")
@@ -352,7 +352,7 @@ def _count(shares: int | None, there: Mapping[tuple[int, int], bytes], client: C
     begun = [of for _, of in there]
     if begun:
         return max(set(begun), key=lambda of: (begun.count(of) / of, of))
-    threads = sum(client.nthreads().values())
+    threads: int = sum(client.nthreads().values())
     return max(1, SHARES_A_THREAD * threads)
 
 
@@ -363,12 +363,14 @@ def _tell(listener: Listener, done: int, total: int) -> None:
 
 def _combinations(
     parameters: Mapping[str, Sequence[Any]] | Iterable[Mapping[str, Any]],
-) -> Iterator[Mapping[str, Any]]:
-    if not isinstance(parameters, Mapping):
-        yield from parameters
-        return
-    for values in itertools.product(*parameters.values()):
-        yield dict(zip(parameters, values, strict=True))
+) -> Iterator[dict[str, Any]]:
+    if isinstance(parameters, Mapping):
+        names = [str(name) for name in parameters]
+        for values in itertools.product(*parameters.values()):
+            yield dict(zip(names, values, strict=True))
+    else:
+        for one in parameters:
+            yield dict(one)
 
 
 def _split(scene: phong.Scene, chosen: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:

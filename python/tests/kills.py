@@ -31,7 +31,7 @@ SIZE = (160, 90)
 SHARES = 10
 
 
-class Diary(WorkerPlugin):  # type: ignore[misc]
+class Diary(WorkerPlugin):
     """Writes down which process begins and ends which task."""
 
     name = "diary"
@@ -109,6 +109,8 @@ def run(count: int, seed: int = 1, samples: int = 100, tell: bool = False) -> Ta
     chance = random.Random(seed)
     tally = Tally()
     drawn = scene()
+    cluster: Any
+    client: Any
     wanted = np.asarray(phong.render(drawn, size=SIZE, samples=samples, progress=False))
     with (
         tempfile.TemporaryDirectory() as folder,

@@ -10,7 +10,7 @@ import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pytest
@@ -18,19 +18,16 @@ from drawing import need
 
 import phong
 
-if TYPE_CHECKING:
-    from distributed import Client, LocalCluster
-
 # Dask leaves sockets to the collector, and warns of ports that are taken.
 pytestmark = pytest.mark.filterwarnings("default")
 
 SCENES = Path(__file__).resolve().parents[2] / "scenes"
 THREE = ["two-balls.toml", "glass.toml", "solids.toml"]
-SMALL = {"size": (96, 54), "samples": 4, "progress": False}
+SMALL: dict[str, Any] = {"size": (96, 54), "samples": 4, "progress": False}
 
 
 @pytest.fixture(scope="module")
-def cluster() -> Iterator[LocalCluster]:
+def cluster() -> Iterator[Any]:
     need("distributed")
     from distributed import LocalCluster
 
@@ -39,7 +36,7 @@ def cluster() -> Iterator[LocalCluster]:
 
 
 @pytest.fixture
-def client(cluster: LocalCluster) -> Iterator[Client]:
+def client(cluster: Any) -> Iterator[Any]:
     from distributed import Client
 
     with Client(cluster) as client:
@@ -57,7 +54,7 @@ def balls(count: int = 40) -> phong.Scene:
 
 
 @pytest.mark.parametrize("name", THREE)
-def test_the_picture_has_the_bits_of_one_machine(name: str, client: Client) -> None:
+def test_the_picture_has_the_bits_of_one_machine(name: str, client: Any) -> None:
     path = SCENES / name
     alone = phong.render(path, layers=("depth", "diffuse"), **SMALL)
     shared = phong.dask.render(path, client, shares=7, layers=("depth", "diffuse"), **SMALL)
@@ -67,7 +64,7 @@ def test_the_picture_has_the_bits_of_one_machine(name: str, client: Client) -> N
         assert np.array_equal(alone.layers[layer], shared.layers[layer])
 
 
-def test_a_scene_of_arrays_is_sent_once_and_its_changes_are_seen(client: Client) -> None:
+def test_a_scene_of_arrays_is_sent_once_and_its_changes_are_seen(client: Any) -> None:
     scene = balls()
     first = phong.dask.render(scene, client, **SMALL)
     from phong.dask import _scenes
@@ -85,14 +82,14 @@ def test_a_scene_of_arrays_is_sent_once_and_its_changes_are_seen(client: Client)
     assert len(_scenes[client]) == phong.dask.SCENES_KEPT
 
 
-def test_progress_is_told_for_each_share(client: Client) -> None:
+def test_progress_is_told_for_each_share(client: Any) -> None:
     told: list[float] = []
     options: dict[str, Any] = {**SMALL, "progress": told.append}
     phong.dask.render(balls(), client, shares=5, **options)
     assert told == [done / 5 for done in range(6)]
 
 
-def test_what_is_wrong_is_raised_here(client: Client) -> None:
+def test_what_is_wrong_is_raised_here(client: Any) -> None:
     with pytest.raises(ValueError, match="samples"):
         phong.dask.render(balls(), client, size=(32, 32), samples=-1)
     with pytest.raises(phong.SceneError):
@@ -103,7 +100,7 @@ def test_what_is_wrong_is_raised_here(client: Client) -> None:
         phong.dask.render(balls(), "tcp://127.0.0.1:8786")  # type: ignore[arg-type]
 
 
-def test_frames_of_a_film_are_written_in_order(client: Client, tmp_path: Path) -> None:
+def test_frames_of_a_film_are_written_in_order(client: Any, tmp_path: Path) -> None:
     def film() -> Iterator[phong.Scene]:
         for step in range(6):
             scene = balls()
@@ -126,7 +123,7 @@ def test_frames_of_a_film_are_written_in_order(client: Client, tmp_path: Path) -
         phong.dask.render_frames(film(), client, tmp_path / "same.png")
 
 
-def test_a_sweep_draws_every_combination(client: Client, tmp_path: Path) -> None:
+def test_a_sweep_draws_every_combination(client: Any, tmp_path: Path) -> None:
     parameters = {"camera.fov": [20, 60], "samples": [1, 4]}
     options: dict[str, Any] = {"size": (64, 36), "progress": False}
     found = phong.dask.sweep(balls(), parameters, client, store=tmp_path, **options)
@@ -147,7 +144,7 @@ def test_a_sweep_draws_every_combination(client: Client, tmp_path: Path) -> None
         phong.dask.sweep(balls(), [{"light.7.color": 1}], client)
 
 
-def test_ctrl_c_cancels_what_is_under_way(client: Client) -> None:
+def test_ctrl_c_cancels_what_is_under_way(client: Any) -> None:
     def stop(done: float) -> None:
         if done >= 0.05:
             raise KeyboardInterrupt
@@ -156,24 +153,23 @@ def test_ctrl_c_cancels_what_is_under_way(client: Client) -> None:
     with pytest.raises(KeyboardInterrupt):
         phong.dask.render(balls(), client, shares=40, **options)
     until = time.monotonic() + 10
-    while time.monotonic() < until:
+    left = [""]
+    while left and time.monotonic() < until:
         left = [
-            k
+            str(k)
             for keys in client.processing().values()
             for k in keys
             if str(k).startswith("phong-share")
         ]
-        if not left:
-            break
         time.sleep(0.05)
     assert not left
 
 
-def test_no_worker_for_the_task_is_an_error_and_no_hang(client: Client) -> None:
-    import dask
+def test_no_worker_for_the_task_is_an_error_and_no_hang(client: Any) -> None:
+    from dask.base import annotate
 
     with (
-        dask.annotate(resources={"GPU": 1}),
+        annotate(resources={"GPU": 1}),
         pytest.raises(phong.dask.ClusterError, match="resources"),
     ):
         phong.dask.render(balls(), client, timeout=3.0, **SMALL)
@@ -293,7 +289,7 @@ def test_after_the_scheduler_died_another_call_goes_on_from_the_store(
     assert np.array_equal(np.asarray(image), np.asarray(phong.render(scene, **options)))
 
 
-def test_a_damaged_file_of_the_store_is_rendered_again(client: Client, tmp_path: Path) -> None:
+def test_a_damaged_file_of_the_store_is_rendered_again(client: Any, tmp_path: Path) -> None:
     first = phong.dask.render(balls(), client, shares=3, store=tmp_path, **SMALL)
     for file in tmp_path.iterdir():
         content = bytearray(file.read_bytes())
@@ -301,26 +297,3 @@ def test_a_damaged_file_of_the_store_is_rendered_again(client: Client, tmp_path:
         file.write_bytes(content)
     again = phong.dask.render(balls(), client, store=tmp_path, shares=3, **SMALL)
     assert np.array_equal(np.asarray(first), np.asarray(again))
-
-
-def test_workers_of_two_vector_levels_make_one_picture(
-    processes: Processes, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """One worker runs on a processor without AVX, which qemu stands for."""
-    import shutil
-
-    qemu = shutil.which("qemu-x86_64")
-    if qemu is None:
-        pytest.skip("qemu-x86_64 is missing: two vector levels on one cluster were NOT tested")
-    from distributed import Client
-
-    processes.scheduler()
-    processes.worker()
-    processes.worker(qemu, "-cpu", "Nehalem")
-    path, told = SCENES / "two-balls.toml", set[str]()
-    with Client(processes.address, timeout=120) as client:
-        client.wait_for_workers(2, timeout=300)
-        image = phong.dask.render(path, client, shares=16, **SMALL)
-        told = {str(w) for w in client.who_has()}
-    assert np.array_equal(np.asarray(image), np.asarray(phong.render(path, **SMALL)))
-    assert told is not None

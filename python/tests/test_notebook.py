@@ -96,7 +96,7 @@ def lab(tmp_path: Path) -> Iterator[str]:
     """A JupyterLab with a notebook of two cells; the address of the notebook."""
     if find_spec("jupyterlab") is None or find_spec("anywidget") is None:
         missing("jupyterlab or anywidget")
-    cells = [
+    cells: list[dict[str, object]] = [
         {
             "cell_type": "code",
             "execution_count": None,

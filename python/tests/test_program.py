@@ -42,7 +42,7 @@ def test_shares_of_both_go_together(tmp_path: Path) -> None:
         *("render", SCENE, "--size", "60x40", "--samples", 2, "--tile", "0/2"),
         *("-o", tmp_path / "0.part", "--quiet"),
     )
-    parts = [tmp_path / "0.part", phong.render_part(SCENE, 1, 2, **SMALL)]
+    parts: list[bytes | Path] = [tmp_path / "0.part", phong.render_part(SCENE, 1, 2, **SMALL)]
     assert np.array_equal(phong.merge(parts), phong.render(SCENE, **SMALL))
 
 

@@ -11,6 +11,7 @@ import phong
 from ._atoms import AtomColors, Radii, add_bonds, add_cell, colors_of, per_atom, radii_of
 from ._colors import decode
 from ._need import need, wrong_type
+from ._view import View
 
 if TYPE_CHECKING:
     from ase import Atoms
@@ -25,7 +26,7 @@ def from_ase(
     bonds: float | None = None,
     cell: bool = True,
     material: phong.Material | None = None,
-    view: str = "iso",
+    view: View = "iso",
     up: str = "z",
 ) -> phong.Scene:
     """A framed Scene of an ``ase.Atoms``; lengths stay in its unit, ångström.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
@@ -12,6 +12,7 @@ import phong
 from ._atoms import AtomColors, Radii, add_bonds, add_cell, colors_of, per_atom, radii_of
 from ._colors import warn
 from ._need import need, wrong_type
+from ._view import View
 
 if TYPE_CHECKING:
     from MDAnalysis import AtomGroup, Universe
@@ -36,7 +37,7 @@ def from_mdanalysis(
     bonds: float | None = None,
     cell: bool = False,
     material: phong.Material | None = None,
-    view: str = "iso",
+    view: View = "iso",
     up: str = "z",
 ) -> phong.Scene:
     """A framed Scene of a ``Universe`` or an ``AtomGroup``; lengths stay in ångström.
@@ -57,7 +58,7 @@ def from_mdanalysis(
     package = need("MDAnalysis", package="MDAnalysis", caller=caller)
     if not isinstance(atoms, package.Universe | package.AtomGroup):
         raise wrong_type(caller, "atoms", "MDAnalysis.Universe or AtomGroup", atoms)
-    group = atoms.atoms
+    group: Any = atoms.atoms
     if len(group) == 0:
         raise ValueError(f"{caller}: atoms has no atom")
     trajectory = getattr(group.universe, "trajectory", None)
@@ -113,7 +114,7 @@ def from_mdanalysis(
     return scene
 
 
-def _elements(group: AtomGroup) -> Sequence[str]:
+def _elements(group: Any) -> Sequence[str]:
     """Symbols of the elements, guessed where the topology has none."""
     symbols = [str(e) for e in group.elements] if hasattr(group, "elements") else [""] * len(group)
     if all(symbols):

@@ -11,6 +11,7 @@ import phong
 
 from ._colors import warn
 from ._need import need, wrong_type
+from ._view import View
 from .matplotlib import from_matplotlib_colormap
 
 if TYPE_CHECKING:
@@ -21,7 +22,7 @@ _CALLER = "from_meshio"
 Ints = npt.NDArray[np.int64]
 
 # The faces of the solid cells by the numbers of their corners, counter-clockwise from outside.
-_SOLIDS: Final = {
+_SOLIDS: Final[dict[str, list[tuple[int, ...]]]] = {
     "tetra": [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)],
     "pyramid": [(0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)],
     "wedge": [(0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)],
@@ -47,7 +48,7 @@ def from_meshio(
     color: npt.ArrayLike | str | None = None,
     radius: float | None = None,
     material: phong.Material | None = None,
-    view: str = "iso",
+    view: View = "iso",
     up: str = "z",
 ) -> phong.Scene:
     """A framed Scene of a ``meshio.Mesh``: faces, the outside of solid cells, lines, vertices.
@@ -75,7 +76,8 @@ def from_meshio(
     at_points, colors = True, None
     if scalars is not None:
         values, at_points = _array(mesh, scalars)
-        colors = from_matplotlib_colormap(cmap, values, *(clim or (None, None)), nan=nan)
+        low, high = clim or (None, None)
+        colors = from_matplotlib_colormap(cmap, values, low, high, nan)
     span = float(np.linalg.norm(np.ptp(points, axis=0))) if len(points) else 0.0
     size = (0.003 * span or 1.0) if radius is None else radius
     scene = phong.Scene()

@@ -12,6 +12,7 @@ import phong
 from ._atoms import add_bonds, add_cell
 from ._colors import decode, warn
 from ._need import need, wrong_type
+from ._view import View
 
 if TYPE_CHECKING:
     from ovito.data import DataCollection
@@ -30,7 +31,7 @@ def from_ovito(
     bonds: bool = True,
     cell: bool = True,
     material: phong.Material | None = None,
-    view: str = "iso",
+    view: View = "iso",
     up: str = "z",
 ) -> phong.Scene:
     """A framed Scene of an OVITO ``DataCollection``, or of what a ``Pipeline`` computes at a frame.
@@ -46,14 +47,16 @@ def from_ovito(
     """
     package = need("ovito.data", package="ovito", caller=_CALLER)
     pipelines = need("ovito.pipeline", package="ovito", caller=_CALLER)
-    if isinstance(source, pipelines.Pipeline):
-        collection = source.compute() if frame is None else source.compute(frame)
-    elif not isinstance(source, package.DataCollection):
+    given: Any = source
+    collection: Any
+    if isinstance(given, pipelines.Pipeline):
+        collection = given.compute() if frame is None else given.compute(frame)
+    elif not isinstance(given, package.DataCollection):
         raise wrong_type(_CALLER, "source", "ovito DataCollection or Pipeline", source)
     elif frame is not None:
         raise ValueError(f"{_CALLER}: frame is {frame}, but a DataCollection is of one frame")
     else:
-        collection = source
+        collection = given
     particles = collection.particles
     if particles is None or particles.count == 0:
         raise ValueError(f"{_CALLER}: there are no particles")

@@ -11,6 +11,7 @@ import phong
 
 from ._colors import opaque_bytes, warn
 from ._need import need, wrong_type
+from ._view import View
 from .matplotlib import from_matplotlib_colormap
 
 if TYPE_CHECKING:
@@ -30,7 +31,7 @@ def from_pyvista(
     radius: float | None = None,
     smooth: bool = True,
     material: phong.Material | None = None,
-    view: str = "iso",
+    view: View = "iso",
     up: str = "z",
 ) -> phong.Scene:
     """A framed Scene of a ``PolyData``, of the surface of any other data set, or of all blocks.
@@ -84,8 +85,10 @@ def from_pyvista(
             if values.ndim == 2 and values.shape[1] in (3, 4) and values.dtype == np.uint8:
                 return opaque_bytes(values, caller=_CALLER)
             if values.ndim == 2:
-                values = np.linalg.norm(values, axis=1)
-            return from_matplotlib_colormap(cmap, values, *(clim or (None, None)), nan=nan)
+                lengths: npt.NDArray[Any] = np.linalg.norm(values, axis=1)
+                values = lengths
+            low, high = clim or (None, None)
+            return from_matplotlib_colormap(cmap, np.asarray(values), low, high, nan)
 
         count += _add(scene, surface, scalars, color, paint, size or 1.0, smooth, material)
     if count == 0:

@@ -10,6 +10,7 @@ import phong
 
 from ._colors import decode, opaque_bytes, warn
 from ._need import need, wrong_type
+from ._view import View
 
 if TYPE_CHECKING:
     import trimesh
@@ -22,7 +23,7 @@ def from_trimesh(
     *,
     radius: float | None = None,
     material: phong.Material | None = None,
-    view: str = "iso",
+    view: View = "iso",
     up: str = "y",
 ) -> phong.Scene:
     """A framed Scene of a ``Trimesh``, a ``PointCloud`` or a ``trimesh.Scene``.
@@ -46,7 +47,7 @@ def from_trimesh(
 
 
 def _add_graph(
-    scene: phong.Scene, graph: trimesh.Scene, radius: float | None, material: phong.Material | None
+    scene: phong.Scene, graph: Any, radius: float | None, material: phong.Material | None
 ) -> None:
     """Each geometry once; a second place of it is an instance."""
     places: dict[str, list[Any]] = {}
@@ -92,6 +93,7 @@ def _add(
         raise ValueError(f"{_CALLER}: the mesh has no face")
     vertices, faces = np.asarray(geometry.vertices), np.asarray(geometry.faces)
     visual = geometry.visual
+    painted: Any = None
     if visual.kind == "vertex":
         colors = opaque_bytes(visual.vertex_colors, caller=_CALLER)
         return scene.add_mesh(vertices, faces, colors=colors, material=material)
@@ -100,12 +102,11 @@ def _add(
         colors = np.repeat(opaque_bytes(visual.face_colors, caller=_CALLER), 3, axis=0)
         own = np.arange(3 * len(faces)).reshape(-1, 3)
         return scene.add_mesh(vertices[faces].reshape(-1, 3), own, colors=colors, material=material)
-    colors = None
     if visual.kind == "texture":
         if getattr(visual.material, "baseColorTexture", None) or getattr(
             visual.material, "image", None
         ):
             warn(_CALLER, "a texture is left out; the mesh has its material's one colour")
         main = np.asarray(visual.material.main_color, dtype=np.float64)[:3] / 255.0
-        colors = np.broadcast_to(decode(main), (len(vertices), 3))
-    return scene.add_mesh(vertices, faces, colors=colors, material=material)
+        painted = np.broadcast_to(decode(main), (len(vertices), 3))
+    return scene.add_mesh(vertices, faces, colors=painted, material=material)
