@@ -49,7 +49,9 @@ raw!([[f32; 4]; 2], f32, 8,
 /// An array as bytes.
 pub(crate) fn to_bytes<T: Raw>(values: &[T]) -> Vec<u8> {
     let mut bytes = Vec::with_capacity(values.len() * T::BYTES);
-    values.iter().for_each(|value| value.put(&mut bytes));
+    for value in values {
+        value.put(&mut bytes);
+    }
     bytes
 }
 

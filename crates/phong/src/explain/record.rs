@@ -147,16 +147,15 @@ impl Witness for Recorder<'_> {
             }
             _ => Terms::default(),
         };
-        let from = match written.kind.direction() {
-            Some(direction) => LightFrom::Direction(direction),
-            None => {
-                let soft = written.kind.extent() > 0.0;
-                let sampled = light
-                    .sample
-                    .filter(|_| soft)
-                    .map(|sample| at.p + f64::from(sample.distance) * sample.l.to_vec().as_dvec3());
-                LightFrom::Point(sampled.or(written.kind.position()).unwrap_or(at.p))
-            }
+        let from = if let Some(direction) = written.kind.direction() {
+            LightFrom::Direction(direction)
+        } else {
+            let soft = written.kind.extent() > 0.0;
+            let sampled = light
+                .sample
+                .filter(|_| soft)
+                .map(|sample| at.p + f64::from(sample.distance) * sample.l.to_vec().as_dvec3());
+            LightFrom::Point(sampled.or(written.kind.position()).unwrap_or(at.p))
         };
         let lit = Lit {
             name: written.name.clone(),

@@ -113,6 +113,7 @@ impl SmoothMesh<'_> {
             lift = select3(agrees, sub(lift, scale(weight * below, n)), lift);
         }
         // Beyond the range of f32 there is nothing to lift.
+        #[expect(clippy::eq_op, reason = "what is not finite is no 0 less itself")]
         let finite = (lift[0] - lift[0]).simd_eq(zero)
             & (lift[1] - lift[1]).simd_eq(zero)
             & (lift[2] - lift[2]).simd_eq(zero);

@@ -1,5 +1,7 @@
 //! PNG: what is looked at.
 
+#![expect(clippy::needless_bitwise_bool, reason = "a branch for each value would cost more")]
+
 use std::borrow::Cow;
 use std::io::{Cursor, Write};
 
