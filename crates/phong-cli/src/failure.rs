@@ -23,8 +23,8 @@ pub(crate) enum Failure {
     Told,
     /// Something else went wrong. Exit code 3.
     System(String),
-    /// The user interrupted the work. Exit code 130.
-    Interrupted,
+    /// A signal interrupted the work, such as 2, Ctrl-C. Exit code 128 and its number.
+    Interrupted(u8),
     /// Whoever read standard output has had enough. Nothing to say; exit code 0.
     ReaderGone,
 }
@@ -87,7 +87,7 @@ impl Failure {
             Self::Input(diagnostics) => {
                 diagnostics.first().map(ToString::to_string).unwrap_or_default()
             }
-            Self::No | Self::Told | Self::Interrupted | Self::ReaderGone => String::new(),
+            Self::No | Self::Told | Self::Interrupted(_) | Self::ReaderGone => String::new(),
         }
     }
 
@@ -98,7 +98,7 @@ impl Failure {
             Self::No => 1,
             Self::Usage { .. } | Self::Input(_) | Self::Told => 2,
             Self::System(_) => 3,
-            Self::Interrupted => 130,
+            Self::Interrupted(signal) => 128 + signal,
         }
     }
 }

@@ -19,18 +19,28 @@ const LONGEST: usize = 4096;
 /// Draws diagnostics on standard error, with carets, and a count after them if there are several.
 /// Where there are too many, errors are drawn before warnings, each in its order.
 pub(crate) fn diagnostics(all: &[Diagnostic]) {
-    write_stderr(&drawn(all));
+    write_stderr(&drawn(&renderer(), all));
 }
 
-fn drawn(all: &[Diagnostic]) -> String {
-    let renderer = renderer();
+/// What there is to say about a failure, without colours.
+pub(crate) fn plain(failure: &Failure) -> String {
+    let renderer = Renderer::plain();
+    match failure {
+        Failure::Usage { message, help } => titled(&renderer, message, help.as_deref()),
+        Failure::Input(all) => drawn(&renderer, all),
+        Failure::System(message) => titled(&renderer, message, None),
+        _ => String::new(),
+    }
+}
+
+fn drawn(renderer: &Renderer, all: &[Diagnostic]) -> String {
     let mut drawn: Vec<Option<String>> = vec![None; all.len()];
     let mut room = MOST_DRAWN;
     'all: for severity in [Severity::Error, Severity::Warning] {
         let these = all.iter().zip(&mut drawn).filter(|(d, _)| d.severity == severity);
         for (diagnostic, place) in these {
             let mut text = String::new();
-            draw(&renderer, diagnostic, &mut text);
+            draw(renderer, diagnostic, &mut text);
             let Some(left) = room.checked_sub(text.len()) else { break 'all };
             room = left;
             *place = Some(text);
@@ -53,13 +63,15 @@ fn drawn(all: &[Diagnostic]) -> String {
 
 /// One error that is at no place in a file.
 pub(crate) fn error(message: &str, help: Option<&str>) {
-    let renderer = renderer();
+    write_stderr(&titled(&renderer(), message, help));
+}
+
+fn titled(renderer: &Renderer, message: &str, help: Option<&str>) -> String {
     let error = Group::with_title(Level::ERROR.primary_title(message));
     let help = help.map(|help| Group::with_title(Level::HELP.secondary_title(help)));
     // Drawn one by one: together they would be joined by a bar, as if there were a source.
-    for group in [Some(error), help].into_iter().flatten() {
-        write_stderr(&format!("{}\n", renderer.render(&[group])));
-    }
+    let groups = [Some(error), help].into_iter().flatten();
+    groups.map(|group| format!("{}\n", renderer.render(&[group]))).collect()
 }
 
 /// What there is to say about a failure.
@@ -68,8 +80,8 @@ pub(crate) fn failure(failure: &Failure) {
         Failure::Usage { message, help } => error(message, help.as_deref()),
         Failure::Input(all) => diagnostics(all),
         Failure::System(message) => error(message, None),
-        Failure::Interrupted if is_watched() => say("\ninterrupted"),
-        Failure::No | Failure::Told | Failure::Interrupted | Failure::ReaderGone => {}
+        Failure::Interrupted(_) if is_watched() => say("\ninterrupted"),
+        Failure::No | Failure::Told | Failure::Interrupted(_) | Failure::ReaderGone => {}
     }
 }
 
@@ -184,7 +196,7 @@ mod tests {
         let warning = Diagnostic::warning("odd ".repeat(20), None);
         let mut all = vec![warning; 10_000];
         all[9_000] = Diagnostic::error("wrong", None);
-        let text = drawn(&all);
+        let text = drawn(&Renderer::plain(), &all);
         assert!(text.len() < 64 << 10 && text.contains("error: wrong"), "{}", text.len());
         let drawn = text.matches("warning: odd").count();
         let end = format!("1 error, 9999 warnings; not shown: {}\n", 9_999 - drawn);

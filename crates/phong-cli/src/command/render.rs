@@ -68,7 +68,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
     meter.finish();
     let Outcome { film, complete, rays } = rendering.finish();
     if !complete {
-        return Err(Failure::Interrupted);
+        return Err(interrupt::failure());
     }
     clock.lap("trace");
 

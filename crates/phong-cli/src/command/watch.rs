@@ -32,7 +32,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         let started = SystemTime::now();
         let files = match render::run(args) {
             Ok(files) => files,
-            Err(failure @ Failure::Interrupted) => return Err(failure),
+            Err(failure @ Failure::Interrupted(_)) => return Err(failure),
             Err(failure)
                 if first && !(matches!(failure, Failure::Input(_)) && before.is_there()) =>
             {
