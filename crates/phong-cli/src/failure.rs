@@ -35,6 +35,12 @@ impl From<OptionsError> for Failure {
     }
 }
 
+impl From<Box<Diagnostic>> for Failure {
+    fn from(error: Box<Diagnostic>) -> Self {
+        Self::Input(vec![*error])
+    }
+}
+
 impl Failure {
     /// The command line is at fault.
     pub(crate) fn usage(message: impl Into<String>) -> Self {

@@ -7,8 +7,8 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 
 use glam::DVec3;
 use phong_scene::{
-    Blob, CameraKind, Diagnostic, Folder, Format, Jail, Limits, Memory, Reading, Scene, Severity,
-    Side, Source, closest, path_of, read_stream, trouble,
+    Batch, BatchReading, Blob, CameraKind, Diagnostic, Folder, Format, Jail, Limits, Memory,
+    Reading, Scene, Severity, Side, Source, closest, path_of, read_stream, trouble,
 };
 
 use crate::args::{InputArgs, View, ViewArgs};
@@ -131,6 +131,12 @@ pub(crate) fn unreadable(path: &Path, error: &io::Error) -> Failure {
     }
 }
 
+/// What keeps a file from being read, and the way out; `None`: nothing does.
+pub(crate) fn missing(path: &Path) -> Option<(String, Option<String>)> {
+    let error = hindrance(path)?;
+    Some((trouble(&error), way_out(path, &error)))
+}
+
 /// Opens a file that must be there.
 pub(crate) fn open_file(path: &Path) -> Result<File, Failure> {
     if let Some(error) = hindrance(path) {
@@ -208,6 +214,20 @@ pub(crate) fn read(args: &InputArgs) -> Result<(Reading, Vec<PathBuf>), Failure>
     }
     let opened = files.opened.into_inner().unwrap_or_else(PoisonError::into_inner);
     Ok((reading, opened))
+}
+
+/// Reads a batch file: errors end here, warnings are told.
+pub(crate) fn read_batch(path: &str) -> Result<Batch, Failure> {
+    let file = path_of(path);
+    if let Some(error) = hindrance(&file) {
+        return Err(unreadable(&file, &error));
+    }
+    let files = Files { input: path.to_owned(), ..Files::default() };
+    let limits = Limits { bytes: memory::limit(), ..Limits::default() };
+    let BatchReading { batch, diagnostics } = phong_scene::read_batch(path, &files, &limits);
+    let Some(batch) = batch else { return Err(Failure::Input(diagnostics)) };
+    report::diagnostics(&diagnostics);
+    Ok(batch)
 }
 
 /// Reads INPUT for use: errors end here, warnings are told unless `quiet`.

@@ -4,6 +4,7 @@
 //! `report` is the only part that talks. Standard output carries data, standard error talk.
 
 mod args;
+mod batch;
 mod checkpoint;
 mod command;
 mod compile;

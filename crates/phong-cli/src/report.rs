@@ -70,8 +70,10 @@ fn titled(renderer: &Renderer, message: &str, help: Option<&str>) -> String {
     let error = Group::with_title(Level::ERROR.primary_title(message));
     let help = help.map(|help| Group::with_title(Level::HELP.secondary_title(help)));
     // Drawn one by one: together they would be joined by a bar, as if there were a source.
-    let groups = [Some(error), help].into_iter().flatten();
-    groups.map(|group| format!("{}\n", renderer.render(&[group]))).collect()
+    [Some(error), help].into_iter().flatten().fold(String::new(), |mut text, group| {
+        let _ = writeln!(text, "{}", renderer.render(&[group]));
+        text
+    })
 }
 
 /// What there is to say about a failure.

@@ -13,7 +13,7 @@ use phong_scene::Change;
 
 pub(crate) use picture::{ImageArgs, RenderArgs};
 pub(crate) use values::{
-    Crop, PictureSize, Vec3Arg, color, input_help, output_help, size, vector, whole,
+    Crop, PictureSize, ShareOf, Vec3Arg, color, input_help, output_help, path, size, vector, whole,
     written_endings, written_format, written_help,
 };
 

@@ -108,6 +108,10 @@ pub(crate) struct WorkArgs {
     #[arg(long)]
     pub(crate) resume: bool,
 
+    /// Begin anew where the checkpoint cannot be gone on from.
+    #[arg(skip)]
+    pub(crate) replace: bool,
+
     /// Draw again whenever the scene or a file it names changes, until interrupted
     #[arg(long, conflicts_with_all = ["tile", "resume"])]
     pub(crate) watch: bool,

@@ -2,6 +2,7 @@
 //!
 //! A new command is a file here, a line in [`Command`], and a line in [`run_here`].
 
+pub(crate) mod batch;
 pub(crate) mod bench;
 pub(crate) mod check;
 pub(crate) mod compare;
@@ -44,7 +45,7 @@ Examples:
   phong COMMAND --help                       all about one command
 
 Exit codes: 0 done, 1 the answer is \"no\", 2 the input or the command line is at fault,
-3 something else went wrong, 130 interrupted.";
+3 something else went wrong, 130 interrupted, 143 told to end.";
 
 /// A ray tracer for the Phong reflection model that can explain every pixel.
 #[derive(Debug, Parser)]
@@ -76,6 +77,7 @@ pub(crate) enum Command {
     Info(info::Args),
     Convert(convert::Args),
     Bench(bench::Args),
+    Batch(batch::Args),
     Merge(merge::Args),
     New(new::Args),
     // Not built yet: it answers, and is not listed.
@@ -94,12 +96,13 @@ pub(crate) fn run(Cli { command, bounds }: Cli) -> Result<(), Failure> {
     }
     let (wanted, quiet) = match &command {
         Command::Render(args) => (args.work.threads, args.work.quiet),
+        Command::Batch(args) => (args.threads, false),
         _ => (None, false),
     };
-    threads::on(wanted, quiet, || run_here(command))
+    threads::on(wanted, quiet, || run_here(command, &bounds))
 }
 
-fn run_here(command: Command) -> Result<(), Failure> {
+fn run_here(command: Command, bounds: &BoundArgs) -> Result<(), Failure> {
     match command {
         Command::Render(args) if args.work.watch => watch::run(&args),
         Command::Render(args) => render::run(&args).map(drop),
@@ -112,6 +115,7 @@ fn run_here(command: Command) -> Result<(), Failure> {
         Command::Check(args) => check::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Convert(args) => convert::run(&args),
+        Command::Batch(args) => batch::run(&args, bounds),
         Command::Bench(args) => bench::run(&args),
         Command::Merge(args) => merge::run(&args),
         Command::New(args) => new::run(&args),

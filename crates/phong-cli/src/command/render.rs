@@ -47,7 +47,10 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
     let beside = || Checkpoint::beside(&plan.output, settings.clone(), &options, quiet);
     let checkpoint = args.work.resume.then(beside);
     let film = match &checkpoint {
-        Some(checkpoint) => checkpoint.film()?,
+        Some(checkpoint) => match checkpoint.film() {
+            Err(Failure::Usage { .. }) if args.work.replace => None,
+            film => film?,
+        },
         None => None,
     };
     meter.samples();
