@@ -145,15 +145,14 @@ pub(crate) fn intersect8<S: Simd>(simd: S, ray: &Closest8<S>, block: &[Row; BLOC
 
 #[inline(always)]
 fn intersect8_at<S: Simd>(simd: S, ray: &Closest8<S>, block: &[Row; BLOCK]) -> CapsuleHits {
-    let load = |row: usize| f32x8::load_array_ref(simd, &block[row].0);
     let zero = f32x8::splat(simd, 0.0);
     let one = f32x8::splat(simd, 1.0);
     let [ox, oy, oz] = ray.origin;
     let [dx, dy, dz] = ray.dir;
-    let (hx, hy, hz) = (load(3), load(4), load(5));
-    let cx = load(0) - ox + hx;
-    let cy = load(1) - oy + hy;
-    let cz = load(2) - oz + hz;
+    let (hx, hy, hz) = (row(simd, block, 3), row(simd, block, 4), row(simd, block, 5));
+    let cx = row(simd, block, 0) - ox + hx;
+    let cy = row(simd, block, 1) - oy + hy;
+    let cz = row(simd, block, 2) - oz + hz;
     let b = (cx * dx + cy * dy + cz * dz) * ray.scale;
     let fx = cx - b * dx;
     let fy = cy - b * dy;
@@ -175,7 +174,7 @@ fn intersect8_at<S: Simd>(simd: S, ray: &Closest8<S>, block: &[Row; BLOCK]) -> C
     let qy = gy - c * ey;
     let qz = gz - c * ez;
     let qq = qx * qx + qy * qy + qz * qz;
-    let (radius, radius_to) = (load(6), load(7));
+    let (radius, radius_to) = (row(simd, block, 6), row(simd, block, 7));
     let square = radius * radius;
     let inside = square - qq;
     let capsule = radius.simd_eq(radius_to);
@@ -191,33 +190,14 @@ fn intersect8_at<S: Simd>(simd: S, ray: &Closest8<S>, block: &[Row; BLOCK]) -> C
         return CapsuleHits { hit: 0, second_half: 0, open, t: [0.0; 8] };
     }
     let reach = (inside.max(zero) * per_ee).sqrt();
-    let crossing = |t: f32x8<S>, side: f32| -> (mask32x8<S>, f32x8<S>, mask32x8<S>) {
-        let along = t * dh - fh;
-        let on_side = along.abs().simd_le(hh);
-        let second_half = along.simd_gt(zero);
-        let t = b + t;
-        if (on_side | !may).all_true() {
-            return (may, t, second_half);
-        }
-        let end = second_half.select(one, zero - one);
-        let vx = fx + end * hx;
-        let vy = fy + end * hy;
-        let vz = fz + end * hz;
-        let k = (vx * dx + vy * dy + vz * dz) * ray.scale;
-        let wx = vx - k * dx;
-        let wy = vy - k * dy;
-        let wz = vz - k * dz;
-        let inside = square - (wx * wx + wy * wy + wz * wz);
-        let reach = (inside.max(zero) * ray.scale).sqrt();
-        let on_end = b + (k + reach * side);
-        (may & (on_side | inside.simd_ge(zero)), on_side.select(t, on_end), second_half)
-    };
-    let (met, enter, second_half) = crossing(c - reach, -1.0);
+    let line = Line { dir: ray.dir, scale: ray.scale, b, f: [fx, fy, fz], dh, fh };
+    let lanes = Capsules8 { h: [hx, hy, hz], hh, square, may };
+    let (met, enter, second_half) = crossing(simd, &line, &lanes, c - reach, -1.0);
     let first = met & enter.simd_gt(ray.t_min);
     let (mut hit, mut t) = (first & enter.simd_lt(ray.t_max), enter);
     let mut second_half = second_half.to_bitmask() as u32;
     if !(first | !may).all_true() {
-        let (met, leave, behind) = crossing(c + reach, 1.0);
+        let (met, leave, behind) = crossing(simd, &line, &lanes, c + reach, 1.0);
         let second = !first & met & leave.simd_gt(ray.t_min) & leave.simd_lt(ray.t_max);
         hit |= second;
         t = first.select(enter, leave);
@@ -225,6 +205,71 @@ fn intersect8_at<S: Simd>(simd: S, ray: &Closest8<S>, block: &[Row; BLOCK]) -> C
         second_half = second_half & first | behind.to_bitmask() as u32 & !first;
     }
     CapsuleHits { hit: hit.to_bitmask() as u32, second_half, open, t: t.to_array() }
+}
+
+#[inline(always)]
+fn row<S: Simd>(simd: S, block: &[Row; BLOCK], row: usize) -> f32x8<S> {
+    f32x8::load_array_ref(simd, &block[row].0)
+}
+
+/// The line of a ray as eight capsules see it.
+struct Line<S: Simd> {
+    dir: [f32x8<S>; 3],
+    /// 1 / d·d.
+    scale: f32x8<S>,
+    /// Where it is closest to the middle, and the way from there to the middle.
+    b: f32x8<S>,
+    f: [f32x8<S>; 3],
+    /// d·h and f·h.
+    dh: f32x8<S>,
+    fh: f32x8<S>,
+}
+
+/// What else of eight capsules a crossing depends on.
+struct Capsules8<S: Simd> {
+    h: [f32x8<S>; 3],
+    /// h·h.
+    hh: f32x8<S>,
+    /// The radius squared.
+    square: f32x8<S>,
+    /// Those whose endless cylinder is crossed.
+    may: mask32x8<S>,
+}
+
+/// The crossing on one side, given where the endless cylinder is crossed there, counted from `b`: which
+/// capsules are, where, and which of them in the half of the second end.
+///
+/// No closure: that would be compiled without the level's instructions.
+#[inline(always)]
+fn crossing<S: Simd>(
+    simd: S,
+    line: &Line<S>,
+    lanes: &Capsules8<S>,
+    t: f32x8<S>,
+    side: f32,
+) -> (mask32x8<S>, f32x8<S>, mask32x8<S>) {
+    let &Line { dir: [dx, dy, dz], scale, b, f: [fx, fy, fz], dh, fh } = line;
+    let &Capsules8 { h: [hx, hy, hz], hh, square, may } = lanes;
+    let (zero, one) = (f32x8::splat(simd, 0.0), f32x8::splat(simd, 1.0));
+    let along = t * dh - fh;
+    let on_side = along.abs().simd_le(hh);
+    let second_half = along.simd_gt(zero);
+    let t = b + t;
+    if (on_side | !may).all_true() {
+        return (may, t, second_half);
+    }
+    let end = second_half.select(one, zero - one);
+    let vx = fx + end * hx;
+    let vy = fy + end * hy;
+    let vz = fz + end * hz;
+    let k = (vx * dx + vy * dy + vz * dz) * scale;
+    let wx = vx - k * dx;
+    let wy = vy - k * dy;
+    let wz = vz - k * dz;
+    let inside = square - (wx * wx + wy * wy + wz * wz);
+    let reach = (inside.max(zero) * scale).sqrt();
+    let on_end = b + (k + reach * side);
+    (may & (on_side | inside.simd_ge(zero)), on_side.select(t, on_end), second_half)
 }
 
 #[cfg(test)]
