@@ -11,7 +11,8 @@
 //!
 //! Where one of these two is between the ends, `|t (d·h) − f·h| ≤ h·h`, the line crosses the
 //! cylinder's side there. Where it is beyond an end, the line can cross on that side only the sphere
-//! around that end. A capsule is convex, so this is true of both crossings, each on its own.
+//! around that end. A capsule is convex, so this is true of both crossings, each on its own; and a line that
+//! does not go in does not come out.
 //!
 //! A line along the axis makes `e` zero but for rounding. Then the crossings with the endless
 //! cylinder are far beyond the ends, and the sphere decides. Where the segment has no length, h = 0,
@@ -96,8 +97,8 @@ pub(crate) fn intersect(ray: &Closest, capsule: &Cylinder) -> Option<At> {
         let t = b + (k + side * (inside * ray.scale).sqrt());
         (inside >= 0.0).then_some(At { t, second_half })
     };
-    let enter = crossing(-1.0).filter(|at| at.t > ray.t_min);
-    let at = enter.or_else(|| crossing(1.0))?;
+    let enter = crossing(-1.0)?;
+    let at = if enter.t > ray.t_min { enter } else { crossing(1.0)? };
     (at.t > ray.t_min && at.t < ray.t_max).then_some(at)
 }
 
@@ -196,9 +197,11 @@ fn intersect8_at<S: Simd>(simd: S, ray: &Closest8<S>, block: &[Row; BLOCK]) -> C
     let first = met & enter.simd_gt(ray.t_min);
     let (mut hit, mut t) = (first & enter.simd_lt(ray.t_max), enter);
     let mut second_half = second_half.to_bitmask() as u32;
-    if !(first | !may).all_true() {
+    if (met & !first).any_true() {
+        // Some lines go in where the ray does not count it: it may start within.
+        let inside = met & !first;
         let (met, leave, behind) = crossing(simd, &line, &lanes, c + reach, 1.0);
-        let second = !first & met & leave.simd_gt(ray.t_min) & leave.simd_lt(ray.t_max);
+        let second = inside & met & leave.simd_gt(ray.t_min) & leave.simd_lt(ray.t_max);
         hit |= second;
         t = first.select(enter, leave);
         let first = first.to_bitmask() as u32;
