@@ -103,9 +103,12 @@ def main():
             )
             apart[program] = json.loads(compared.stdout)["mean"]
         taken = {program: [] for program in lines}
+        order = list(lines.items())
         for _ in range(options.runs):
-            for program, line in lines.items():
+            for program, line in order:
                 taken[program].append(measure(line))
+            # Who comes after a program that took much memory waits for it to be cleared.
+            order = order[1:] + order[:1]
         medians = {program: [statistics.median(column) for column in zip(*runs)] for program, runs in taken.items()}
         for program, (wall, cpu, peak) in medians.items():
             ratios = " | ".join(f"{own / ours:.2f}" for own, ours in zip((wall, cpu, peak), medians["phong"]))
