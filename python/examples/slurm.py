@@ -2,8 +2,7 @@
 
     pip install phong distributed dask-jobqueue
     python slurm.py scene.toml poster.exr --workers 40
-    python slurm.py --script            # prints the job that each worker is, and submits nothing;
-                                        # so it does where there is no Slurm
+    python slurm.py                     # prints the job that each worker is, and submits nothing
 
 With ``--store`` on a file system that stays, the same command goes on where it was interrupted.
 """
@@ -11,7 +10,6 @@ With ``--store`` on a file system that stays, the same command goes on where it 
 from __future__ import annotations
 
 import argparse
-import shutil
 from typing import Any
 
 from dask_jobqueue.slurm import SLURMCluster
@@ -23,17 +21,16 @@ import phong.dask
 def main() -> None:
     """Reads the command line, and does it."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("scene", nargs="?", default="scene.toml")
+    parser.add_argument("scene", nargs="?")
     parser.add_argument("out", nargs="?", default="poster.exr")
     parser.add_argument("--size", type=int, nargs=2, default=(30000, 20000))
     parser.add_argument("--samples", type=int, default=64)
     parser.add_argument("--workers", type=int, default=8)
     parser.add_argument("--store", default="shares")
-    parser.add_argument("--script", action="store_true")
     asked = parser.parse_args()
     cluster: Any
     with SLURMCluster(cores=8, processes=1, memory="16GB", walltime="01:00:00") as cluster:
-        if asked.script or shutil.which("sbatch") is None:
+        if asked.scene is None:
             print(cluster.job_script())
             return
         cluster.scale(asked.workers)
