@@ -17,11 +17,15 @@ pub enum Level {
     Avx512,
     /// 64-bit ARM: four lanes.
     Neon,
+    /// WebAssembly with 128-bit vectors: four lanes. Whether there are any is said when the module is
+    /// compiled.
+    Simd128,
 }
 
 impl Level {
     /// Every level, slowest first.
-    pub const ALL: [Self; 5] = [Self::Scalar, Self::Sse42, Self::Avx2, Self::Avx512, Self::Neon];
+    pub const ALL: [Self; 6] =
+        [Self::Scalar, Self::Sse42, Self::Avx2, Self::Avx512, Self::Neon, Self::Simd128];
 
     /// The fastest level of this machine.
     pub fn detect() -> Self {
@@ -55,6 +59,8 @@ pub(crate) enum Token {
     Avx512(fearless_simd::x86::Avx512),
     #[cfg(target_arch = "aarch64")]
     Neon(fearless_simd::aarch64::Neon),
+    #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+    Simd128(fearless_simd::wasm32::WasmSimd128),
 }
 
 impl Token {
@@ -73,6 +79,8 @@ impl Token {
             Level::Avx512 => Cpu::new().as_avx512().map(Self::Avx512),
             #[cfg(target_arch = "aarch64")]
             Level::Neon => Cpu::new().as_neon().map(Self::Neon),
+            #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+            Level::Simd128 => Cpu::new().as_wasm_simd128().map(Self::Simd128),
             _ => None,
         }
     }
@@ -97,6 +105,8 @@ impl Token {
             Self::Avx512(simd) => at(simd, kernel),
             #[cfg(target_arch = "aarch64")]
             Self::Neon(simd) => at(simd, kernel),
+            #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+            Self::Simd128(simd) => at(simd, kernel),
         }
     }
 }

@@ -71,6 +71,24 @@ impl Camera {
         Some(Ray::new(origin, dir.as_vec3()))
     }
 
+    /// The place in a picture of `size` pixels where a point of the world is seen, as [`Camera::ray`]
+    /// takes it: outside the picture as well. `None` behind a perspective camera, and of cameras that
+    /// look around.
+    pub fn place(&self, point: DVec3, size: [u32; 2]) -> Option<DVec2> {
+        let (width, height) = (f64::from(size[0]), f64::from(size[1]));
+        let to = point - self.eye;
+        let depth = to.dot(self.forward);
+        let away = match self.kind {
+            CameraKind::Perspective { .. } if depth > 0.0 => depth,
+            CameraKind::Orthographic { .. } => 1.0,
+            _ => return None,
+        };
+        let pixels = height / (2.0 * self.half * away);
+        let place = DVec2::new(to.dot(self.right), -to.dot(self.up)) * pixels;
+        let place = place + DVec2::new(width, height) / 2.0;
+        place.is_finite().then_some(place)
+    }
+
     /// The origin and the unit direction of [`Camera::ray`], neither of them rounded to f32.
     pub(crate) fn line(&self, place: DVec2, size: [u32; 2], lens: [f32; 2]) -> Option<[DVec3; 2]> {
         let (width, height) = (f64::from(size[0]), f64::from(size[1]));
@@ -296,6 +314,25 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn a_point_on_a_ray_is_seen_where_the_ray_starts_in_the_picture() {
+        for kind in
+            [CameraKind::Perspective { fov: 37.0 }, CameraKind::Orthographic { height: 4.0 }]
+        {
+            let eye = DVec3::new(1.0, 2.5, 8.1);
+            let camera = Camera::new(&phong_scene::Camera { eye, ..camera(kind) });
+            for place in [DVec2::new(20.0, 10.0), DVec2::new(0.0, 0.0), DVec2::new(31.7, 2.2)] {
+                let [origin, dir] = camera.line(place, SIZE, MIDDLE).unwrap();
+                let seen = camera.place(origin + 7.5 * dir, SIZE).unwrap();
+                assert!((seen - place).length() < 1e-9, "{kind:?}: {seen}");
+            }
+        }
+        let perspective = Camera::new(&camera(CameraKind::Perspective { fov: 37.0 }));
+        assert_eq!(perspective.place(DVec3::new(0.0, 0.0, 6.0), SIZE), None, "behind the eye");
+        let around = Camera::new(&camera(CameraKind::Panorama));
+        assert_eq!(around.place(DVec3::ZERO, SIZE), None);
     }
 
     #[test]

@@ -236,6 +236,16 @@ pub fn write(
     }
 }
 
+/// A linear value as a PNG of 8 bits has it: clamped, on the sRGB curve, rounded. NaN is 0.
+///
+/// ```
+/// use phong::image::srgb_level;
+/// assert_eq!([-1.0, 0.0, 0.5, 1.0, 2.0].map(srgb_level), [0, 0, 188, 255, 255]);
+/// ```
+pub fn srgb_level(linear: f32) -> u8 {
+    curve::Curve::eight().level(linear) as u8
+}
+
 fn layer<'a>(picture: &Finished<'a>, kind: LayerKind) -> Result<&'a [f32], WriteError> {
     picture
         .values(kind)

@@ -185,7 +185,8 @@ fn encoding_error(error: png::EncodingError) -> WriteError {
 /// Reads a PNG of any kind; palettes and few bits are spread out.
 pub(super) fn read(bytes: &[u8], max_bytes: u64) -> Result<Picture, ReadError> {
     let broken = |error: png::DecodingError| ReadError::Broken(format!("PNG: {error}"));
-    let limits = png::Limits { bytes: 4 * MAX_VALUES as usize };
+    let most = usize::try_from(4 * MAX_VALUES).unwrap_or(usize::MAX);
+    let limits = png::Limits { bytes: most };
     let mut decoder = png::Decoder::new_with_limits(Cursor::new(bytes), limits);
     decoder.set_transformations(Transformations::EXPAND);
     let mut reader = decoder.read_info().map_err(broken)?;

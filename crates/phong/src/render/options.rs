@@ -335,9 +335,9 @@ impl RenderOptions {
         let film = self.window.pixels().saturating_mul(4 * values as u64);
         let between = match self.passes {
             // The only sample is the last.
-            Passes::CoarseToFine if self.samples == 1 => 0,
+            Passes::CoarseToFine | Passes::Doubling if self.samples == 1 => 0,
             Passes::One => 0,
-            Passes::CoarseToFine => {
+            Passes::CoarseToFine | Passes::Doubling => {
                 let across = self.window.width().div_ceil(self.tile);
                 let eights =
                     u64::from(across) * u64::from(self.tile.min(self.window.width()).div_ceil(8));

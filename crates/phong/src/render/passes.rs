@@ -10,6 +10,9 @@ pub enum Passes {
     /// pass is a picture of the samples so far, and the last one has the bits of [`One`](Self::One).
     /// Between passes the film holds the pixels' sums, some 200 bytes a pixel.
     CoarseToFine,
+    /// The same without the coarse picture: for who stops and goes on often. A coarse picture leaves
+    /// nothing in the film to go on from, so it would be drawn again each time.
+    Doubling,
 }
 
 /// One pass over the tiles.
@@ -44,11 +47,14 @@ impl Passes {
     /// let samples: Vec<u32> = Passes::CoarseToFine.of(5).into_iter().map(Pass::samples).collect();
     /// assert_eq!(samples, [0, 1, 2, 4, 5]);
     /// assert_eq!(Passes::One.of(5), [Pass::UpTo(5)]);
+    /// assert_eq!(Passes::Doubling.of(3), [Pass::UpTo(1), Pass::UpTo(2), Pass::UpTo(3)]);
     /// ```
     pub fn of(self, samples: u32) -> Vec<Pass> {
         let mut passes = Vec::new();
         if self == Self::CoarseToFine {
             passes.push(Pass::Coarse);
+        }
+        if self != Self::One {
             let doubled = std::iter::successors(Some(1_u32), |n| n.checked_mul(2));
             passes.extend(doubled.take_while(|&n| n < samples).map(Pass::UpTo));
         }
