@@ -5,4 +5,7 @@
 //! a worker of the same page. `PROTOCOL.md` says what is said between them.
 
 pub mod engine;
+pub mod page;
 pub mod protocol;
+#[cfg(feature = "server")]
+pub mod server;

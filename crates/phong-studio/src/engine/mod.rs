@@ -19,7 +19,7 @@ use opened::Opened;
 use painting::Painting;
 
 /// A scene to begin with.
-pub const EXAMPLE: &str = include_str!("../../../../scenes/two-balls.toml");
+pub const EXAMPLE: &str = include_str!("two-balls.toml");
 
 /// The name of [`EXAMPLE`].
 pub const EXAMPLE_NAME: &str = "two-balls.toml";

@@ -249,3 +249,9 @@ fn what_is_no_request_is_answered() {
     assert_eq!(talk.page.all("error").len(), before + 7);
     talk.draw();
 }
+
+#[test]
+fn the_studios_own_scene_is_that_of_the_gallery() {
+    let gallery = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/two-balls.toml");
+    assert_eq!(std::fs::read_to_string(gallery).unwrap(), phong_studio::engine::EXAMPLE);
+}

@@ -3,6 +3,8 @@
 
 mod client;
 mod engine;
+#[cfg(feature = "server")]
+mod server;
 
 /// A small scene: two balls, of which one mirrors, a floor, two lights.
 const SCENE: &str = r##"version = 1

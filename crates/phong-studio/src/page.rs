@@ -1,0 +1,41 @@
+//! The page: its files as they are, whoever serves or writes them.
+
+/// A file of the page.
+#[derive(Clone, Copy, Debug)]
+pub struct PageFile {
+    /// Its name, as the page asks for it.
+    pub name: &'static str,
+    /// Its media type.
+    pub media_type: &'static str,
+    /// All of it.
+    pub bytes: &'static [u8],
+}
+
+macro_rules! page_files {
+    ($($name:literal $media_type:literal),* $(,)?) => {
+        /// Every file of the page, the page itself first.
+        pub const FILES: &[PageFile] = &[$(PageFile {
+            name: $name,
+            media_type: $media_type,
+            bytes: include_bytes!(concat!("../page/", $name)),
+        }),*];
+    };
+}
+
+page_files! {
+    "index.html" "text/html; charset=utf-8",
+    "studio.css" "text/css; charset=utf-8",
+    "studio.js" "text/javascript; charset=utf-8",
+    "words.js" "text/javascript; charset=utf-8",
+    "engine.js" "text/javascript; charset=utf-8",
+    "picture.js" "text/javascript; charset=utf-8",
+    "controls.js" "text/javascript; charset=utf-8",
+    "explained.js" "text/javascript; charset=utf-8",
+    "editor.js" "text/javascript; charset=utf-8",
+}
+
+/// The file of this name.
+#[must_use]
+pub fn file(name: &str) -> Option<&'static PageFile> {
+    FILES.iter().find(|file| file.name == name)
+}

@@ -1,0 +1,65 @@
+//! The folder that scenes are read from.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use phong::scene::{Blob, Format, Jail, Memory, Source, path_of, path_text};
+
+use crate::engine::{EXAMPLE, EXAMPLE_NAME};
+
+/// The most names that are told of a folder.
+const MOST_NAMES: usize = 200;
+
+/// A folder, nothing outside of which is read, with the studio's own scene where no file is named.
+#[derive(Clone, Debug)]
+pub(super) struct Shelf {
+    folder: PathBuf,
+    jail: Jail,
+    /// What to open first.
+    open: String,
+    own: Option<Memory>,
+}
+
+impl Shelf {
+    pub(super) fn new(folder: &Path, open: Option<String>) -> io::Result<Self> {
+        let jail = Jail::new(folder)?;
+        let folder = folder.canonicalize()?;
+        let own = match open {
+            Some(_) => None,
+            None => Some(Memory::new().with(EXAMPLE_NAME, EXAMPLE.as_bytes())),
+        };
+        let open = open.unwrap_or_else(|| EXAMPLE_NAME.to_owned());
+        Ok(Self { folder, jail, open, own })
+    }
+
+    /// What to open first.
+    pub(super) fn first(&self) -> &str {
+        &self.open
+    }
+
+    /// Scenes and models in the folder, in alphabetical order.
+    pub(super) fn names(&self) -> Vec<String> {
+        let Ok(files) = self.folder.read_dir() else { return Vec::new() };
+        let readable = |name: &String| {
+            Format::of_path(name).is_some_and(|format| Format::readable().contains(&format))
+        };
+        let names = files.filter_map(|file| Some(path_text(&file.ok()?.file_name())));
+        let mut names: Vec<String> = names.filter(readable).take(MOST_NAMES).collect();
+        if self.own.is_some() && !names.iter().any(|name| name == EXAMPLE_NAME) {
+            names.push(EXAMPLE_NAME.to_owned());
+        }
+        names.sort();
+        names
+    }
+}
+
+impl Source for Shelf {
+    fn open(&self, path: &str) -> io::Result<Box<dyn Blob>> {
+        let file = self.folder.join(path_of(path));
+        let found = self.jail.open(&path_text(file.as_os_str()));
+        match (&self.own, found) {
+            (Some(own), Err(_)) if path == EXAMPLE_NAME => own.open(path),
+            (_, found) => found,
+        }
+    }
+}
