@@ -56,12 +56,6 @@ impl Failure {
         }
     }
 
-    /// A command that this version does not have.
-    pub(crate) fn not_yet(what: &str) -> Self {
-        Self::usage(format!("{what}: not yet"))
-            .with_help("this version does not do it; `phong --help` lists the commands")
-    }
-
     /// Standard input failed.
     pub(crate) fn stdin(error: &io::Error) -> Self {
         let message = format!("cannot read standard input: {}", trouble(error));

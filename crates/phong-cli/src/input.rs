@@ -145,6 +145,28 @@ pub(crate) fn open_file(path: &Path) -> Result<File, Failure> {
     allowed(path).and_then(File::open).map_err(|error| unreadable(path, &error))
 }
 
+/// The folder of INPUT, and INPUT's name in it; without one the folder one is in, or the jail.
+#[cfg(feature = "studio")]
+pub(crate) fn folder_of(input: Option<&str>) -> Result<(PathBuf, Option<String>), Failure> {
+    let Some(input) = input else {
+        let jail = JAIL.get().map(|jail| jail.resolve(Path::new(".")));
+        let folder = jail.unwrap_or_else(|| Path::new(".").canonicalize());
+        return folder.map(|folder| (folder, None)).map_err(|e| unreadable(Path::new("."), &e));
+    };
+    if input == "-" {
+        return Err(Failure::usage("the studio reads a file, not standard input"));
+    }
+    let path = path_of(input);
+    open_file(&path)?;
+    if Format::of_path(input).is_none_or(|format| !Format::readable().contains(&format)) {
+        return Err(Failure::usage(format!("{input}: its name does not say what it is"))
+            .with_help("the studio opens scenes (.toml) and models"));
+    }
+    let name = path.file_name().map(phong_scene::path_text);
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    Ok((folder.unwrap_or(Path::new(".")).to_owned(), name))
+}
+
 /// Why a file cannot be opened; `None`: it can, or it is a pipe, which is not opened a second time.
 fn hindrance(path: &Path) -> Option<io::Error> {
     match allowed(path).and_then(fs::metadata) {

@@ -24,17 +24,6 @@ fn only_what_is_read_is_listed_as_an_input() {
 }
 
 #[test]
-fn what_is_not_built_is_not_listed_but_answers() {
-    for words in ["--help", "man", "completions bash"] {
-        assert!(!told(words).contains("browser studio"), "{words}");
-    }
-    assert!(told("--help").contains("new"));
-    let then = given(&[]).when("studio");
-    assert_eq!(then.code, Some(2), "{}", then.err);
-    assert!(then.err.contains("not"), "{}", then.err);
-}
-
-#[test]
 fn options_stand_under_the_heading_they_belong_to() {
     let help = told("convert --help");
     let [options, view] = ["--json", "View:"].map(|words| help.find(words).unwrap());

@@ -13,8 +13,8 @@ use phong_scene::Change;
 
 pub(crate) use picture::{ImageArgs, RenderArgs};
 pub(crate) use values::{
-    Crop, PictureSize, ShareOf, Vec3Arg, color, input_help, output_help, path, size, vector, whole,
-    written_endings, written_format, written_help,
+    Crop, PictureSize, ShareOf, Vec3Arg, color, output_help, path, size, studio_help, vector,
+    whole, written_endings, written_format, written_help,
 };
 
 /// What no command goes beyond.
@@ -144,11 +144,4 @@ pub(crate) enum OutputFormat {
     Png,
     Pfm,
     Exr,
-}
-
-/// Whatever was typed, for a command that this version does not have.
-#[derive(Args, Clone, Debug)]
-pub(crate) struct Anything {
-    #[arg(trailing_var_arg = true, allow_hyphen_values = true, hide = true)]
-    _words: Vec<String>,
 }

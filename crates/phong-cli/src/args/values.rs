@@ -196,6 +196,11 @@ pub(crate) fn input_help() -> String {
     format!("A .toml scene or a bare model ({models}); - reads standard input, with --format")
 }
 
+/// What the studio opens.
+pub(crate) fn studio_help() -> String {
+    input_help().split(';').next().unwrap_or_default().to_owned() + " [default: a scene of its own]"
+}
+
 /// What `--format` may be.
 pub(crate) fn format_help() -> String {
     format!("What INPUT is, whatever its name says: {}", alternatives(&Format::readable()))

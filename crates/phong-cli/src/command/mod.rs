@@ -80,8 +80,6 @@ pub(crate) enum Command {
     Batch(batch::Args),
     Merge(merge::Args),
     New(new::Args),
-    // Not built yet: it answers, and is not listed.
-    #[command(hide = true)]
     Studio(studio::Args),
     Keys(keys::Args),
     Completions(completions::Args),

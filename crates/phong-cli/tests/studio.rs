@@ -1,0 +1,78 @@
+//! The studio: its address, who may come in, and how it ends.
+#![cfg(feature = "studio")]
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+mod support;
+
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+use std::process::{Child, Command, Stdio};
+
+use support::given;
+
+/// A studio that runs, and its address.
+struct Running {
+    child: Child,
+    url: String,
+}
+
+impl Running {
+    fn start(words: &[&str]) -> Self {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_phong"))
+            .arg("studio")
+            .args(words)
+            .arg("--no-open")
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let mut url = String::new();
+        BufReader::new(child.stdout.as_mut().unwrap()).read_line(&mut url).unwrap();
+        Self { child, url: url.trim_end().to_owned() }
+    }
+
+    fn get(&self, path: &str) -> String {
+        let address = self.url.strip_prefix("http://").unwrap().split('/').next().unwrap();
+        let mut stream = TcpStream::connect(address).unwrap();
+        write!(stream, "GET {path} HTTP/1.1\r\nHost: {address}\r\nConnection: close\r\n\r\n")
+            .unwrap();
+        let mut answer = String::new();
+        stream.read_to_string(&mut answer).unwrap();
+        answer
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+#[test]
+fn it_prints_one_line_that_opens_the_page_and_nothing_else_does() {
+    let studio = Running::start(&[]);
+    let (address, token) = studio.url.split_once("/?token=").unwrap();
+    assert!(address.starts_with("http://127.0.0.1:") && token.len() == 32, "{}", studio.url);
+    assert!(studio.get(&format!("/?token={token}")).starts_with("HTTP/1.1 200"));
+    assert!(studio.get("/").starts_with("HTTP/1.1 403"));
+    assert!(studio.get(&format!("/{token}/studio.js")).starts_with("HTTP/1.1 200"));
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_ends_it_with_130() {
+    let mut studio = Running::start(&[]);
+    let id = studio.child.id().to_string();
+    assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
+    assert_eq!(studio.child.wait().unwrap().code(), Some(130));
+}
+
+#[test]
+fn what_it_cannot_open_is_refused_before_it_answers() {
+    let folder = given(&[("notes.txt", "")]);
+    folder.when("studio nowhere.toml --no-open").is_refused(&["nowhere.toml"]);
+    folder.when("studio notes.txt --no-open").is_refused(&["notes.txt", "scenes"]);
+    folder.when("studio - --no-open").is_refused(&["file"]);
+    folder.when("studio --port 0 --no-open").is_refused(&["--port"]);
+}
