@@ -131,7 +131,7 @@ impl Mesh {
 /// Whether `number` is one of `all`.
 fn is_among(number: u32, all: &[u32]) -> bool {
     // Pieces without a branch for each.
-    all.chunks(PIECE).any(|piece| piece.iter().filter(|&&n| n == number).count() > 0)
+    all.chunks(PIECE).any(|piece| piece.iter().fold(false, |any, &n| any | (n == number)))
 }
 
 impl Points {

@@ -53,7 +53,7 @@ pub(super) fn write(
             let gain = libm::exp2(encoding.exposure) as f32;
             let alpha = layer(picture, LayerKind::Alpha).ok();
             // All of a piece, without a branch for each.
-            let is_whole = |piece: &[f32]| piece.iter().filter(|&&a| a != 1.0).count() == 0;
+            let is_whole = |piece: &[f32]| piece.iter().fold(true, |all, &a| all & (a == 1.0));
             let alpha = alpha.filter(|alpha| !alpha.chunks(4096).all(is_whole));
             (values.into(), Tone { gain, curve, alpha, ..plain })
         }

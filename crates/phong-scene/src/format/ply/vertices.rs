@@ -317,7 +317,7 @@ impl Vertices {
         mend_colors(&mut self.colors);
         let radii = plan.has(RADIUS);
         let sound = |&[x, y, z, radius]: &[f32; 4]| {
-            let radius = !radii || radius.is_finite() && radius > 0.0;
+            let radius = !radii | (radius.is_finite() & (radius > 0.0));
             radius & are_all(&[x, y, z], |c| c.is_finite())
         };
         if !self.spheres.par_chunks(PIECE).all(|piece| are_all(piece, sound)) {
@@ -343,7 +343,7 @@ fn mend_colors(colors: &mut [Rgb]) {
 }
 
 fn is_color(color: &Rgb) -> bool {
-    are_all(&color.to_array(), |c| c.is_finite() && *c >= 0.0)
+    are_all(&color.to_array(), |c| c.is_finite() & (*c >= 0.0))
 }
 
 /// Whether all values are `sound`, which is plain arithmetic: without a branch for each.
@@ -427,7 +427,7 @@ impl Part<'_> {
             columns.fill(column, self.spheres, |_, alpha| plan.see_alpha(alpha));
         }
         let radii = plan.has(RADIUS);
-        let is_sphere = |p: &[f32; 4]| are_all(p, |c| c.is_finite()) && !(radii && p[3] <= 0.0);
+        let is_sphere = |p: &[f32; 4]| are_all(p, |c| c.is_finite()) & !(radii & (p[3] <= 0.0));
         sound
             && are_all(self.positions, |p| p.is_finite())
             && are_all(self.spheres, is_sphere)
