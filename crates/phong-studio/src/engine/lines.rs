@@ -14,19 +14,19 @@ const MOST_BOUNCES: usize = 4;
 
 /// The lines of the first sample; none where its ray meets nothing, or the camera looks around.
 pub(super) fn of(told: &Explanation, view: &View) -> Vec<Line> {
-    let mut lines = Lines { view, size: told.size, lines: Vec::new() };
+    let mut lines = Lines { view, size: told.size, seen: Vec::new() };
     let end = told.samples.first().and_then(|sample| sample.ray.as_ref()).map(|ray| &ray.end);
     if let Some(End::Surface(surface)) = end {
         lines.vectors(surface);
         lines.onward(surface, MOST_BOUNCES);
     }
-    lines.lines
+    lines.seen
 }
 
 struct Lines<'a> {
     view: &'a View,
     size: [u32; 2],
-    lines: Vec<Line>,
+    seen: Vec<Line>,
 }
 
 impl Lines<'_> {
@@ -43,7 +43,9 @@ impl Lines<'_> {
         for (i, lit) in surface.lights.iter().enumerate() {
             let light = Some(i + 1);
             for (name, v) in [("l", lit.l), ("r", lit.r), ("h", lit.h)] {
-                v.into_iter().for_each(|v| vector(name, light, v));
+                if let Some(v) = v {
+                    vector(name, light, v);
+                }
             }
         }
         for (i, lit) in surface.lights.iter().enumerate() {
@@ -91,7 +93,7 @@ impl Lines<'_> {
         let camera = self.view.camera();
         let (from, to) = (camera.place(from, self.size), camera.place(to, self.size));
         if let (Some(from), Some(to)) = (from, to) {
-            self.lines.push(Line { name, light, from: from.to_array(), to: to.to_array() });
+            self.seen.push(Line { name, light, from: from.to_array(), to: to.to_array() });
         }
     }
 }

@@ -131,7 +131,7 @@ pub(super) fn wells(scene: &Scene) -> Map<String, Value> {
     for material in &scene.materials {
         let color = material.color.constant();
         // What is not said is as the reader takes it: the material's own colour.
-        let or_own = |c: Option<Param<Rgb>>| c.map_or(color, |c| c.constant());
+        let or_own = |c: Option<Param<Rgb>>| c.map_or(color, Param::constant);
         for (key, color) in [
             ("color", color),
             ("ambient_color", or_own(material.ambient_color)),
@@ -185,7 +185,7 @@ impl Opened {
         }
     }
 
-    /// Moves eye and look_at across the view, so that the scene follows the pointer.
+    /// Moves the eye and `look_at` across the view, so that the scene follows the pointer.
     pub(super) fn shift(&mut self, by: [f64; 2]) -> Result<(), String> {
         let [right, down] = finite(by)?;
         let camera = self.camera()?;

@@ -77,8 +77,8 @@ impl Studio {
     fn lets_in(&self, request: &Request) -> bool {
         let (uri, headers) = (request.uri(), request.headers());
         let token = if uri.path() == "/" {
-            let pairs = uri.query().unwrap_or_default().split('&');
-            pairs.filter_map(|pair| pair.strip_prefix("token=")).next()
+            let mut pairs = uri.query().unwrap_or_default().split('&');
+            pairs.find_map(|pair| pair.strip_prefix("token="))
         } else {
             uri.path().split('/').nth(1)
         };

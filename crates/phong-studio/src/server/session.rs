@@ -30,7 +30,7 @@ const SENDING: Duration = Duration::from_secs(10);
 const PING: Duration = Duration::from_secs(20);
 
 /// How long it may be silent.
-const SILENCE: Duration = Duration::from_secs(60);
+const SILENCE: Duration = Duration::from_mins(1);
 
 /// What comes from the client.
 enum Heard {

@@ -73,7 +73,7 @@ impl Studio {
         let mut request = url.into_client_request().unwrap();
         request.headers_mut().insert("Origin", origin.parse().unwrap());
         let stream = TcpStream::connect(self.address).unwrap();
-        stream.set_read_timeout(Some(Duration::from_secs(60))).unwrap();
+        stream.set_read_timeout(Some(Duration::from_mins(1))).unwrap();
         let (socket, _) =
             tungstenite::client(request, stream).map_err(|error| error.to_string())?;
         Ok(Client { socket, page: Page::default() })
