@@ -227,10 +227,8 @@ pub(crate) fn read(args: &InputArgs) -> Result<(Reading, Vec<PathBuf>), Failure>
         only.help = way_out.or_else(|| only.help.take());
     }
     if args.strict {
-        for diagnostic in &mut reading.diagnostics {
+        for diagnostic in reading.diagnostics.iter_mut().filter(|one| !one.is_note()) {
             diagnostic.severity = Severity::Error;
-        }
-        if !reading.diagnostics.is_empty() {
             reading.scene = None;
         }
     }

@@ -36,7 +36,7 @@ pub(crate) fn plain(failure: &Failure) -> String {
 fn drawn(renderer: &Renderer, all: &[Diagnostic]) -> String {
     let mut drawn: Vec<Option<String>> = vec![None; all.len()];
     let mut room = MOST_DRAWN;
-    'all: for severity in [Severity::Error, Severity::Warning] {
+    'all: for severity in [Severity::Error, Severity::Warning, Severity::Note] {
         let these = all.iter().zip(&mut drawn).filter(|(d, _)| d.severity == severity);
         for (diagnostic, place) in these {
             let mut text = String::new();
@@ -48,9 +48,11 @@ fn drawn(renderer: &Renderer, all: &[Diagnostic]) -> String {
     }
     let untold = drawn.iter().filter(|text| text.is_none()).count();
     let mut text: String = drawn.into_iter().flatten().collect();
-    let errors = all.iter().filter(|d| d.is_error()).count();
     if all.len() > 1 || untold > 0 {
-        let counts = [(errors, "error"), (all.len() - errors, "warning")];
+        let severities = [Severity::Error, Severity::Warning, Severity::Note];
+        let counts = severities.map(|severity| {
+            (all.iter().filter(|d| d.severity == severity).count(), severity.word())
+        });
         let counts: Vec<_> = counts.into_iter().filter(|&(n, _)| n > 0).map(count).collect();
         let _ = write!(text, "{}", counts.join(", "));
         if untold > 0 {
@@ -149,6 +151,7 @@ fn draw(renderer: &Renderer, diagnostic: &Diagnostic, text: &mut String) {
     let level = match diagnostic.severity {
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
+        Severity::Note => Level::NOTE,
     };
     let message = &diagnostic.message;
     let end = message.char_indices().nth(LONGEST).map_or(message.len(), |(i, _)| i);

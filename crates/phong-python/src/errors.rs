@@ -2,7 +2,7 @@
 
 use phong::geometry::GeometryError;
 use phong::view::ViewError;
-use phong_scene::{Diagnostic, Severity};
+use phong_scene::Diagnostic;
 use pyo3::exceptions::{
     PyFileNotFoundError, PyIsADirectoryError, PyMemoryError, PyOSError, PyPermissionError,
     PyRuntimeError, PyTypeError, PyValueError,
@@ -20,10 +20,7 @@ pub(crate) fn diagnostic<'py>(
     py: Python<'py>,
     diagnostic: &Diagnostic,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let severity = match diagnostic.severity {
-        Severity::Error => "error",
-        Severity::Warning => "warning",
-    };
+    let severity = diagnostic.severity.word();
     let place = diagnostic.span.as_ref().map(|span| &span.place);
     let file = place.map(|place| &*place.file).filter(|file| !file.is_empty());
     let number = |number: u32| (number > 0).then_some(number);

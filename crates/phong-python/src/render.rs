@@ -206,7 +206,7 @@ fn work_on(
     let ready = snapshot.prepare(image, max_bytes)?;
     let found = ready.warnings.iter().filter(|one| !warnings.contains(one));
     warnings.extend(found.cloned().collect::<Vec<_>>());
-    if strict && !warnings.is_empty() {
+    if strict && !warnings.iter().all(Diagnostic::is_note) {
         return Err(ViewError::Look(warnings));
     }
     let built = began.elapsed().as_secs_f64();

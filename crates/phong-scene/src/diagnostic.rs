@@ -39,11 +39,25 @@ pub struct Span {
 /// How bad it is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
+    /// What became of what a file holds, where nothing is wrong: water that is not drawn.
+    Note,
     /// Worth knowing; the scene is still what was meant.
     #[default]
     Warning,
     /// There is no scene.
     Error,
+}
+
+impl Severity {
+    /// `note`, `warning` or `error`.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Note => "note",
+            Self::Warning => "warning",
+            Self::Error => "error",
+        }
+    }
 }
 
 /// A second place that helps to understand a diagnostic.
@@ -81,6 +95,11 @@ impl Diagnostic {
         Self::new(Severity::Warning, message, span)
     }
 
+    /// A note about a place.
+    pub fn note(message: impl Into<String>, span: impl Into<Option<Span>>) -> Self {
+        Self::new(Severity::Note, message, span)
+    }
+
     fn new(severity: Severity, message: impl Into<String>, span: impl Into<Option<Span>>) -> Self {
         let (message, span) = (message.into(), span.into());
         Self { severity, message, span, help: None, labels: Vec::new() }
@@ -98,6 +117,11 @@ impl Diagnostic {
     pub fn with_label(mut self, message: impl Into<String>, span: Span) -> Self {
         self.labels.push(Label { message: message.into(), span });
         self
+    }
+
+    /// Whether this is a note: nothing is wrong.
+    pub fn is_note(&self) -> bool {
+        self.severity == Severity::Note
     }
 
     /// Whether this is an error.
@@ -127,11 +151,7 @@ impl fmt::Display for Diagnostic {
         if let Some(span) = &self.span {
             write!(f, "{}: ", span.place)?;
         }
-        f.write_str(match self.severity {
-            Severity::Error => "error: ",
-            Severity::Warning => "warning: ",
-        })?;
-        f.write_str(&self.message)?;
+        write!(f, "{}: {}", self.severity.word(), self.message)?;
         self.help.as_ref().map_or(Ok(()), |help| write!(f, " ({help})"))
     }
 }

@@ -1,6 +1,6 @@
 //! `phong check`: read and validate, no more.
 
-use phong_scene::{Diagnostic, Place, Severity, Span};
+use phong_scene::{Diagnostic, Place, Span};
 use serde_json::json;
 
 use crate::args::QuestionArgs;
@@ -52,10 +52,7 @@ pub(crate) fn json(diagnostic: &Diagnostic) -> serde_json::Value {
         json!({ "message": label.message, "file": file, "line": line, "column": column })
     });
     json!({
-        "severity": match diagnostic.severity {
-            Severity::Error => "error",
-            Severity::Warning => "warning",
-        },
+        "severity": diagnostic.severity.word(),
         "message": diagnostic.message,
         "file": file,
         "line": line,

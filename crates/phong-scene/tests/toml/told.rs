@@ -1,6 +1,6 @@
 //! Diagnostics as text, with the mark under what is meant.
 
-use phong_scene::{Diagnostic, Severity, Span};
+use phong_scene::{Diagnostic, Span};
 
 /// All of them, one after another.
 pub(crate) fn all(diagnostics: &[Diagnostic]) -> String {
@@ -9,11 +9,7 @@ pub(crate) fn all(diagnostics: &[Diagnostic]) -> String {
 
 fn one(diagnostic: &Diagnostic) -> String {
     let Diagnostic { severity, message, span, help, labels } = diagnostic;
-    let severity = match severity {
-        Severity::Error => "error",
-        Severity::Warning => "warning",
-    };
-    let mut lines = vec![format!("{severity}: {message}")];
+    let mut lines = vec![format!("{}: {message}", severity.word())];
     lines.extend(span.iter().flat_map(marked));
     for label in labels {
         lines.push(format!("  {}:", label.message));

@@ -6,8 +6,7 @@ use std::sync::Arc;
 use phong::geometry::{Geometry, GeometryOptions};
 use phong::look::Look;
 use phong::scene::{
-    Blob, Diagnostic, Format, Image, Limits, Memory, Place, Scene, Severity, Source, Span, read,
-    trouble,
+    Blob, Diagnostic, Format, Image, Limits, Memory, Place, Scene, Source, Span, read, trouble,
 };
 use phong::view::View;
 use serde_json::{Map, Value, json};
@@ -239,10 +238,7 @@ fn told(diagnostic: &Diagnostic) -> Value {
     };
     let (file, line, column) = diagnostic.span.as_ref().map_or((String::new(), None, None), place);
     json!({
-        "severity": match diagnostic.severity {
-            Severity::Error => "error",
-            Severity::Warning => "warning",
-        },
+        "severity": diagnostic.severity.word(),
         "message": diagnostic.message,
         "file": file,
         "line": line,

@@ -453,11 +453,11 @@ pub(super) fn tell(
     message: &str,
 ) {
     let plural = match (element, severity) {
-        ("vertex", Severity::Warning) => "vertices of which something is left out",
+        ("vertex", Severity::Note | Severity::Warning) => "vertices of which something is left out",
         ("vertex", Severity::Error) => "vertices that cannot be read",
-        ("edge", Severity::Warning) => "edges that are left out",
+        ("edge", Severity::Note | Severity::Warning) => "edges that are left out",
         ("edge", Severity::Error) => "edges that cannot be drawn",
-        (_, Severity::Warning) => "faces that are left out",
+        (_, Severity::Note | Severity::Warning) => "faces that are left out",
         (_, Severity::Error) => "faces that cannot be drawn",
     };
     let left_out = element != "vertex" && severity == Severity::Warning;

@@ -63,6 +63,16 @@ impl Findings {
         self.add(Severity::Warning, plural, || Diagnostic::warning(message(), span()));
     }
 
+    /// One more thing that is told.
+    pub(crate) fn note(
+        &mut self,
+        plural: &'static str,
+        span: impl FnOnce() -> Span,
+        message: impl FnOnce() -> String,
+    ) {
+        self.add(Severity::Note, plural, || Diagnostic::note(message(), span()));
+    }
+
     /// Takes over what was found in a later piece of the same file.
     pub(crate) fn append(&mut self, later: Self) {
         for kind in later.kinds {
@@ -88,9 +98,9 @@ impl Findings {
             if untold > 0 {
                 let span = whole(file);
                 let message = format!("and {untold} more {}", kind.plural);
-                more.push(match kind.severity {
-                    Severity::Error => Diagnostic::error(message, span),
-                    Severity::Warning => Diagnostic::warning(message, span),
+                more.push(Diagnostic {
+                    severity: kind.severity,
+                    ..Diagnostic::warning(message, span)
                 });
             }
         }
