@@ -1,0 +1,273 @@
+//! Spheres and cylinders of atoms and bonds.
+
+use glam::{DVec3, Vec3};
+
+use super::bonds::by_radii;
+use super::style::{Drawing, Style};
+use super::wrong::Wrong;
+use super::{Molecule, Selection, names};
+use crate::color::Rgb;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::elements::van_der_waals_radius;
+use crate::mesh::{Caps, Cylinders, Points};
+use crate::shape::Shape;
+
+/// The radius of atoms of unknown elements among known ones, in Å.
+const UNKNOWN: f32 = 1.7;
+
+/// Balls, as a share of the van der Waals radii.
+const BALL: f32 = 0.25;
+
+/// Radii of bonds in Å: between balls, and alone.
+const BETWEEN_BALLS: f32 = 0.13;
+const ALONE: f32 = 0.22;
+
+/// Atoms of which balls and sticks can be told apart in a picture.
+const FEW: usize = 400;
+
+/// The cell's lines, as a share of the distance between its faces.
+const LINE: f64 = 1.0 / 150.0;
+
+/// A molecule as shapes.
+#[derive(Debug, Default)]
+pub(crate) struct Drawn {
+    /// The shapes with what they are called.
+    pub(crate) shapes: Vec<(&'static str, Shape)>,
+    /// What was left out on purpose.
+    pub(crate) notes: Vec<String>,
+}
+
+impl Molecule {
+    /// Makes shapes of it.
+    ///
+    /// # Errors
+    /// What is wrong with the drawing, or that nothing is left to be drawn; `file` is the file as a whole.
+    pub(crate) fn draw(mut self, drawing: &Drawing, file: &Span) -> Result<Drawn, Box<Diagnostic>> {
+        let error = |wrong: Wrong, span: &Option<Span>| {
+            let error =
+                Diagnostic::error(wrong.message, span.clone().unwrap_or_else(|| file.clone()));
+            Box::new(match wrong.help {
+                Some(help) => error.with_help(help),
+                None => error,
+            })
+        };
+        let mut drawn = Drawn::default();
+        match &drawing.select {
+            Some(selection) => {
+                let keep = selection.of(&self).map_err(|(at, wrong)| {
+                    error(
+                        wrong,
+                        &drawing
+                            .spans
+                            .select
+                            .as_ref()
+                            .map(|span| Selection::narrow(selection.text(), span, at)),
+                    )
+                })?;
+                if !keep.contains(&true) {
+                    let message = "no atom of the file is selected".to_owned();
+                    return Err(error(Wrong { message, help: None }, &drawing.spans.select));
+                }
+                self.retain(&keep);
+            }
+            None => {
+                let water = self.water();
+                let count = water.iter().filter(|water| **water).count();
+                if count > 0 && count < self.len() {
+                    let keep: Vec<bool> = water.iter().map(|water| !water).collect();
+                    self.retain(&keep);
+                    drawn.notes.push(format!("water is not drawn: {count} atoms"));
+                }
+            }
+        }
+        let colors =
+            self.colors_by(drawing).map_err(|wrong| error(wrong, &drawing.spans.color_by))?;
+        let bonds = match drawing.style {
+            Some(Style::Spacefill) => Vec::new(),
+            None if self.len() > FEW => Vec::new(),
+            _ => self.all_bonds(&mut drawn.notes),
+        };
+        let style = drawing.style.unwrap_or(if 2 * bonds.len() >= self.len() && self.len() > 1 {
+            Style::BallAndStick
+        } else {
+            Style::Spacefill
+        });
+        if style != Style::Spacefill && bonds.is_empty() {
+            drawn.notes.push("the atoms have no bonds".to_owned());
+        }
+        let cell = self.cell.filter(|_| drawing.cell);
+        if drawing.cell && cell.is_none() {
+            let message = "the file says nothing of a cell".to_owned();
+            return Err(error(Wrong { message, help: None }, &drawing.spans.cell));
+        }
+        let guessed = self
+            .set_radii(drawing, style)
+            .map_err(|wrong| error(wrong, &drawing.spans.radius_by))?;
+
+        let stick = drawing.bond_radius.unwrap_or(match style {
+            Style::Sticks => ALONE,
+            Style::BallAndStick | Style::Spacefill => BETWEEN_BALLS,
+        });
+        let sticks = self.cylinders(&bonds, &colors, stick, style);
+        let mut keep = vec![true; self.len()];
+        if style == Style::Sticks {
+            bonds.iter().flatten().for_each(|atom| keep[*atom as usize] = false);
+        }
+        let kept = |i: usize| keep[i];
+        let spheres: Vec<[f32; 4]> = if keep.contains(&false) {
+            (0..self.len()).filter(|i| kept(*i)).map(|i| self.spheres[i]).collect()
+        } else {
+            std::mem::take(&mut self.spheres)
+        };
+        let colors: Vec<Rgb> = if colors.is_empty() || !keep.contains(&false) {
+            colors
+        } else {
+            (0..colors.len()).filter(|i| kept(*i)).map(|i| colors[i]).collect()
+        };
+        if !spheres.is_empty() {
+            let mut points = Points {
+                origin: self.origin,
+                spheres: spheres.into(),
+                colors: colors.into(),
+                guessed: None,
+            };
+            if guessed {
+                points.guess_radius();
+                if let Some(radius) = points.guessed.filter(|_| drawing.radius_scale != 1.0) {
+                    points.set_radius(Some(radius * drawing.radius_scale));
+                    points.guessed = None;
+                }
+            }
+            drawn.shapes.push(("atoms", points.into()));
+        }
+        if let Some(sticks) = sticks {
+            drawn.shapes.push(("bonds", sticks.into()));
+        }
+        if let Some(cell) = cell {
+            let radius = (cell.thickness() * LINE) as f32;
+            let end = |place: DVec3| {
+                let [x, y, z] = (place - self.origin).as_vec3().to_array();
+                [x, y, z, radius]
+            };
+            let segments = cell.outline().into_iter().map(|edge| edge.map(end)).collect();
+            let color = [Rgb::from_srgb8([0x30; 3]); 2];
+            let lines = Cylinders {
+                origin: self.origin,
+                segments,
+                colors: vec![color; 12].into(),
+                caps: Caps::Round,
+            };
+            drawn.shapes.push(("cell", lines.into()));
+        }
+        Ok(drawn)
+    }
+
+    /// Which atoms are of water.
+    fn water(&self) -> Vec<bool> {
+        let Some(residues) = self.words(names::RESIDUE) else { return Vec::new() };
+        let of: Vec<bool> =
+            residues.names.iter().map(|name| super::residue::is_water(name)).collect();
+        if !of.contains(&true) {
+            return Vec::new();
+        }
+        residues.numbers.iter().map(|number| of[*number as usize]).collect()
+    }
+
+    /// The file's own bonds, and those by covalent radii unless the file has all.
+    fn all_bonds(&self, notes: &mut Vec<String>) -> Vec<[u32; 2]> {
+        let mut bonds: Vec<[u32; 2]> = self
+            .bonds
+            .iter()
+            .filter(|[a, b]| a != b)
+            .map(|[a, b]| [*a.min(b), *a.max(b)])
+            .collect();
+        if !self.all_bonds && self.knows_elements() {
+            bonds.extend(by_radii(&self.spheres, &self.elements));
+        }
+        bonds.sort_unstable();
+        bonds.dedup();
+        let at = |atom: u32| Vec3::from_slice(&self.spheres[atom as usize][..3]);
+        // Bonds go to the nearest image, which is in the next cell if that is more than half a cell away.
+        if let Some(cell) = self.cell {
+            let half = (0.5 * cell.thickness()) as f32;
+            let before = bonds.len();
+            bonds.retain(|[a, b]| at(*a).distance(at(*b)) <= half);
+            let gone = before - bonds.len();
+            if gone > 0 {
+                notes.push(format!("bonds to the next cell are not drawn: {gone}"));
+            }
+        }
+        bonds.retain(|[a, b]| at(*a) != at(*b));
+        bonds
+    }
+
+    /// Gives every atom the radius that it is drawn with; whether it is still to be guessed.
+    fn set_radii(&mut self, drawing: &Drawing, style: Style) -> Result<bool, Wrong> {
+        let scale = drawing.radius_scale;
+        let share = if style == Style::Spacefill { scale } else { BALL * scale };
+        if let Some(name) = &drawing.radius_by {
+            let column = self.known(name)?.values.clone();
+            let super::Values::Numbers(radii) = column else {
+                let message = format!("the column `{name}` holds words, not radii");
+                return Err(Wrong { message, help: None });
+            };
+            for (sphere, radius) in self.spheres.iter_mut().zip(&radii) {
+                sphere[3] = radius * scale;
+            }
+            let wrong = |radius: &f32| !(radius.is_finite() && *radius > 0.0);
+            let keep: Vec<bool> = radii.iter().map(|radius| !wrong(radius)).collect();
+            if keep.contains(&false) {
+                let count = keep.iter().filter(|keep| !**keep).count();
+                let message =
+                    format!("radii must be above 0: in the column `{name}` {count} are not");
+                return Err(Wrong { message, help: None });
+            }
+            return Ok(false);
+        }
+        if let Some(radius) = drawing.radius {
+            self.spheres.iter_mut().for_each(|sphere| sphere[3] = radius * scale);
+            return Ok(false);
+        }
+        let own = self.spheres.iter().any(|sphere| sphere[3] > 0.0);
+        if !own && !self.knows_elements() {
+            return Ok(true);
+        }
+        let radii: Vec<f32> =
+            (0..=u8::MAX).map(|e| van_der_waals_radius(e).unwrap_or(UNKNOWN)).collect();
+        let largest = self.spheres.iter().map(|sphere| sphere[3]).fold(0.0, f32::max);
+        for (i, sphere) in self.spheres.iter_mut().enumerate() {
+            if sphere[3] > 0.0 {
+                sphere[3] *= scale;
+            } else {
+                let element = self.elements.get(i).copied();
+                sphere[3] = element.map_or(largest, |element| radii[usize::from(element)]) * share;
+            }
+        }
+        Ok(false)
+    }
+
+    /// The bonds as cylinders, each half of the colour of its atom.
+    fn cylinders(
+        &self,
+        bonds: &[[u32; 2]],
+        colors: &[Rgb],
+        radius: f32,
+        style: Style,
+    ) -> Option<Cylinders> {
+        if style == Style::Spacefill || bonds.is_empty() {
+            return None;
+        }
+        let end = |atom: u32| {
+            let [x, y, z, _] = self.spheres[atom as usize];
+            [x, y, z, radius]
+        };
+        let color = |atom: u32| colors.get(atom as usize).copied();
+        let halves = |[a, b]: &[u32; 2]| Some([color(*a)?, color(*b)?]);
+        Some(Cylinders {
+            origin: self.origin,
+            segments: bonds.iter().map(|bond| bond.map(end)).collect(),
+            colors: bonds.iter().filter_map(halves).collect(),
+            caps: if style == Style::Sticks { Caps::Round } else { Caps::Open },
+        })
+    }
+}

@@ -1,0 +1,87 @@
+//! How atoms are drawn.
+
+use super::Selection;
+use super::maps::ColorMap;
+use crate::diagnostic::Span;
+use crate::wording::words;
+
+words!(Style {
+    "spacefill" = Spacefill,
+    "ball-and-stick" = BallAndStick,
+    "sticks" = Sticks,
+});
+
+/// What atoms and bonds become.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Style {
+    /// Spheres of the atoms' van der Waals radii.
+    Spacefill,
+    /// Small spheres, and cylinders for bonds.
+    BallAndStick,
+    /// Bonds alone.
+    Sticks,
+}
+
+/// What of a molecule is drawn, and how.
+#[derive(Clone, Debug)]
+pub(crate) struct Drawing {
+    /// What atoms become; `None`: sticks and balls if there are few atoms and bonds between them.
+    pub(crate) style: Option<Style>,
+    /// What is drawn; `None`: all but water, if there is anything else.
+    pub(crate) select: Option<Selection>,
+    /// The column that colours are by; `None`: the file's own colours, else elements, else types.
+    pub(crate) color_by: Option<String>,
+    /// The colours of numbers; `None`: one that fits the column.
+    pub(crate) color_map: Option<ColorMap>,
+    /// The numbers that the ends of the map stand for; `None`: the least and the largest there are.
+    pub(crate) color_range: Option<[f64; 2]>,
+    /// The column that radii are by.
+    pub(crate) radius_by: Option<String>,
+    /// The radius of all; `None`: the file's own, else those of the elements.
+    pub(crate) radius: Option<f32>,
+    /// What all radii are multiplied by.
+    pub(crate) radius_scale: f32,
+    /// The radius of bonds; `None`: as the style has it.
+    pub(crate) bond_radius: Option<f32>,
+    /// Whether the cell is drawn.
+    pub(crate) cell: bool,
+    /// Where the keys were written, for what is wrong with them.
+    pub(crate) spans: Spans,
+}
+
+/// Where keys of a drawing were written.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Spans {
+    pub(crate) select: Option<Span>,
+    pub(crate) color_by: Option<Span>,
+    pub(crate) radius_by: Option<Span>,
+    pub(crate) cell: Option<Span>,
+}
+
+impl Default for Drawing {
+    fn default() -> Self {
+        Self {
+            style: None,
+            select: None,
+            color_by: None,
+            color_map: None,
+            color_range: None,
+            radius_by: None,
+            radius: None,
+            radius_scale: 1.0,
+            bond_radius: None,
+            cell: false,
+            spans: Spans::default(),
+        }
+    }
+}
+
+impl Drawing {
+    /// Whether a column of this name is asked for.
+    pub(crate) fn uses(&self, column: &str) -> bool {
+        let by = |name: &Option<String>| name.as_deref() == Some(column);
+        by(&self.color_by)
+            || by(&self.radius_by)
+            || self.select.as_ref().is_some_and(|select| select.uses(column))
+    }
+}
