@@ -1,6 +1,7 @@
 //! Model files in, summaries and diagnostics out.
 //!
-//! Beside every `NAME.obj`, `.mtl`, `.ply` and `.stl` lies `NAME.txt`: what reading it gives, as text.
+//! Beside every `NAME.obj`, `.mtl`, `.ply` and `.stl` lies `NAME.txt`: what reading it gives, as text;
+//! beside files of atoms `NAME.ENDING.txt`.
 //! `PHONG_BLESS=1` writes the texts anew.
 
 mod differing;
@@ -32,6 +33,16 @@ fn stl_files_give_what_lies_beside_them() -> io::Result<()> {
 }
 
 #[test]
+fn files_of_atoms_give_what_lies_beside_them() -> io::Result<()> {
+    for ending in ["xyz", "pdb", "gro", "lammpstrj", "data", "cif"] {
+        for_each_of("atoms", ending, |name, source| {
+            Ok(read(name, None, source, &Limits::default()))
+        })?;
+    }
+    Ok(())
+}
+
+#[test]
 fn mtl_files_give_what_lies_beside_them() -> io::Result<()> {
     for_each("mtl", |name, source| {
         // One triangle of each material.
@@ -53,13 +64,22 @@ fn folder(kind: &str) -> PathBuf {
 
 /// Reads every file of a kind among its neighbours, and compares.
 fn for_each(kind: &str, read: impl Fn(&str, &Memory) -> io::Result<Reading>) -> io::Result<()> {
+    for_each_of(kind, kind, read)
+}
+
+/// The same of the files in `kind` whose names end so.
+fn for_each_of(
+    kind: &str,
+    wanted: &str,
+    read: impl Fn(&str, &Memory) -> io::Result<Reading>,
+) -> io::Result<()> {
     let mut source = Memory::new();
     let mut names = Vec::new();
     for entry in fs::read_dir(folder(kind))? {
         let entry = entry?;
         let (path, name) = (entry.path(), entry.file_name().to_string_lossy().into_owned());
         source = source.with(name.as_str(), fs::read(&path)?);
-        if path.extension().is_some_and(|ending| ending == kind) {
+        if path.extension().is_some_and(|ending| ending == wanted) {
             names.push(name);
         }
     }
@@ -71,7 +91,9 @@ fn for_each(kind: &str, read: impl Fn(&str, &Memory) -> io::Result<Reading>) -> 
         let reading = read(&name, &source)?;
         assert_eq!(reading.scene.is_none(), reading.diagnostics.iter().any(Diagnostic::is_error));
         let actual = tell(&reading);
-        let beside = folder(kind).join(&name).with_extension("txt");
+        // Files of several endings may be called the same.
+        let text = if kind == wanted { "txt".to_owned() } else { format!("{wanted}.txt") };
+        let beside = folder(kind).join(&name).with_extension(text);
         let expected = fs::read_to_string(&beside).unwrap_or_default();
         if bless {
             fs::write(&beside, &actual)?;

@@ -4,6 +4,7 @@ use crate::change::Change;
 use crate::diagnostic::Diagnostic;
 use crate::fragment::Fragment;
 use crate::limits::Limits;
+use crate::molecule::Drawing;
 use crate::scene::Reading;
 use crate::source::Source;
 
@@ -19,6 +20,8 @@ pub(crate) struct Input<'a> {
     pub(crate) radius: Option<f32>,
     /// What of it is wanted.
     pub(crate) wanted: Wanted,
+    /// How atoms are drawn; `None`: as it suits them.
+    pub(crate) drawing: Option<&'a Drawing>,
     /// What is laid over its text.
     pub(crate) changes: &'a [Change],
 }
@@ -38,7 +41,15 @@ pub(crate) enum Wanted {
 impl<'a> Input<'a> {
     /// The file at a path, where nobody says how large points are.
     pub(crate) fn new(path: &'a str, source: &'a dyn Source, limits: &'a Limits) -> Self {
-        Self { path, source, limits, radius: None, wanted: Wanted::Anything, changes: &[] }
+        Self {
+            path,
+            source,
+            limits,
+            radius: None,
+            wanted: Wanted::Anything,
+            drawing: None,
+            changes: &[],
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use std::fmt;
 use super::export::WriteScene;
 use super::input::{Models, Named, ReadModel, ReadScene};
 use super::text::decode;
-use super::{obj, ply, stl, toml};
+use super::{cif, gro, lammps, obj, pdb, ply, stl, toml, xyz};
 use crate::source::Source;
 use crate::unpack::head_of;
 
@@ -33,12 +33,16 @@ pub enum Format {
     Stl,
     /// glTF 2.0, as text or binary. Known, not read yet.
     Gltf,
-    /// Protein Data Bank. Known, not read yet.
+    /// Protein Data Bank: atoms of large molecules.
     Pdb,
-    /// mmCIF. Known, not read yet.
+    /// CIF: mmCIF of large molecules, and crystals of small ones.
     Cif,
-    /// XYZ coordinates. Known, not read yet.
+    /// XYZ, plain and extended: atoms, a line each; also plain points.
     Xyz,
+    /// GRO, of GROMACS: atoms in nanometres.
+    Gro,
+    /// LAMMPS: dumps and data files of particles.
+    Lammps,
     /// Tachyon scenes. Known, not read yet.
     Tachyon,
     /// Neutral File Format. Known, not read yet.
@@ -72,7 +76,7 @@ pub(crate) enum Read {
 }
 
 /// Every format.
-static TABLE: [Entry; 10] = [
+static TABLE: [Entry; 12] = [
     Entry {
         format: Format::Toml,
         name: "TOML scene",
@@ -121,28 +125,46 @@ static TABLE: [Entry; 10] = [
     Entry {
         format: Format::Pdb,
         name: "PDB",
-        endings: &["pdb"],
-        tells: None,
+        endings: &["pdb", "ent"],
+        tells: Some(pdb::is_pdb),
         bare: true,
-        read: None,
+        read: Some(Read::Model(pdb::read)),
         write: None,
     },
     Entry {
         format: Format::Cif,
-        name: "mmCIF",
-        endings: &["cif"],
-        tells: None,
+        name: "CIF",
+        endings: &["cif", "mmcif"],
+        tells: Some(cif::is_cif),
         bare: true,
-        read: None,
+        read: Some(Read::Model(cif::read)),
         write: None,
     },
     Entry {
         format: Format::Xyz,
         name: "XYZ",
-        endings: &["xyz"],
+        endings: &["xyz", "extxyz"],
         tells: None,
         bare: true,
-        read: None,
+        read: Some(Read::Model(xyz::read)),
+        write: None,
+    },
+    Entry {
+        format: Format::Gro,
+        name: "GRO",
+        endings: &["gro"],
+        tells: None,
+        bare: true,
+        read: Some(Read::Model(gro::read)),
+        write: None,
+    },
+    Entry {
+        format: Format::Lammps,
+        name: "LAMMPS",
+        endings: &["lammpstrj", "dump", "data", "lmp", "lammps"],
+        tells: Some(lammps::is_dump),
+        bare: true,
+        read: Some(Read::Model(lammps::read)),
         write: None,
     },
     Entry {

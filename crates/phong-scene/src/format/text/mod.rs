@@ -7,5 +7,5 @@ mod report;
 
 pub(crate) use encoding::{as_text, decode, name_of, open_text, read_text};
 pub(crate) use lines::{Cursor, Lines, Piece};
-pub(crate) use number::{Decimal, blame, take_digits};
-pub(crate) use report::{Findings, TOLD, whole};
+pub(crate) use number::{BadNumber, Decimal, blame, take_digits};
+pub(crate) use report::{Findings, TOLD, span, whole};
