@@ -54,6 +54,7 @@
 //! | `mesh` | a list of tables | none | The triangles of a file. |
 //! | `points` | a list of tables | none | A sphere at every point of a file. |
 //! | `cylinders` | a list of tables | none | A cylinder along every segment of a file. |
+//! | `molecule` | a list of tables | none | The atoms or particles of a file, and the bonds between them. |
 //! | `instance` | a list of tables | none | A group, placed. |
 //! | `include` | a list of tables | none | Other files, at this place. |
 //!

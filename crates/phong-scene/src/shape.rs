@@ -165,6 +165,35 @@
 //! Colours of the edges replace the material's. Without, colours of the vertices do: each half of a cylinder is of the
 //! colour of its end, as bonds are drawn.
 //!
+//! # `[[molecule]]`
+//!
+//! ```toml
+//! [[molecule]]
+//! file = "1abc.pdb"
+//! style = "sticks"
+//! select = "chain A and not hydrogen"
+//! ```
+//!
+//! | key | value | default | meaning |
+//! |---|---|---|---|
+//! | `file` | the path of a file, in quotes | required | A file of atoms or particles: PDB, CIF, XYZ, GRO or LAMMPS. |
+//! | `style` | `spacefill`, `ball-and-stick` or `sticks` | `"ball-and-stick"` for up to 400 atoms with bonds, else `"spacefill"` | Spheres of the van der Waals radii; balls of a quarter of them, and sticks for bonds; sticks alone. |
+//! | `select` | text | all but water, if there is anything else | What is drawn: `chain A and not water`, `residue ALA 10-20 or z < 5`. |
+//! | `color_by` | text | the file's colours, else `element`, else `type` | `element`, or a column of the file: `chain`, `residue`, `number`, `b-factor`, `charge`, `type`, …. |
+//! | `color_map` | `viridis`, `blue-white-red` or `grey` | `"viridis"`, for `charge` `"blue-white-red"` | The colours of a column of numbers. |
+//! | `color_range` | a number or a list of numbers | the least and the largest number of the column | The two numbers that the ends of the colours stand for, `[low, high]`. |
+//! | `radius` | a number above 0 | the file's own, else those of the elements, else neighbours touch | Radius of all spheres. |
+//! | `radius_by` | text | none | A column of numbers above 0, which are the radii. |
+//! | `radius_scale` | a number above 0 | `1` | What all radii of spheres are multiplied by. |
+//! | `bond_radius` | a number above 0 | 0.13, for sticks alone 0.22 | Radius of the sticks, in Å. |
+//! | `cell` | `true` or `false` | `false` | Whether the edges of the cell are drawn. |
+//! | `material` | the name of a material, in quotes | the file's own, else the default material | The name of its material; replaces the file's own. |
+//!
+//! Selections are made of `all`, `none`, `protein`, `nucleic`, `water`, `ion`, `backbone` and `hydrogen`; of `element`,
+//! `chain`, `name`, `residue` and the names of columns, each with one or more values (`chain A B`, `residue ALA 10-20`);
+//! of comparisons (`z < 5`, `b-factor >= 50`); joined by `not`, `and`, `or` and parentheses. Of alternate locations
+//! those of the highest occupancy are drawn, and of several models the first.
+//!
 //! # `[[instance]]`
 //!
 //! ```toml

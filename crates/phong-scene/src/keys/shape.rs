@@ -5,6 +5,7 @@ use super::value::Stored;
 use super::{Default, Key, Kind, Table};
 use crate::limits::Range;
 use crate::mesh::Caps;
+use crate::molecule::{ColorMap, Style};
 use crate::shape::Shape;
 use crate::wording::Word;
 
@@ -334,6 +335,89 @@ pub(crate) static CYLINDERS: Table = Table {
     ],
 };
 
+/// `[[molecule]]`.
+pub(crate) static MOLECULE: Table = Table {
+    name: "molecule",
+    doc: "The atoms or particles of a file, and the bonds between them.",
+    select: None,
+    keys: &[
+        &[
+            Key::new(
+                "file",
+                Kind::File,
+                Default::Required,
+                "A file of atoms or particles: PDB, CIF, XYZ, GRO or LAMMPS.",
+            ),
+            Key::new(
+                "style",
+                Kind::Word(Style::WORDS),
+                Default::Said(
+                    "`\"ball-and-stick\"` for up to 400 atoms with bonds, else `\"spacefill\"`",
+                ),
+                "Spheres of the van der Waals radii; balls of a quarter of them, and sticks for bonds; \
+                 sticks alone.",
+            ),
+            Key::new(
+                "select",
+                Kind::Text,
+                Default::Said("all but water, if there is anything else"),
+                "What is drawn: `chain A and not water`, `residue ALA 10-20 or z < 5`.",
+            ),
+            Key::new(
+                "color_by",
+                Kind::Text,
+                Default::Said("the file's colours, else `element`, else `type`"),
+                "`element`, or a column of the file: `chain`, `residue`, `number`, `b-factor`, \
+                 `charge`, `type`, ….",
+            ),
+            Key::new(
+                "color_map",
+                Kind::Word(ColorMap::WORDS),
+                Default::Said("`\"viridis\"`, for `charge` `\"blue-white-red\"`"),
+                "The colours of a column of numbers.",
+            ),
+            Key::new(
+                "color_range",
+                Kind::Numbers,
+                Default::Said("the least and the largest number of the column"),
+                "The two numbers that the ends of the colours stand for, `[low, high]`.",
+            ),
+            Key::new(
+                "radius",
+                Kind::Number(Range::POSITIVE),
+                Default::Said("the file's own, else those of the elements, else neighbours touch"),
+                "Radius of all spheres.",
+            ),
+            Key::new(
+                "radius_by",
+                Kind::Text,
+                Default::Said("none"),
+                "A column of numbers above 0, which are the radii.",
+            ),
+            Key::new(
+                "radius_scale",
+                Kind::Number(Range::POSITIVE),
+                Default::Number(1.0),
+                "What all radii of spheres are multiplied by.",
+            ),
+            Key::new(
+                "bond_radius",
+                Kind::Number(Range::POSITIVE),
+                Default::Said("0.13, for sticks alone 0.22"),
+                "Radius of the sticks, in Å.",
+            ),
+            Key::new(
+                "cell",
+                Kind::Flag,
+                Default::Flag(false),
+                "Whether the edges of the cell are drawn.",
+            ),
+        ],
+        &FILE_MATERIAL,
+        &PLACED,
+    ],
+};
+
 /// `[[instance]]`.
 pub(crate) static INSTANCE: Table = Table {
     name: "instance",
@@ -358,6 +442,7 @@ pub(crate) const SHAPES: &[Key] = &[
     shapes(&MESH),
     shapes(&POINTS),
     shapes(&CYLINDERS),
+    shapes(&MOLECULE),
     shapes(&INSTANCE),
 ];
 

@@ -41,6 +41,7 @@ cases! {
     groups_come_after_those_they_hold
     inline_and_dotted_tables_are_tables
     meshes_keep_their_normals_or_are_smoothed_or_flat
+    molecules_are_drawn_in_styles_and_colours
     objects_are_numbered_by_kind_in_the_order_of_the_text
     parameters_vary_by_textures
     points_are_spheres_of_the_radius_given
@@ -94,6 +95,7 @@ cases! {
     nan_and_infinity_are_wrong_everywhere
     numbers_that_are_bytes_or_radians_are_doubted
     one_table_and_several_are_not_the_same
+    selections_and_columns_are_told_at_their_place
     shapes_that_are_none_are_told
     textures_that_are_not_there_or_do_not_fit
     the_only_version_is_one

@@ -187,7 +187,7 @@ impl Reader<'_> {
 
     /// The objects of the fragment of this number, those of its groups as groups of the scene; each
     /// shape as `make` makes it, or left out.
-    fn parts(
+    pub(super) fn parts(
         &mut self,
         fragment: Fragment,
         number: usize,
@@ -240,11 +240,34 @@ impl Reader<'_> {
         wanted: Wanted,
         radius: Option<f32>,
     ) -> Option<(String, Fragment, usize)> {
+        let (file, read) = self.reader_of(v, path)?;
+        let mut fragment = match self.read.find(&normal(&file), wanted, radius) {
+            Some(fragment) => fragment,
+            None => self.read_file(v, &file, read, wanted, radius)?,
+        };
+        let number = self.take_materials(v, &mut fragment);
+        Some((file, fragment, number))
+    }
+
+    /// Takes the materials and textures of a fragment, if its own are wanted; the number of their list.
+    pub(super) fn take_materials(&mut self, v: &Values, fragment: &mut Fragment) -> usize {
+        // All of it is of the material that the table names, if it names one.
+        self.fragments.push(if v.has("material") {
+            Looks::default()
+        } else {
+            let materials = fragment.materials.split_off(1);
+            Looks { materials, textures: std::mem::take(&mut fragment.textures) }
+        });
+        self.fragments.len() - 1
+    }
+
+    /// The file that `v` names and what reads it.
+    pub(super) fn reader_of(&mut self, v: &Values, path: &str) -> Option<(String, ReadModel)> {
         let name = v.text("file")?;
         let spot = v.spot_of("file");
         let file = join(path, &name);
         let message = match (self.models.find)(&file, self.source) {
-            Named::Model(read) => return self.read_fragment(v, file, read, wanted, radius),
+            Named::Model(read) => return Some((file, read)),
             Named::Scene => "a scene cannot be drawn as a model".to_owned(),
             Named::NotYet(format) => format!("{format} files are not read yet"),
             Named::Unknown => {
@@ -256,28 +279,6 @@ impl Reader<'_> {
         None
     }
 
-    fn read_fragment(
-        &mut self,
-        v: &Values,
-        file: String,
-        read: ReadModel,
-        wanted: Wanted,
-        radius: Option<f32>,
-    ) -> Option<(String, Fragment, usize)> {
-        let mut fragment = match self.read.find(&normal(&file), wanted, radius) {
-            Some(fragment) => fragment,
-            None => self.read_file(v, &file, read, wanted, radius)?,
-        };
-        // All of it is of the material that the table names, if it names one.
-        self.fragments.push(if v.has("material") {
-            Looks::default()
-        } else {
-            let materials = fragment.materials.split_off(1);
-            Looks { materials, textures: std::mem::take(&mut fragment.textures) }
-        });
-        Some((file, fragment, self.fragments.len() - 1))
-    }
-
     fn read_file(
         &mut self,
         v: &Values,
@@ -286,15 +287,28 @@ impl Reader<'_> {
         wanted: Wanted,
         radius: Option<f32>,
     ) -> Option<Fragment> {
+        let input = Input { radius, wanted, ..Input::new(file, self.source, self.limits) };
+        let fragment = self.read_input(v, &input, read)?;
+        self.read.keep(normal(file), wanted, radius, &fragment);
+        Some(fragment)
+    }
+
+    /// Reads a file and says what there is to say about it.
+    pub(super) fn read_input(
+        &mut self,
+        v: &Values,
+        input: &Input<'_>,
+        read: ReadModel,
+    ) -> Option<Fragment> {
+        let file = input.path;
         let spot = v.spot_of("file");
         if let Err(e) = self.source.open(file) {
             let message = format!("{} cannot be read: {}", wording::path(file), trouble(&e));
             self.notes.error(spot, message);
             return None;
         }
-        let input = Input { radius, wanted, ..Input::new(file, self.source, self.limits) };
         let mut said = Vec::new();
-        let fragment = read(&input, &mut said);
+        let fragment = read(input, &mut said);
         for diagnostic in said {
             let label = self.notes.span(spot);
             let diagnostic = if diagnostic.is_error() {
@@ -304,9 +318,7 @@ impl Reader<'_> {
             };
             self.notes.say(spot, diagnostic);
         }
-        let fragment = fragment?;
-        self.read.keep(normal(file), wanted, radius, &fragment);
-        Some(fragment)
+        fragment
     }
 }
 

@@ -13,6 +13,7 @@ mod draft;
 mod file;
 mod groups;
 mod material;
+mod molecule;
 mod notes;
 mod path;
 mod reader;

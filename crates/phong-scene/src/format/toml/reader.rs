@@ -364,6 +364,7 @@ impl<'a> Reader<'a> {
             "mesh" => self.mesh(&v, path),
             "points" => self.points(&v, path),
             "cylinders" => self.cylinders(&v, path),
+            "molecule" => self.molecule(&v, path),
             "instance" => {
                 let group = v.text("group").into_iter();
                 group.map(|name| DraftShape::Instance(name, v.spot_of("group")).into()).collect()
