@@ -77,7 +77,9 @@ impl Values {
                 mine.resize(mine.len() + theirs.numbers.len(), f32::NAN);
             }
             (mine @ Self::Words(_), Self::Numbers(theirs)) => {
-                theirs.into_iter().for_each(|number| mine.push_number(number));
+                for number in theirs {
+                    mine.push_number(number);
+                }
             }
         }
     }
@@ -95,10 +97,10 @@ impl Words {
 
     /// The number of a word, which it gets if it has none.
     fn number(&mut self, word: &[u8]) -> u32 {
-        if self.names.len() <= FEW {
-            if let Some(known) = self.names.iter().position(|name| name.as_bytes() == word) {
-                return known as u32;
-            }
+        if self.names.len() <= FEW
+            && let Some(known) = self.names.iter().position(|name| name.as_bytes() == word)
+        {
+            return known as u32;
         }
         let word = String::from_utf8_lossy(word);
         if self.known.len() < self.names.len() {
@@ -122,7 +124,9 @@ mod tests {
     fn words_are_kept_once_and_put_together_over_pieces() {
         let words = |all: &[&str]| {
             let mut words = Words::default();
-            all.iter().for_each(|word| words.push(word.as_bytes()));
+            for word in all {
+                words.push(word.as_bytes());
+            }
             Values::Words(words)
         };
         let many: Vec<String> = (0..40).map(|i| format!("w{}", i % 20)).collect();

@@ -52,32 +52,29 @@ impl Molecule {
             })
         };
         let mut drawn = Drawn::default();
-        match &drawing.select {
-            Some(selection) => {
-                let keep = selection.of(&self).map_err(|(at, wrong)| {
-                    error(
-                        wrong,
-                        &drawing
-                            .spans
-                            .select
-                            .as_ref()
-                            .map(|span| Selection::narrow(selection.text(), span, at)),
-                    )
-                })?;
-                if !keep.contains(&true) {
-                    let message = "no atom of the file is selected".to_owned();
-                    return Err(error(Wrong { message, help: None }, &drawing.spans.select));
-                }
-                self.retain(&keep);
+        if let Some(selection) = &drawing.select {
+            let keep = selection.of(&self).map_err(|(at, wrong)| {
+                error(
+                    wrong,
+                    &drawing
+                        .spans
+                        .select
+                        .as_ref()
+                        .map(|span| Selection::narrow(selection.text(), span, at)),
+                )
+            })?;
+            if !keep.contains(&true) {
+                let message = "no atom of the file is selected".to_owned();
+                return Err(error(Wrong { message, help: None }, &drawing.spans.select));
             }
-            None => {
-                let water = self.water();
-                let count = water.iter().filter(|water| **water).count();
-                if count > 0 && count < self.len() {
-                    let keep: Vec<bool> = water.iter().map(|water| !water).collect();
-                    self.retain(&keep);
-                    drawn.notes.push(format!("water is not drawn: {count} atoms"));
-                }
+            self.retain(&keep);
+        } else {
+            let water = self.water();
+            let count = water.iter().filter(|water| **water).count();
+            if count > 0 && count < self.len() {
+                let keep: Vec<bool> = water.iter().map(|water| !water).collect();
+                self.retain(&keep);
+                drawn.notes.push(format!("water is not drawn: {count} atoms"));
             }
         }
         let colors =

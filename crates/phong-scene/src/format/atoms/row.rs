@@ -319,12 +319,11 @@ fn skip(cursor: &mut Cursor<'_>) {
 
 /// The next word as a number; NaN if it is none.
 fn number(cursor: &mut Cursor<'_>) -> f32 {
-    match cursor.float(0.0) {
-        Some(number) => number,
-        None => {
-            skip(cursor);
-            f32::NAN
-        }
+    if let Some(number) = cursor.float(0.0) {
+        number
+    } else {
+        skip(cursor);
+        f32::NAN
     }
 }
 

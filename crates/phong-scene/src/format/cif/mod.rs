@@ -76,7 +76,7 @@ fn atoms(
             next = block.read_loop(&mut tokens, file, input, findings);
         } else if token.is_name() {
             next = tokens.next();
-            if let Some(value) = next.filter(|value| value.is_value()) {
+            if let Some(value) = next.filter(Token::is_value) {
                 let name = String::from_utf8_lossy(token.text).to_ascii_lowercase();
                 if name.starts_with("_cell") || name.starts_with("_atom_site") {
                     block.items.insert(name, value.text.to_vec());

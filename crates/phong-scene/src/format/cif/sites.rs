@@ -229,7 +229,9 @@ impl Sites {
         let Self { mut molecule, mut places, alternates, all_models, disorder, fractional, .. } =
             self;
         if let Some(cell) = cell.filter(|_| fractional) {
-            places.iter_mut().for_each(|place| *place = cell.place(*place));
+            for place in &mut places {
+                *place = cell.place(*place);
+            }
         }
         molecule.place_all(&places);
         if all_models.len() > 1 {

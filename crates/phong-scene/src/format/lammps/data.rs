@@ -122,7 +122,7 @@ fn headings(piece: Piece<'_>) -> Vec<Heading> {
         at += text.len();
         // The first line is a title, whatever it says.
         let trimmed = text.trim_ascii();
-        let headed = trimmed.iter().any(|b| b.is_ascii_alphabetic()) && trimmed.len() < 200;
+        let headed = trimmed.iter().any(u8::is_ascii_alphabetic) && trimmed.len() < 200;
         let row = trimmed
             .iter()
             .take_while(|b| **b != b'#')

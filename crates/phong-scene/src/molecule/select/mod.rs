@@ -162,7 +162,9 @@ impl Expression {
             Self::Kind(kind) => Ok(of_kind(*kind, molecule)),
             Self::Not(inner) => {
                 let mut chosen = inner.of(molecule)?;
-                chosen.iter_mut().for_each(|chosen| *chosen = !*chosen);
+                for chosen in &mut chosen {
+                    *chosen = !*chosen;
+                }
                 Ok(chosen)
             }
             Self::And(a, b) => both(a, b, |a, b| a && b),
