@@ -5,6 +5,7 @@
 //! changes the picture takes the place of the one under way.
 
 mod exporting;
+mod hands;
 mod lines;
 mod look;
 mod opened;

@@ -6,13 +6,13 @@ use std::sync::Arc;
 use phong::geometry::{Geometry, GeometryOptions};
 use phong::look::Look;
 use phong::scene::{
-    Blob, Diagnostic, Format, Image, Limits, Memory, Place, Scene, Source, Span, read, trouble,
+    Blob, Diagnostic, Format, Image, Memory, Place, Scene, Source, Span, read, trouble,
 };
 use phong::view::View;
 use serde_json::{Map, Value, json};
 
 use super::Bounds;
-use super::look;
+use super::look::{self, Base};
 
 /// A scene or a model.
 #[derive(Debug)]
@@ -27,15 +27,6 @@ pub(super) struct Opened {
     base: Option<Base>,
     /// What is laid over it, by the paths of keys.
     set: Map<String, Value>,
-}
-
-/// A scene that could be read.
-#[derive(Debug)]
-pub(super) struct Base {
-    pub(super) scene: Scene,
-    pub(super) geometry: Arc<Geometry>,
-    /// All but the objects as a text of its own, which values are laid over.
-    pub(super) look: String,
 }
 
 /// What a picture shows.
@@ -245,9 +236,4 @@ fn told(diagnostic: &Diagnostic) -> Value {
         "column": column,
         "help": diagnostic.help,
     })
-}
-
-/// What reading a small text of our own making may use.
-pub(super) fn small() -> Limits {
-    Limits { text_bytes: Bounds::TEXT, ..Limits::default() }
 }

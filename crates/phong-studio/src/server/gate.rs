@@ -1,7 +1,6 @@
 //! Who may come in, and what they get: the page's files and a session.
 #![allow(clippy::unused_async, reason = "handlers are async, whether or not they wait")]
 
-use std::net::SocketAddr;
 use std::sync::Arc;
 
 use axum::Router;
@@ -16,23 +15,11 @@ use axum::http::{HeaderMap, HeaderName, HeaderValue, StatusCode};
 use axum::middleware::{self, Next};
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
-use tokio::sync::Semaphore;
 
-use super::folder::Shelf;
 use super::session;
+use super::studio::Studio;
 use crate::engine::Bounds;
 use crate::page;
-
-/// What all sessions share.
-#[derive(Debug)]
-pub(super) struct Studio {
-    pub(super) token: String,
-    pub(super) address: SocketAddr,
-    pub(super) shelf: Shelf,
-    pub(super) bounds: Bounds,
-    /// How many more sessions there may be.
-    pub(super) sessions: Arc<Semaphore>,
-}
 
 /// Bytes of the largest message of a client: a scene's text, escaped.
 const MOST_BYTES: usize = 2 * Bounds::TEXT as usize;

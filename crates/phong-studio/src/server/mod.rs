@@ -8,6 +8,7 @@
 mod folder;
 mod gate;
 mod session;
+mod studio;
 
 use std::fmt::Write as _;
 use std::io;
@@ -24,7 +25,7 @@ use tokio::time::timeout;
 
 use crate::engine::Bounds;
 use folder::Shelf;
-use gate::Studio;
+use studio::Studio;
 
 /// Connections at once; more wait.
 const CONNECTIONS: usize = 64;

@@ -13,7 +13,7 @@ use phong::render::Cancel;
 use tokio::sync::mpsc::{UnboundedReceiver, UnboundedSender, unbounded_channel};
 use tokio::time::{interval, timeout};
 
-use super::gate::Studio;
+use super::studio::Studio;
 use crate::engine::{Emit, Engine};
 use crate::protocol::{Message, Request};
 

@@ -1,0 +1,20 @@
+//! What all sessions share.
+
+use std::net::SocketAddr;
+use std::sync::Arc;
+
+use tokio::sync::Semaphore;
+
+use super::folder::Shelf;
+use crate::engine::Bounds;
+
+/// What all sessions share.
+#[derive(Debug)]
+pub(super) struct Studio {
+    pub(super) token: String,
+    pub(super) address: SocketAddr,
+    pub(super) shelf: Shelf,
+    pub(super) bounds: Bounds,
+    /// How many more sessions there may be.
+    pub(super) sessions: Arc<Semaphore>,
+}
