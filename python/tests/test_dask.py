@@ -140,7 +140,7 @@ def test_a_sweep_draws_every_combination(client: Any, tmp_path: Path) -> None:
     assert {p.name: p.stat().st_mtime_ns for p in tmp_path.iterdir()} == stored
     with pytest.raises(phong.SceneError, match="zoom"):
         phong.dask.sweep(balls(), [{"camera.zoom": 1}], client)
-    with pytest.raises(KeyError, match="the scene has 0 lights"):
+    with pytest.raises(KeyError, match="the scene has 2 lights"):
         phong.dask.sweep(balls(), [{"light.7.color": 1}], client)
 
 
