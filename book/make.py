@@ -8,7 +8,7 @@ What follows `<!-- file: NAME -->` is first written to that file. Files that the
 under `made/CHAPTER/` for the chapter to show.
 
 `--bless` writes what the commands say into the chapters, except where there is a `…`; a line of `?`
-is a place for it.
+is a place for it. `--built` takes the release build that is there, as the gate has made it.
 The book is then in `book/book`; every picture and link in it has to exist, and every picture to have
 a text that says what it shows.
 """
@@ -29,6 +29,7 @@ MADE = SOURCE / "made"
 WORK = ROOT / "target/book"
 SCENES = ROOT / "scenes"
 BLESS = "--bless" in sys.argv[1:]
+IS_BUILT = "--built" in sys.argv[1:]
 
 SHELL = {**os.environ, "PATH": f"{ROOT}/target/release{os.pathsep}{os.environ['PATH']}"}
 
@@ -177,7 +178,8 @@ def check_links():
 def main():
     for folder in (MADE, WORK, BUILT):
         shutil.rmtree(folder, ignore_errors=True)
-    run("cargo build --release -p phong-cli")
+    if not IS_BUILT:
+        run("cargo build --release -p phong-cli")
     gallery()
     readme()
     promises = sum(chapter(path) for path in sorted(SOURCE.glob("*.md")))
