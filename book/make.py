@@ -15,7 +15,9 @@ a text that says what it shows.
 
 import os
 import re
+import shlex
 import shutil
+import signal
 import subprocess
 import sys
 from html.parser import HTMLParser
@@ -114,6 +116,16 @@ def gallery():
     (MADE / "scenes.md").write_text(page)
 
 
+def serves(command, folder):
+    """A command that serves until Ctrl-C says where, and ends with 130."""
+    words = [*shlex.split(command, comments=True), "--no-open"]
+    with subprocess.Popen(words, cwd=folder, env=SHELL, stdout=subprocess.PIPE, text=True) as server:
+        said = server.stdout.readline()
+        server.send_signal(signal.SIGINT)
+    if not said.startswith("http://127.0.0.1:") or server.returncode != 130:
+        sys.exit(f"{command}\nsays {said}and ends with {server.returncode}")
+
+
 def readme():
     """What the README asks its reader to type works, and its picture is what comes of it.
 
@@ -123,7 +135,10 @@ def readme():
     work.mkdir(parents=True)
     (work / "scenes").symlink_to(SCENES)
     for command in re.findall(r"^phong .*$", (ROOT / "README.md").read_text(), re.M):
-        run(command, work)
+        if command.startswith("phong studio"):
+            serves(command, work)
+        else:
+            run(command, work)
     run("phong render scenes/terms.toml --quiet", work)
     run(f"phong compare terms.png {SOURCE}/pictures/terms.png", work)
     shutil.move(work / "figures", MADE / "figures")
