@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::merge::Size;
 use super::{Account, Writing, split_all};
 use crate::color::Rgb;
 use crate::diagnostic::{Diagnostic, Place, Span};
@@ -11,6 +12,24 @@ use crate::shape::Shape;
 
 /// Most names that a message lists.
 const NAMED: usize = 5;
+
+/// Says what of the scene has no place in a file of triangles.
+///
+/// # Errors
+/// If the scene is larger than `options` allow, or has no triangles.
+pub(crate) fn triangles_alone(
+    scene: &Scene,
+    options: &Writing,
+    account: &mut Account,
+) -> Result<(), Box<Diagnostic>> {
+    let size = Size::of(scene);
+    size.check(options.max_bytes)?;
+    leave_out(scene, options, "triangles", is_triangles, account);
+    if size.triangles == 0 {
+        return Err(nothing(&format!("{} holds triangles", options.format)));
+    }
+    Ok(())
+}
 
 /// Says what of the scene has no place in a model file, which holds only what is `held`.
 pub(crate) fn leave_out(

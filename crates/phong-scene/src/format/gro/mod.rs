@@ -18,7 +18,7 @@ use glam::DVec3;
 
 use super::atoms::{Fixed, fixed_lines, has_room, read_atoms, tell_truncated};
 use super::input::Input;
-use super::text::{Decimal, Findings, Lines, Piece, open_text, whole};
+use super::text::{Decimal, Findings, Lines, Piece, head_of, open_text, whole};
 use crate::diagnostic::Diagnostic;
 use crate::elements::number_of;
 use crate::fragment::Fragment;
@@ -59,9 +59,8 @@ fn atoms(
     input: &Input<'_>,
     findings: &mut Findings,
 ) -> io::Result<Option<Molecule>> {
-    let mut head = vec![0; HEAD.min(blob.len() as usize)];
-    let read = blob.read_full(&mut head, 0)?;
-    let piece = Piece { text: &head[..read], offset: 0, line: 1, rows: 0 };
+    let head = head_of(blob, HEAD)?;
+    let piece = Piece { text: &head, offset: 0, line: 1, rows: 0 };
     let mut lines = fixed_lines(piece).skip(1);
     let (count, first) = (lines.next(), lines.next());
     let said = count.and_then(|line| {

@@ -19,7 +19,7 @@ use super::columns::{Places, layout};
 use crate::diagnostic::Diagnostic;
 use crate::format::atoms::{Table, read_atoms};
 use crate::format::input::Input;
-use crate::format::text::{Cursor, Decimal, Findings, Piece, open_text, whole};
+use crate::format::text::{Cursor, Decimal, Findings, Piece, head_of, open_text, whole};
 use crate::fragment::Fragment;
 use crate::molecule::{Cell, Drawing, Molecule};
 use crate::source::Blob;
@@ -59,9 +59,8 @@ fn atoms(
     drawing: &Drawing,
     findings: &mut Findings,
 ) -> io::Result<Option<Molecule>> {
-    let mut head = vec![0; HEAD.min(blob.len() as usize)];
-    let read = blob.read_full(&mut head, 0)?;
-    let piece = Piece { text: &head[..read], offset: 0, line: 1, rows: 0 };
+    let head = head_of(blob, HEAD)?;
+    let piece = Piece { text: &head, offset: 0, line: 1, rows: 0 };
     let Some(header) = Header::parse(piece, file, findings) else { return Ok(None) };
     let Header { count, cell, columns, start, line } = header;
     let names: Vec<&str> = columns.iter().map(String::as_str).collect();

@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 
 use crate::diagnostic::Diagnostic;
 use crate::format::export::flat::{
-    each_object, has_colors, is_triangles, leave_out, nothing, say_unfolded, split_scene, warning,
+    each_object, has_colors, say_unfolded, split_scene, triangles_alone, warning,
 };
-use crate::format::export::merge::{Merged, Size, merge};
+use crate::format::export::merge::{Merged, merge};
 use crate::format::export::{Account, File, Writing, free_name};
 use crate::format::mtl::{Difference, write_material};
 use crate::material::Material;
@@ -19,12 +19,7 @@ pub(crate) fn write_obj(
     name: &str,
     account: &mut Account,
 ) -> Result<Vec<File>, Box<Diagnostic>> {
-    let size = Size::of(&scene);
-    size.check(options.max_bytes)?;
-    leave_out(&scene, options, "triangles", is_triangles, account);
-    if size.triangles == 0 {
-        return Err(nothing("OBJ holds triangles"));
-    }
+    triangles_alone(&scene, options, account)?;
     let colors = each_object(&scene).any(|object| has_colors(&object.shape));
     let mut materials = scene.materials.clone();
     say_unfolded(&scene, account);

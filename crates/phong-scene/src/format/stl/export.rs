@@ -6,10 +6,9 @@ use glam::DVec3;
 
 use crate::diagnostic::Diagnostic;
 use crate::format::export::flat::{
-    each_object, has_colors, is_triangles, leave_out, listed, nothing, say_unfolded, used_by,
-    warning,
+    each_object, has_colors, is_triangles, listed, say_unfolded, triangles_alone, used_by, warning,
 };
-use crate::format::export::merge::{Size, merge};
+use crate::format::export::merge::merge;
 use crate::format::export::{Account, File, Writing};
 use crate::scene::Scene;
 use crate::shape::Shape;
@@ -21,12 +20,7 @@ pub(crate) fn write_stl(
     name: &str,
     account: &mut Account,
 ) -> Result<Vec<File>, Box<Diagnostic>> {
-    let size = Size::of(&scene);
-    size.check(options.max_bytes)?;
-    leave_out(&scene, options, "triangles", is_triangles, account);
-    if size.triangles == 0 {
-        return Err(nothing("STL holds triangles"));
-    }
+    triangles_alone(&scene, options, account)?;
     say_unfolded(&scene, account);
     let held: Vec<_> = each_object(&scene).filter(|object| is_triangles(&object.shape)).collect();
     let used: BTreeSet<u32> = held.iter().flat_map(|object| used_by(object)).collect();

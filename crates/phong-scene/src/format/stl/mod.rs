@@ -30,7 +30,7 @@ use std::sync::Arc;
 use glam::{DVec3, Vec3};
 
 use super::input::Input;
-use super::text::{Findings, as_text, decode, whole};
+use super::text::{Findings, as_text, decode, head_of, whole};
 use super::triangles::{any_left, cut, tell_small, tidy};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::fragment::Fragment;
@@ -233,10 +233,7 @@ fn has_room(
 }
 
 fn begins_as_text(blob: &dyn Blob) -> io::Result<bool> {
-    let mut head = vec![0; LOOK];
-    let read = blob.read_full(&mut head, 0)?;
-    head.truncate(read);
-    Ok(is_text(&decode(head)))
+    Ok(is_text(&decode(head_of(blob, LOOK)?)))
 }
 
 /// The number at a place; `None`: the file ends before.

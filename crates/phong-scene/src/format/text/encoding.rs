@@ -34,14 +34,23 @@ pub(crate) fn open_text(
     as_text(source.open(path)?, limits)
 }
 
+/// The first bytes of a file, at most so many.
+///
+/// # Errors
+/// What reading it fails with.
+pub(crate) fn head_of(blob: &dyn Blob, most: usize) -> io::Result<Vec<u8>> {
+    let mut head = vec![0; most.min(usize::try_from(blob.len()).unwrap_or(most))];
+    let read = blob.read_full(&mut head, 0)?;
+    head.truncate(read);
+    Ok(head)
+}
+
 /// A file as text, as [`open_text`] opens it.
 ///
 /// # Errors
 /// As of [`open_text`].
 pub(crate) fn as_text(blob: Box<dyn Blob>, limits: &Limits) -> io::Result<Box<dyn Blob>> {
-    let mut head = vec![0; 1 << 12];
-    let count = blob.read_full(&mut head, 0)?;
-    let head = &head[..count];
+    let head = &head_of(blob.as_ref(), 1 << 12)?[..];
     let plain = !is_utf16(head) && (head.contains(&b'\n') || !head.contains(&b'\r'));
     if plain && !head.starts_with(b"\xef\xbb\xbf") {
         return Ok(blob);

@@ -22,7 +22,7 @@ use std::sync::Arc;
 use self::comment::Comment;
 use super::atoms::{Layout, Slot, Table, is_integer, read_atoms};
 use super::input::Input;
-use super::text::{Cursor, Decimal, Findings, Piece, open_text, whole};
+use super::text::{Cursor, Decimal, Findings, Piece, head_of, open_text, whole};
 use crate::diagnostic::Diagnostic;
 use crate::fragment::Fragment;
 use crate::molecule::{Column, Drawing, Molecule, names};
@@ -46,9 +46,7 @@ fn atoms(
     drawing: &Drawing,
     findings: &mut Findings,
 ) -> io::Result<Option<Molecule>> {
-    let mut head = vec![0; HEAD.min(blob.len() as usize)];
-    let read = blob.read_full(&mut head, 0)?;
-    let head = &head[..read];
+    let head = &head_of(blob, HEAD)?[..];
     let mut cursor = Cursor::new(Piece { text: head, offset: 0, line: 1, rows: 0 }, false);
     // Some programs leave blank lines before the count.
     while cursor.is_blank() && !cursor.is_done() {
