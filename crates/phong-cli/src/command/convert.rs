@@ -4,12 +4,12 @@ use std::ffi::OsStr;
 use std::io::{BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
+use phong_lab::tell::diagnostic;
 use phong_scene::{
     Account, Diagnostic, Export, ExportOptions, File, Format, PlyEncoding, Severity,
 };
 use serde_json::json;
 
-use super::check;
 use crate::args::{
     InputArgs, PictureSize, ViewArgs, output_help, size, written_endings, written_format,
     written_help,
@@ -122,8 +122,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             "files": paths.iter().map(|path| path.to_string_lossy()).collect::<Vec<_>>(),
             "carried": account.carried,
             "mapped": account.mapped,
-            "dropped": account.dropped.iter().map(check::json).collect::<Vec<_>>(),
-            "warnings": input.warnings.iter().map(check::json).collect::<Vec<_>>(),
+            "dropped": account.dropped.iter().map(diagnostic).collect::<Vec<_>>(),
+            "warnings": input.warnings.iter().map(diagnostic).collect::<Vec<_>>(),
         }));
     }
     if !args.quiet {

@@ -7,9 +7,9 @@ use phong::film::{LayerKind, Window};
 use phong::part::Settings;
 use phong::render::{Event, Outcome, Rendering};
 use phong_lab::measure::memory::peak;
+use phong_lab::tell::diagnostic;
 use serde_json::json;
 
-use super::check;
 use crate::args::RenderArgs;
 use crate::checkpoint::Checkpoint;
 use crate::compile::compile;
@@ -108,7 +108,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
                 "secondary": rays.secondary,
             },
             "peak_bytes": peak(),
-            "warnings": input.warnings.iter().map(check::json).collect::<Vec<_>>(),
+            "warnings": input.warnings.iter().map(diagnostic).collect::<Vec<_>>(),
         }))?;
     } else if report::is_watched() && !quiet {
         let [width, height] = [options.window().width(), options.window().height()];

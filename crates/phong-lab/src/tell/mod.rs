@@ -3,6 +3,7 @@
 //! Nothing is computed here that the picture is made of: what is written are the numbers that the
 //! integrator told, and the factors they are products of.
 
+mod diagnostic;
 pub mod html;
 mod json;
 mod latex;
@@ -12,6 +13,7 @@ mod product;
 mod svg;
 mod text;
 
+pub use diagnostic::diagnostic;
 pub use json::json;
 pub use latex::latex;
 pub use svg::svg;

@@ -5,11 +5,10 @@ use std::sync::Arc;
 
 use phong::geometry::{Geometry, GeometryOptions};
 use phong::look::Look;
-use phong::scene::{
-    Blob, Diagnostic, Format, Image, Memory, Place, Scene, Source, Span, read, trouble,
-};
+use phong::scene::{Blob, Diagnostic, Format, Image, Memory, Scene, Source, read, trouble};
 use phong::view::View;
-use serde_json::{Map, Value, json};
+use phong_lab::tell;
+use serde_json::{Map, Value};
 
 use super::Bounds;
 use super::look::{self, Base};
@@ -103,7 +102,7 @@ impl Opened {
 
     /// Whether the text can be drawn, and all there is to say about it.
     pub(super) fn diagnostics(&self) -> (bool, Vec<Value>) {
-        (self.is_sound, self.diagnostics.iter().map(told).collect())
+        (self.is_sound, self.diagnostics.iter().map(tell::diagnostic).collect())
     }
 
     /// What a picture of it shows now.
@@ -219,21 +218,4 @@ impl Source for Edited<'_> {
         }
         self.source.open(path)
     }
-}
-
-/// A diagnostic as `phong check --json` tells it.
-fn told(diagnostic: &Diagnostic) -> Value {
-    let place = |span: &Span| {
-        let Place { file, line, column } = &span.place;
-        (file.to_string(), (*line > 0).then_some(*line), (*column > 0).then_some(*column))
-    };
-    let (file, line, column) = diagnostic.span.as_ref().map_or((String::new(), None, None), place);
-    json!({
-        "severity": diagnostic.severity.word(),
-        "message": diagnostic.message,
-        "file": file,
-        "line": line,
-        "column": column,
-        "help": diagnostic.help,
-    })
 }
