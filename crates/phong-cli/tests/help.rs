@@ -14,7 +14,9 @@ fn only_what_is_read_is_listed_as_an_input() {
     for command in ["render", "explain", "check", "info", "convert", "grade", "bench"] {
         let help = told(&format!("{command} --help"));
         let words = help.split_whitespace().collect::<Vec<_>>().join(" ");
-        for read in [".obj .ply .stl .pdb .cif .xyz", "toml, obj, ply, stl, pdb, cif, xyz"] {
+        for read in
+            [".obj .ply .stl .off .pdb .cif .xyz", "toml, obj, ply, stl, off, pdb, cif, xyz"]
+        {
             assert!(words.contains(read), "{command}: {read}: {help}");
         }
         for ending in ["gltf", "glb", "nff"] {

@@ -1,7 +1,7 @@
 //! Model files in, summaries and diagnostics out.
 //!
-//! Beside every `NAME.obj`, `.mtl`, `.ply` and `.stl` lies `NAME.txt`: what reading it gives, as text;
-//! beside files of atoms `NAME.ENDING.txt`.
+//! Beside every `NAME.obj`, `.mtl`, `.ply`, `.stl` and `.off` lies `NAME.txt`: what reading it gives, as
+//! text; beside files of atoms `NAME.ENDING.txt`.
 //! `PHONG_BLESS=1` writes the texts anew.
 
 mod differing;
@@ -30,6 +30,11 @@ fn ply_files_give_what_lies_beside_them() -> io::Result<()> {
 #[test]
 fn stl_files_give_what_lies_beside_them() -> io::Result<()> {
     for_each("stl", |name, source| Ok(read(name, None, source, &Limits::default())))
+}
+
+#[test]
+fn off_files_give_what_lies_beside_them() -> io::Result<()> {
+    for_each("off", |name, source| Ok(read(name, None, source, &Limits::default())))
 }
 
 #[test]

@@ -4,11 +4,13 @@
 mod atoms;
 mod cif;
 pub(crate) mod export;
+mod faces;
 mod gro;
 pub(crate) mod input;
 mod lammps;
 pub(crate) mod mtl;
 pub(crate) mod obj;
+pub(crate) mod off;
 pub(crate) mod origin;
 mod pdb;
 pub(crate) mod ply;

@@ -7,7 +7,7 @@ use std::fmt;
 use super::export::WriteScene;
 use super::input::{Models, Named, ReadModel, ReadScene};
 use super::text::decode;
-use super::{cif, gro, lammps, obj, pdb, ply, stl, toml, xyz};
+use super::{cif, gro, lammps, obj, off, pdb, ply, stl, toml, xyz};
 use crate::source::Source;
 use crate::unpack::head_of;
 
@@ -31,6 +31,8 @@ pub enum Format {
     Ply,
     /// STL, stereolithography: triangles, binary or as text.
     Stl,
+    /// OFF, Geomview's polygons, as text.
+    Off,
     /// glTF 2.0, as text or binary. Known, not read yet.
     Gltf,
     /// Protein Data Bank: atoms of large molecules.
@@ -76,7 +78,7 @@ pub(crate) enum Read {
 }
 
 /// Every format.
-static TABLE: [Entry; 12] = [
+static TABLE: [Entry; 13] = [
     Entry {
         format: Format::Toml,
         name: "TOML scene",
@@ -112,6 +114,15 @@ static TABLE: [Entry; 12] = [
         bare: true,
         read: Some(Read::Model(stl::read)),
         write: Some(stl::export::write_stl),
+    },
+    Entry {
+        format: Format::Off,
+        name: "OFF",
+        endings: &["off"],
+        tells: Some(off::is_off),
+        bare: true,
+        read: Some(Read::Model(off::read)),
+        write: None,
     },
     Entry {
         format: Format::Gltf,

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::text::{Findings, whole};
 use crate::fragment::flat;
+use crate::limits::Limits;
 use crate::mesh::{Mesh, cut_polygons};
 
 /// Replaces the fans of polygons by triangles that cover them; how many could not be covered is told.
@@ -64,6 +65,28 @@ pub(crate) fn any_left(mesh: &Mesh, findings: &mut Findings, file: &Arc<str>) ->
         findings.error("empty models", || whole(file), message);
     }
     !mesh.indices.is_empty()
+}
+
+/// Whether so many triangles and vertices, in so many bytes, are within the limits; an error if not.
+pub(crate) fn has_room(
+    triangles: u64,
+    vertices: u64,
+    bytes: u64,
+    limits: &Limits,
+    file: &Arc<str>,
+    findings: &mut Findings,
+) -> bool {
+    let message = if triangles > limits.triangles {
+        format!("the model has more than {} triangles", limits.triangles)
+    } else if vertices > limits.vertices {
+        format!("the model has more than {} vertices", limits.vertices)
+    } else if bytes > limits.bytes {
+        format!("the model takes {bytes} bytes of memory or more; {} are allowed", limits.bytes)
+    } else {
+        return true;
+    };
+    findings.error("limits exceeded", || whole(file), || message);
+    false
 }
 
 fn warn(

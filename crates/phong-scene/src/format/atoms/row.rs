@@ -9,7 +9,7 @@ use super::{has_room, tell_truncated};
 use crate::color::{Rgb, srgb_decode};
 use crate::elements::number_of_label;
 use crate::format::origin::{SAMPLES, origin_of};
-use crate::format::text::{Cursor, Decimal, Findings, Lines, Piece, blame};
+use crate::format::text::{Cursor, Decimal, Findings, Lines, Piece, Rows, blame};
 use crate::limits::{LARGEST, Limits};
 use crate::molecule::{Column, Molecule};
 use crate::source::Blob;
@@ -95,7 +95,7 @@ impl Table<'_> {
             start: self.start,
             line: self.line,
             joined: false,
-            rows: true,
+            rows: Rows::All,
         };
         let (mut rows, mut more) = (0, false);
         lines.each(

@@ -18,7 +18,7 @@ use glam::DVec3;
 
 use super::atoms::{Fixed, fixed_lines, has_room, read_atoms, tell_truncated};
 use super::input::Input;
-use super::text::{Decimal, Findings, Lines, Piece, head_of, open_text, whole};
+use super::text::{Decimal, Findings, Lines, Piece, Rows, head_of, open_text, whole};
 use crate::diagnostic::Diagnostic;
 use crate::elements::number_of;
 use crate::fragment::Fragment;
@@ -89,7 +89,7 @@ fn atoms(
     let mut all = Molecule { columns, ..Molecule::default() };
     let mut places: Vec<DVec3> = Vec::new();
     let mut more = false;
-    let lines = Lines { blob, start: 0, line: 1, joined: false, rows: false };
+    let lines = Lines { blob, start: 0, line: 1, joined: false, rows: Rows::Uncounted };
     let empty = all.clone();
     lines.each(
         |piece| {

@@ -18,7 +18,7 @@ use crate::diagnostic::Diagnostic;
 use crate::elements::number_of_mass;
 use crate::format::atoms::{Layout, Slot, Table, is_integer, read_atoms};
 use crate::format::input::Input;
-use crate::format::text::{Cursor, Decimal, Findings, Lines, Piece, open_text, whole};
+use crate::format::text::{Cursor, Decimal, Findings, Lines, Piece, Rows, open_text, whole};
 use crate::fragment::Fragment;
 use crate::molecule::{Cell, Column, Molecule, Values, names};
 use crate::source::Blob;
@@ -54,7 +54,7 @@ fn atoms(
 ) -> io::Result<Option<Molecule>> {
     let mut header = Header::default();
     let mut sections: Vec<Heading> = Vec::new();
-    let lines = Lines { blob, start: 0, line: 1, joined: false, rows: false };
+    let lines = Lines { blob, start: 0, line: 1, joined: false, rows: Rows::Uncounted };
     lines.each(headings, |found| {
         for heading in found {
             if !header.line(&heading.text) {
@@ -255,7 +255,7 @@ fn rows<const N: usize>(
     count: u64,
 ) -> io::Result<Vec<[f64; N]>> {
     let Heading { start, line, .. } = *heading;
-    let lines = Lines { blob, start, line, joined: false, rows: true };
+    let lines = Lines { blob, start, line, joined: false, rows: Rows::All };
     let mut all = Vec::new();
     lines.each(
         |piece| {

@@ -38,7 +38,7 @@ use self::block::{Block, Context};
 use self::libraries::Libraries;
 use super::input::Input;
 use super::origin::{origin_of, sample};
-use super::text::{Cursor, Lines, open_text, whole};
+use super::text::{Cursor, Lines, Rows, open_text, whole};
 use crate::diagnostic::Diagnostic;
 use crate::fragment::Fragment;
 use crate::source::trouble;
@@ -56,7 +56,8 @@ pub(crate) fn read(input: &Input<'_>, out: &mut Vec<Diagnostic>) -> Option<Fragm
         let origin = origin_of(sample(blob.as_ref(), true, is_position)?);
         let context = Context { file: Arc::clone(&file), origin, marks: false };
         let mut assembly = Assembly::default();
-        let lines = Lines { blob: blob.as_ref(), start: 0, line: 1, joined: true, rows: false };
+        let lines =
+            Lines { blob: blob.as_ref(), start: 0, line: 1, joined: true, rows: Rows::Uncounted };
         lines.each(
             |piece| (start_of(&piece), Block::parse(piece, &context)),
             |(start, block)| assembly.add(start, block, &file, limits),

@@ -26,7 +26,7 @@ use self::atom::Record;
 use self::connect::Serials;
 use super::atoms::{Fixed, fixed_lines, has_room, leave_out_alternates, read_atoms};
 use super::input::Input;
-use super::text::{Findings, Lines, Piece, open_text, whole};
+use super::text::{Findings, Lines, Piece, Rows, open_text, whole};
 use crate::diagnostic::Diagnostic;
 use crate::fragment::Fragment;
 use crate::molecule::{Alternates, Cell, Column, Molecule, names};
@@ -59,7 +59,7 @@ fn atoms(
     input: &Input<'_>,
     findings: &mut Findings,
 ) -> io::Result<Option<Molecule>> {
-    let lines = Lines { blob, start: 0, line: 1, joined: false, rows: false };
+    let lines = Lines { blob, start: 0, line: 1, joined: false, rows: Rows::Uncounted };
     let mut assembly = Assembly::new();
     lines.each(
         |piece| parse(piece, file),

@@ -12,7 +12,7 @@ use super::names::{Row, WIDTH};
 use super::vertices::{Plan, tell};
 use crate::diagnostic::{Severity, Span};
 use crate::format::origin::origin_of;
-use crate::format::text::{Cursor, Decimal, Findings, Lines, Piece, blame};
+use crate::format::text::{Cursor, Decimal, Findings, Lines, Piece, Rows, blame};
 
 /// Bytes from the beginning of the body that are looked through for the origin.
 const SAMPLE: usize = 256 << 10;
@@ -51,7 +51,8 @@ impl Body<'_> {
         }
         let all = first;
         let start = header.body;
-        let lines = Lines { blob: self.blob, start, line: header.line, joined: false, rows: true };
+        let lines =
+            Lines { blob: self.blob, start, line: header.line, joined: false, rows: Rows::All };
         self.plan.origin = origin_of(self.sample(&elements)?);
 
         let (plan, edges) = (self.plan.clone(), self.edges.clone());

@@ -10,11 +10,11 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::body::{Body, Contents, FaceList, ORIGIN_SAMPLES};
-use super::faces::{Faces, Kind, out_of_range};
 use super::header::{Element, Encoding, Type};
 use super::names::{Row, WIDTH};
 use super::vertices::{Columns, Vertices, tell};
 use crate::diagnostic::Severity;
+use crate::format::faces::{Faces, Kind, out_of_range};
 use crate::format::origin::origin_of;
 use crate::format::text::Findings;
 use crate::source::Blob;

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use super::edges::{EdgePlan, Edges};
-use super::faces::{Faces, Kind};
 use super::header::{Element, Header};
 use super::vertices::{Plan, Vertices};
 use crate::diagnostic::{Diagnostic, Span};
+use crate::format::faces::{Faces, Kind};
 use crate::format::text::{Findings, whole};
 use crate::limits::Limits;
 use crate::source::Blob;

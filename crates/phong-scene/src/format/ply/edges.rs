@@ -1,10 +1,10 @@
 //! Edges: pairs of vertex numbers become cylinders.
 
-use super::faces::out_of_range;
 use super::header::Element;
 use super::names::{Row, WIDTH};
 use super::vertices::Transfer;
 use crate::color::Rgb;
+use crate::format::faces::out_of_range;
 use crate::format::text::Findings;
 
 /// What a number of an edge can be: places in [`Row`], whose others are not used.

@@ -7,9 +7,10 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
 
-use super::{Facets, are_held, damage, has_room, is_contrary, say};
+use super::{Facets, are_held, is_contrary};
 use crate::format::origin::{origin_of, sample};
-use crate::format::text::{Cursor, Findings, Lines, Piece, blame};
+use crate::format::text::{Cursor, Findings, Lines, Piece, Rows, blame, whole};
+use crate::format::triangles::has_room;
 use crate::limits::{LARGEST, Limits};
 use crate::mesh::{Hash, Weld};
 use crate::source::Blob;
@@ -48,7 +49,7 @@ pub(super) fn read(
 ) -> io::Result<Facets> {
     let is_vertex = |cursor: &mut Cursor<'_>| cursor.word().eq_ignore_ascii_case(b"vertex");
     let origin = origin_of(sample(blob, false, is_vertex)?);
-    let lines = Lines { blob, start: 0, line: 1, joined: false, rows: false };
+    let lines = Lines { blob, start: 0, line: 1, joined: false, rows: Rows::Uncounted };
     let mut assembly = Assembly {
         facets: Facets { origin, ..Facets::default() },
         weld: Weld::with_room(1 << 10, Hash::new()),
@@ -73,10 +74,13 @@ pub(super) fn read(
     }
     assembly.close();
     if !findings.any_error() && assembly.last != Last::Outside {
-        let whole = assembly.facets.counts.facets;
-        say(findings, damage(limits), "truncated files", file, || {
-            format!("the file ends within a solid, after {whole} facets: `endsolid` is missing")
-        });
+        let count = assembly.facets.counts.facets;
+        findings.damage(
+            limits.lenient,
+            "truncated files",
+            || whole(file),
+            || format!("the file ends within a solid, after {count} facets: `endsolid` is missing"),
+        );
     }
     let Assembly { mut facets, weld, .. } = assembly;
     facets.positions = weld.into_positions();

@@ -10,11 +10,9 @@ use std::sync::Arc;
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::{
-    Counts, FACET, Facets, HEAD, are_held, blame, damage, has_room, is_contrary, number_at, say,
-};
-use crate::diagnostic::Severity;
+use super::{Counts, FACET, Facets, HEAD, are_held, blame, is_contrary, number_at};
 use crate::format::text::{Findings, whole};
+use crate::format::triangles::has_room;
 use crate::limits::Limits;
 use crate::mesh::{Hash, Weld};
 use crate::source::Blob;
@@ -64,22 +62,30 @@ pub(super) fn read(
     let there = (blob.len() - HEAD) / FACET as u64;
     let behind = blob.len() - HEAD - said.min(there) * FACET as u64;
     let count = if said > there {
-        say(findings, damage(limits), "counts beyond the file", file, || {
+        findings.damage(limits.lenient, "counts beyond the file", || whole(file), || {
             format!(
                 "the file has room for {there} of {said} facets: it is cut short or its header is wrong"
             )
         });
         there
     } else if said == 0 && there > 0 {
-        say(findings, Severity::Warning, "counts of 0", file, || {
-            format!("the file says that it has no facet, but has room for {there}: they are read")
-        });
+        findings.warning(
+            "counts of 0",
+            || whole(file),
+            || {
+                format!(
+                    "the file says that it has no facet, but has room for {there}: they are read"
+                )
+            },
+        );
         there
     } else {
         if behind > 0 {
-            say(findings, Severity::Warning, "bytes behind the end", file, || {
-                format!("{behind} bytes behind the last facet are ignored")
-            });
+            findings.warning(
+                "bytes behind the end",
+                || whole(file),
+                || format!("{behind} bytes behind the last facet are ignored"),
+            );
         }
         said
     };

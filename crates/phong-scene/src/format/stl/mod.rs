@@ -32,9 +32,9 @@ use glam::{DVec3, Vec3};
 use super::input::Input;
 use super::text::{Findings, as_text, decode, head_of, whole};
 use super::triangles::{any_left, cut, tell_small, tidy};
-use crate::diagnostic::{Diagnostic, Severity};
+use crate::diagnostic::Diagnostic;
 use crate::fragment::Fragment;
-use crate::limits::{LARGEST, Limits};
+use crate::limits::LARGEST;
 use crate::mesh::Mesh;
 use crate::source::{Blob, trouble};
 
@@ -187,49 +187,6 @@ fn is_contrary(normal: Vec3, [a, b, c]: [Vec3; 3]) -> bool {
     let n = normal.as_dvec3();
     let dot = area.dot(n);
     dot < 0.0 && dot * dot > 0.25 * area.length_squared() * n.length_squared()
-}
-
-/// What damage is that leaves something to be drawn.
-fn damage(limits: &Limits) -> Severity {
-    if limits.lenient { Severity::Warning } else { Severity::Error }
-}
-
-/// Says something about the file as a whole.
-fn say(
-    findings: &mut Findings,
-    severity: Severity,
-    plural: &'static str,
-    file: &Arc<str>,
-    message: impl FnOnce() -> String,
-) {
-    findings.add(severity, plural, || Diagnostic {
-        severity,
-        message: message(),
-        span: Some(whole(file)),
-        ..Diagnostic::default()
-    });
-}
-
-/// Whether so many triangles and vertices, in so many bytes, are within the limits; an error if not.
-fn has_room(
-    triangles: u64,
-    vertices: u64,
-    bytes: u64,
-    limits: &Limits,
-    file: &Arc<str>,
-    findings: &mut Findings,
-) -> bool {
-    let message = if triangles > limits.triangles {
-        format!("the model has more than {} triangles", limits.triangles)
-    } else if vertices > limits.vertices {
-        format!("the model has more than {} vertices", limits.vertices)
-    } else if bytes > limits.bytes {
-        format!("the model takes {bytes} bytes of memory or more; {} are allowed", limits.bytes)
-    } else {
-        return true;
-    };
-    findings.error("limits exceeded", || whole(file), || message);
-    false
 }
 
 fn begins_as_text(blob: &dyn Blob) -> io::Result<bool> {

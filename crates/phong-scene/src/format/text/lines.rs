@@ -32,8 +32,19 @@ pub(crate) struct Lines<'a> {
     pub(crate) line: u64,
     /// Whether a backslash at its end joins a line to the next.
     pub(crate) joined: bool,
-    /// Whether rows are counted too.
-    pub(crate) rows: bool,
+    /// Which lines are counted as rows.
+    pub(crate) rows: Rows,
+}
+
+/// Which lines are counted as rows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Rows {
+    /// None.
+    Uncounted,
+    /// Those with anything on them.
+    All,
+    /// Those with anything on them but a comment.
+    WithoutComments,
 }
 
 /// A run of whole lines.
@@ -45,7 +56,7 @@ pub(crate) struct Piece<'a> {
     pub(crate) offset: u64,
     /// The number of the first.
     pub(crate) line: u64,
-    /// How many lines with anything on them stand before the first, if they are counted.
+    /// How many rows stand before the first, if they are counted.
     pub(crate) rows: u64,
 }
 
@@ -82,8 +93,11 @@ impl Lines<'_> {
             }
             let mut wave = self.split(&buffer[..whole], offset);
             wave.par_iter_mut().for_each(|piece| {
-                (piece.line, piece.rows) =
-                    if self.rows { count_rows(piece.text) } else { (count_lines(piece.text), 0) };
+                (piece.line, piece.rows) = match self.rows {
+                    Rows::Uncounted => (count_lines(piece.text), 0),
+                    Rows::All => count_rows(piece.text, false),
+                    Rows::WithoutComments => count_rows(piece.text, true),
+                };
             });
             for piece in &mut wave {
                 (line, piece.line) = (line + piece.line, line);
@@ -171,20 +185,21 @@ fn count_lines(text: &[u8]) -> u64 {
     text.chunks(255).map(|part| u64::from(sum(part))).sum()
 }
 
-/// How many lines there are, and how many with anything on them.
-fn count_rows(text: &[u8]) -> (u64, u64) {
+/// How many lines there are, and how many with anything on them, or anything but a comment.
+fn count_rows(text: &[u8], comments: bool) -> (u64, u64) {
     let (mut lines, mut rows) = (0, 0);
-    let mut something = false;
+    let (mut something, mut comment) = (false, false);
     for &byte in text {
         if byte == b'\n' {
             lines += 1;
-            rows += u64::from(something);
-            something = false;
-        } else {
-            something |= byte > b' ';
+            rows += u64::from(something && !comment);
+            (something, comment) = (false, false);
+        } else if byte > b' ' {
+            comment |= comments && byte == b'#' && !something;
+            something = true;
         }
     }
-    (lines, rows + u64::from(something))
+    (lines, rows + u64::from(something && !comment))
 }
 
 /// Walks over the lines of a piece.
@@ -399,7 +414,7 @@ mod tests {
     fn walk(text: &str, joined: bool) -> Vec<(u64, u64, String)> {
         let source = Memory::new().with("a", text.as_bytes());
         let blob = source.open("a").unwrap();
-        let lines = Lines { blob: blob.as_ref(), start: 0, line: 1, joined, rows: true };
+        let lines = Lines { blob: blob.as_ref(), start: 0, line: 1, joined, rows: Rows::All };
         let mut seen = Vec::new();
         let parse = |piece: Piece<'_>| {
             let mut cursor = Cursor::new(piece, joined);

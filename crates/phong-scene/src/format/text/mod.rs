@@ -6,6 +6,6 @@ mod number;
 mod report;
 
 pub(crate) use encoding::{as_text, decode, head_of, name_of, open_text, read_text};
-pub(crate) use lines::{Cursor, Lines, Piece};
+pub(crate) use lines::{Cursor, Lines, Piece, Rows};
 pub(crate) use number::{BadNumber, Decimal, blame, take_digits};
 pub(crate) use report::{Findings, TOLD, span, whole};

@@ -73,6 +73,22 @@ impl Findings {
         self.add(Severity::Note, plural, || Diagnostic::note(message(), span()));
     }
 
+    /// One more of a kind of damage that leaves something to be drawn: an error, or, where a file is
+    /// read leniently, a warning.
+    pub(crate) fn damage(
+        &mut self,
+        lenient: bool,
+        plural: &'static str,
+        span: impl FnOnce() -> Span,
+        message: impl FnOnce() -> String,
+    ) {
+        if lenient {
+            self.warning(plural, span, message);
+        } else {
+            self.error(plural, span, message);
+        }
+    }
+
     /// Takes over what was found in a later piece of the same file.
     pub(crate) fn append(&mut self, later: Self) {
         for kind in later.kinds {

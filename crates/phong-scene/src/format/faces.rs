@@ -2,17 +2,17 @@
 
 /// Triangles read so far.
 #[derive(Debug, Default)]
-pub(super) struct Faces {
-    pub(super) indices: Vec<[u32; 3]>,
+pub(crate) struct Faces {
+    pub(crate) indices: Vec<[u32; 3]>,
     /// First triangle and number of corners of every polygon of more than three.
-    pub(super) polygons: Vec<[u32; 2]>,
+    pub(crate) polygons: Vec<[u32; 2]>,
     /// How many faces had fewer than three corners.
-    pub(super) dropped: u64,
+    pub(crate) dropped: u64,
 }
 
 impl Faces {
     /// Adds a polygon as the fan around its first corner.
-    pub(super) fn push(&mut self, corners: &[u32]) {
+    pub(crate) fn push(&mut self, corners: &[u32]) {
         let [first, rest @ ..] = corners else {
             self.dropped += 1;
             return;
@@ -27,7 +27,7 @@ impl Faces {
 
     /// Adds a strip: every vertex makes a triangle with the two before it, every other of which is
     /// turned. Triangles that use a vertex twice only tie strips together.
-    pub(super) fn push_strip(&mut self, strip: &[u32]) {
+    pub(crate) fn push_strip(&mut self, strip: &[u32]) {
         for (i, triangle) in strip.windows(3).enumerate() {
             let &[a, b, c] = triangle else { continue };
             if a != b && b != c && c != a {
@@ -37,7 +37,7 @@ impl Faces {
     }
 
     /// Adds those of a later piece.
-    pub(super) fn append(&mut self, mut later: Self) {
+    pub(crate) fn append(&mut self, mut later: Self) {
         let start = self.indices.len() as u32;
         self.polygons.extend(later.polygons.iter().map(|[first, n]| [first + start, *n]));
         self.indices.append(&mut later.indices);
@@ -45,14 +45,14 @@ impl Faces {
     }
 
     /// Bytes that they take in memory.
-    pub(super) fn bytes(&self) -> u64 {
+    pub(crate) fn bytes(&self) -> u64 {
         (12 * self.indices.len() + 8 * self.polygons.len()) as u64
     }
 }
 
 /// How a face or strip of vertex numbers is taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(crate) enum Kind {
     /// Polygons.
     Face,
     /// Strips of triangles, several in one list, each ended by −1.
@@ -61,7 +61,7 @@ pub(super) enum Kind {
 
 impl Faces {
     /// Adds a list of numbers of `count` vertices; what is wrong with it, if anything.
-    pub(super) fn add(
+    pub(crate) fn add(
         &mut self,
         kind: Kind,
         numbers: &[i64],
@@ -89,7 +89,7 @@ impl Faces {
 }
 
 /// Why a vertex number cannot be used.
-pub(super) fn out_of_range(number: i64, count: u64) -> String {
+pub(crate) fn out_of_range(number: i64, count: u64) -> String {
     match count {
         0 => format!("it uses vertex {number}, but there are none"),
         _ => format!("it uses vertex {number}, but the last one is {}", count - 1),
