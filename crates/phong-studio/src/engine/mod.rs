@@ -10,6 +10,7 @@ mod lines;
 mod look;
 mod opened;
 mod painting;
+mod sharing;
 
 use phong::render::Cancel;
 use phong::scene::{Limits, Source, schema_json};
@@ -55,6 +56,8 @@ pub type Emit<'a> = &'a (dyn Fn(Message) -> bool + Sync);
 pub struct Engine {
     source: Box<dyn Source>,
     bounds: Bounds,
+    /// Which share of each picture is drawn, of how many; `None`: all of it.
+    share: Option<(u32, u32)>,
     opened: Option<Opened>,
     pixels: PixelKind,
     /// The number of the newest picture.
@@ -68,8 +71,23 @@ impl Engine {
     /// An engine that has opened nothing yet.
     pub fn new(source: impl Source + 'static, bounds: Bounds) -> Self {
         let source = Box::new(source);
-        let pixels = PixelKind::default();
-        Self { source, bounds, opened: None, pixels, picture: 0, painting: None, stopped: false }
+        Self {
+            source,
+            bounds,
+            share: None,
+            opened: None,
+            pixels: PixelKind::default(),
+            picture: 0,
+            painting: None,
+            stopped: false,
+        }
+    }
+
+    /// The same, which draws share `index` of `count` of every picture; they count from 0. The first
+    /// draws the first pass alone, and all of it.
+    #[must_use]
+    pub fn with_share(self, index: u32, count: u32) -> Self {
+        Self { share: (index < count && count > 1).then_some((index, count)), ..self }
     }
 
     /// The first message to a page: what there is to open.
@@ -150,6 +168,21 @@ impl Engine {
         say(emit, &error_reply(message));
     }
 
+    /// Its share of the picture as a part file; `None` as long as that is not finished.
+    #[must_use]
+    pub fn part(&self) -> Option<Vec<u8>> {
+        sharing::part(self.opened.as_ref()?, self.painting.as_ref()?)
+    }
+
+    /// Takes the share that another engine's [`part`](Self::part) is.
+    pub fn join(&mut self, part: &[u8], emit: Emit<'_>) {
+        if let (Some(opened), Some(painting)) = (&self.opened, &mut self.painting)
+            && let Err(message) = sharing::join(part, opened, painting, self.bounds.bytes)
+        {
+            say(emit, &error_reply(message));
+        }
+    }
+
     fn open(&mut self, path: &str, emit: Emit<'_>) -> Result<(), String> {
         let (opened, text) = Opened::of_file(path, &*self.source, &self.bounds)?;
         say(emit, &Reply::Scene { path: path.to_owned(), text });
@@ -196,7 +229,8 @@ impl Engine {
         let opened = self.opened.as_ref().ok_or("nothing is open")?;
         let shown = opened.shown()?;
         let picture = self.picture.wrapping_add(1);
-        let painting = Painting::new(picture, shown.view, &shown.image, self.bounds.bytes)?;
+        let (bytes, share) = (self.bounds.bytes, self.share);
+        let painting = Painting::new(picture, shown.view, &shown.image, bytes, share)?;
         self.picture = picture;
         self.stopped = false;
         self.painting = Some(painting);

@@ -25,8 +25,14 @@ pub(super) struct Painting {
 }
 
 impl Painting {
-    /// The picture of this number, of which nothing is drawn yet.
-    pub(super) fn new(number: u32, view: View, image: &Image, most: u64) -> Result<Self, String> {
+    /// The picture of this number, of which nothing is drawn yet; of a share, all but the first pass.
+    pub(super) fn new(
+        number: u32,
+        view: View,
+        image: &Image,
+        most: u64,
+        share: Option<(u32, u32)>,
+    ) -> Result<Self, String> {
         let said = |error: phong::render::OptionsError| error.to_string();
         let mut options = RenderOptions::of(image).map_err(said)?.with_passes(Passes::Doubling);
         if options.film_bytes() > most {
@@ -42,7 +48,11 @@ impl Painting {
         }
         let small = image.size.map(|side| side.div_ceil(u32::from(STEP)));
         let preview = RenderOptions::of(image).map_err(said)?.with_size(small).map_err(said)?;
-        let preview = Some(preview.with_samples(1).map_err(said)?);
+        let mut preview = Some(preview.with_samples(1).map_err(said)?);
+        if let Some((index, count)) = share {
+            options = options.with_share(index, count).map_err(said)?;
+            preview = preview.filter(|_| index == 0);
+        }
         Ok(Self { number, view, options, preview, film: None, done: false })
     }
 
@@ -62,9 +72,18 @@ impl Painting {
         self.done
     }
 
+    /// What there is so far.
+    pub(super) fn film(&self) -> Option<&Film> {
+        self.film.as_ref()
+    }
+
+    pub(super) fn film_mut(&mut self) -> Option<&mut Film> {
+        self.film.as_mut()
+    }
+
     /// The film, if all of it is done.
     pub(super) fn finished(&self) -> Option<&Film> {
-        self.film.as_ref().filter(|_| self.done)
+        self.film.as_ref().filter(|film| self.done && film.is_complete())
     }
 
     /// Draws on.
@@ -116,6 +135,12 @@ impl Painting {
             None => Ok(Rendering::new(view, options)),
         };
         let rendering = rendering.map_err(|error| error.to_string())?;
+        if rendering.progress().tiles == 0 {
+            // A share of a picture that has fewer tiles than there are shares.
+            for (pass, drawn) in (1..).zip(options.passes().of(options.samples())) {
+                say(emit, &Reply::Pass { picture, pass, passes, samples: drawn.samples() });
+            }
+        }
         let listen = |event: Event<'_>| {
             if !tile(event, 1, 1) {
                 cancel.cancel();

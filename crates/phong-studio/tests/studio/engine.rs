@@ -26,7 +26,12 @@ struct Talk {
 
 impl Talk {
     fn new() -> Self {
+        Self::sharing(0, 1)
+    }
+
+    fn sharing(index: u32, count: u32) -> Self {
         let engine = Engine::new(Memory::new().with("a.toml", SCENE.as_bytes()), Bounds::default());
+        let engine = engine.with_share(index, count);
         let mut talk = Self { engine, page: Page::default(), stops: false };
         talk.ask(&json!({ "do": "pixels", "kind": "linear" }));
         talk.ask(&json!({ "do": "open", "path": "a.toml" }));
@@ -254,4 +259,43 @@ fn what_is_no_request_is_answered() {
 fn the_studios_own_scene_is_that_of_the_gallery() {
     let gallery = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/two-balls.toml");
     assert_eq!(std::fs::read_to_string(gallery).unwrap(), phong_studio::engine::EXAMPLE);
+}
+
+#[test]
+fn shares_put_together_are_the_file_of_a_render_and_say_every_pass() {
+    // Of more shares than there are tiles some are empty.
+    for count in [2, 40] {
+        let mut talks: Vec<Talk> = (0..count).map(|index| Talk::sharing(index, count)).collect();
+        let mut parts = Vec::new();
+        for talk in &mut talks {
+            while talk.engine.has_work() {
+                assert_eq!(talk.engine.part(), None);
+                talk.with(|engine, emit| engine.advance(&Cancel::new(), emit));
+            }
+            parts.extend(talk.engine.part());
+        }
+        for (index, talk) in talks.iter().enumerate() {
+            let passes = talk.page.all("pass");
+            let passes: Vec<_> = passes.iter().map(|p| p["pass"].as_u64().unwrap()).collect();
+            let all = &[0, 1, 2, 3][usize::from(index != 0)..];
+            assert_eq!(passes, all, "share {index} of {count}");
+        }
+        let mut first = talks.swap_remove(0);
+        first.ask(&json!({ "do": "export", "format": "png" }));
+        assert_eq!(first.page.last("error")["message"], "the picture is not finished yet");
+        for part in &parts[1..] {
+            first.with(|engine, emit| engine.join(part, emit));
+        }
+        first.ask(&json!({ "do": "export", "format": "png" }));
+        let mut whole = Talk::new();
+        whole.draw();
+        whole.ask(&json!({ "do": "export", "format": "png" }));
+        assert_eq!(first.page.file, whole.page.file);
+        // A share of another picture is told from one of this.
+        first.ask(&json!({ "do": "zoom", "by": 0.5 }));
+        first.with(|engine, emit| engine.advance(&Cancel::new(), emit));
+        first.with(|engine, emit| engine.join(&parts[1], emit));
+        let said = first.page.last("error")["message"].as_str().unwrap().to_owned();
+        assert!(said.contains("another picture"), "{said}");
+    }
 }
