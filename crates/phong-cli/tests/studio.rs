@@ -8,7 +8,7 @@ use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::process::{Child, Command, Stdio};
 
-use support::given;
+use support::{BALLS, given};
 
 /// A studio that runs, and its address.
 struct Running {
@@ -75,4 +75,45 @@ fn what_it_cannot_open_is_refused_before_it_answers() {
     folder.when("studio notes.txt --no-open").is_refused(&["notes.txt", "scenes"]);
     folder.when("studio - --no-open").is_refused(&["file"]);
     folder.when("studio --port 0 --no-open").is_refused(&["--port"]);
+}
+
+/// A folder of scenes, and one of what is to be the renderer as WebAssembly.
+fn given_scenes() -> support::Given {
+    let folder = given(&[]);
+    for name in ["scenes", "wasm"] {
+        std::fs::create_dir(folder.path(name)).unwrap();
+    }
+    std::fs::write(folder.path("scenes/balls.toml"), BALLS).unwrap();
+    std::fs::write(folder.path("scenes/notes.txt"), "not for others").unwrap();
+    for name in phong_studio::site::MODULES {
+        std::fs::write(folder.path("wasm").join(name), "a module").unwrap();
+    }
+    folder
+}
+
+#[test]
+fn as_static_files_it_has_the_page_the_scenes_and_the_modules_and_nothing_else() {
+    for input in ["scenes", "scenes/balls.toml"] {
+        let folder = given_scenes();
+        folder.done(&format!("studio {input} --static web --wasm wasm"));
+        for name in ["index.html", "worker.js", "phong-simd_bg.wasm", "scenes/balls.toml"] {
+            assert!(folder.path("web").join(name).is_file(), "{input}: {name}");
+        }
+        assert!(!folder.path("web/scenes/notes.txt").exists());
+        // Over its own earlier files it writes again.
+        folder.done(&format!("studio {input} --static web --wasm wasm"));
+    }
+}
+
+#[test]
+fn static_files_without_a_module_over_other_files_or_of_a_broken_scene_are_refused() {
+    let folder = given_scenes();
+    let refused = folder.when("studio scenes --static web");
+    refused.is_refused(&["phong-simd.js", "bash .ci/wasm", "--wasm"]);
+    folder.when("studio scenes --static scenes --wasm wasm").is_refused(&["something else"]);
+    folder.when("studio scenes --static web --wasm wasm --port 80").is_refused(&["--port"]);
+    folder.when("studio scenes --wasm wasm").is_refused(&["--static"]);
+    std::fs::write(folder.path("scenes/broken.toml"), "version = 1\n[[sphere]]\n").unwrap();
+    folder.when("studio scenes --static web --wasm wasm").is_refused(&["broken.toml", "radius"]);
+    assert!(!folder.path("web").exists());
 }

@@ -45,6 +45,8 @@ export const words = {
   line: "line",
   connecting: "Connecting …",
   lost: "The studio has gone. Start `phong studio` again, and open the address that it prints.",
+  failed: "This was too much for the engine in this page, and it was started anew: ",
+  noEngine: "The engine of this page cannot be loaded: ",
   old: "The page and the program are of different versions: load the page again.",
   drawing: (samples, of) => (samples === 0 ? "Drawing: a first look" : `Drawing: ${samples} of ${of} samples`),
   done: (samples) => `Done: ${samples} samples a pixel`,

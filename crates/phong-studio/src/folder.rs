@@ -12,7 +12,7 @@ const MOST_NAMES: usize = 200;
 
 /// A folder, nothing outside of which is read, with the studio's own scene where no file is named.
 #[derive(Clone, Debug)]
-pub(super) struct Shelf {
+pub struct Shelf {
     folder: PathBuf,
     jail: Jail,
     /// What to open first.
@@ -21,7 +21,11 @@ pub(super) struct Shelf {
 }
 
 impl Shelf {
-    pub(super) fn new(folder: &Path, open: Option<String>) -> io::Result<Self> {
+    /// A folder, and the file in it to open first; `None`: a scene of the studio's own.
+    ///
+    /// # Errors
+    /// What the system says of the folder.
+    pub fn new(folder: &Path, open: Option<String>) -> io::Result<Self> {
         let jail = Jail::new(folder)?;
         let folder = folder.canonicalize()?;
         let own = match open {
@@ -33,12 +37,14 @@ impl Shelf {
     }
 
     /// What to open first.
-    pub(super) fn first(&self) -> &str {
+    #[must_use]
+    pub fn first(&self) -> &str {
         &self.open
     }
 
     /// Scenes and models in the folder, in alphabetical order.
-    pub(super) fn names(&self) -> Vec<String> {
+    #[must_use]
+    pub fn names(&self) -> Vec<String> {
         let Ok(files) = self.folder.read_dir() else { return Vec::new() };
         let readable = |name: &String| {
             Format::of_path(name).is_some_and(|format| Format::readable().contains(&format))

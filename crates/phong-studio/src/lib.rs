@@ -5,7 +5,9 @@
 //! a worker of the same page. `PROTOCOL.md` says what is said between them.
 
 pub mod engine;
+pub mod folder;
 pub mod page;
 pub mod protocol;
 #[cfg(feature = "server")]
 pub mod server;
+pub mod site;

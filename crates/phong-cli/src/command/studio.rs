@@ -1,5 +1,8 @@
 //! `phong studio`: the browser studio.
 
+#[cfg(feature = "studio")]
+use std::path::{Path, PathBuf};
+
 use crate::args::{self, studio_help};
 use crate::failure::Failure;
 
@@ -9,9 +12,13 @@ Examples:
   phong studio scene.toml            that scene: turn it, change it, ask why a pixel has its colour
   phong studio dragon.ply            a model
   phong studio scene.toml --no-open  print the address alone
+  phong studio scenes --static web   the page as files for any web server, with all scenes of a folder
 
 It answers on 127.0.0.1, to who has the address, until Ctrl-C. It reads files beside INPUT and below,
-no others, and writes none.";
+no others, and writes none.
+
+With --static nothing is served: DIR gets the page, the scenes with all that they read, and the renderer
+as WebAssembly, which has to be built first: `bash .ci/wasm` does it.";
 
 /// A scene in the browser: turn it, change it, and see why each pixel has its colour
 #[derive(Debug, clap::Args)]
@@ -28,6 +35,14 @@ pub(crate) struct Args {
     /// Print the address, and open no browser
     #[arg(long)]
     no_open: bool,
+
+    /// Write the page into this folder, to be served without the program; INPUT may be a folder of scenes
+    #[arg(long, value_name = "DIR", value_parser = args::path(), conflicts_with_all = ["port", "no_open"])]
+    r#static: Option<String>,
+
+    /// Where the WebAssembly is [default: `wasm` beside the program]
+    #[arg(long, value_name = "DIR", value_parser = args::path(), requires = "static")]
+    wasm: Option<String>,
 }
 
 #[cfg(not(feature = "studio"))]
@@ -43,6 +58,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 
     use crate::{input, memory, report};
 
+    if let Some(site) = &args.r#static {
+        return write_site(args.input.as_deref(), Path::new(site), args.wasm.as_deref());
+    }
     let (folder, open) = input::folder_of(args.input.as_deref())?;
     // Several pages may be open, each with a scene and a picture.
     let bytes = (memory::limit() / 8).min(2 << 30);
@@ -63,4 +81,82 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         report::say("there is no browser to open: open the address in one");
     }
     server.run().map_err(|error| Failure::System(phong_scene::trouble(&error)))
+}
+
+/// Writes the page as a folder of static files.
+#[cfg(feature = "studio")]
+fn write_site(input: Option<&str>, site: &Path, wasm: Option<&str>) -> Result<(), Failure> {
+    use phong_studio::engine::Bounds;
+    use phong_studio::folder::Shelf;
+    use phong_studio::site::{self, SiteError};
+
+    use crate::{input, output::Output, report};
+
+    let modules = modules(wasm)?;
+    if holds_something_else(site) {
+        let message = format!("{} holds something else", site.display());
+        return Err(Failure::usage(message).with_help("name a folder of its own for the page"));
+    }
+    let folder = input.map(phong_scene::path_of).filter(|path| path.is_dir());
+    let (folder, open) = match folder {
+        Some(folder) => (folder, None),
+        None => input::folder_of(input)?,
+    };
+    let shelf = Shelf::new(&folder, open.clone());
+    let shelf = shelf.map_err(|error| input::unreadable(&folder, &error))?;
+    let scenes = match (input, open) {
+        (_, Some(open)) => vec![open],
+        (Some(_), None) => shelf.names(),
+        (None, None) => Vec::new(),
+    };
+    let files = site::files(&scenes, &shelf, &Bounds::default().limits);
+    let files = files.map_err(|error| match error {
+        SiteError::Scene(diagnostics) => Failure::Input(diagnostics),
+        SiteError::Outside(_) => Failure::usage(error.to_string()),
+    })?;
+    let mut outputs = Vec::new();
+    let mut bytes = 0;
+    let files = files.into_iter().map(|file| (file.path, file.bytes));
+    for (path, content) in files.chain(modules) {
+        let path = site.join(path);
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).map_err(|error| input::unreadable(folder, &error))?;
+        }
+        let mut output = Output::create(&path)?;
+        output.write(|out| out.write_all(&content))?;
+        outputs.push(output);
+        bytes += content.len() as u64;
+    }
+    let count = outputs.len();
+    Output::commit(outputs)?;
+    let size = report::readable(bytes);
+    report::say(&format!("{}: {count} files, {size}; any web server serves them", site.display()));
+    Ok(())
+}
+
+/// The modules of WebAssembly, by name.
+#[cfg(feature = "studio")]
+fn modules(folder: Option<&str>) -> Result<Vec<(String, Vec<u8>)>, Failure> {
+    let beside = || {
+        let program = std::env::current_exe().unwrap_or_default();
+        program.parent().unwrap_or(Path::new(".")).join("wasm")
+    };
+    let folder = folder.map_or_else(beside, PathBuf::from);
+    let module = |name: &str| {
+        let path = folder.join(name);
+        let bytes = std::fs::read(&path).map_err(|error| {
+            let trouble = phong_scene::trouble(&error);
+            Failure::usage(format!("the renderer as WebAssembly: {}: {trouble}", path.display()))
+                .with_help("`bash .ci/wasm` builds it; `--wasm DIR` says where it is")
+        })?;
+        Ok((name.to_owned(), bytes))
+    };
+    phong_studio::site::MODULES.iter().map(|name| module(name)).collect()
+}
+
+/// Whether a folder holds anything but a page that was written before.
+#[cfg(feature = "studio")]
+fn holds_something_else(folder: &Path) -> bool {
+    let is_empty = folder.read_dir().map_or(true, |mut files| files.next().is_none());
+    !is_empty && !(folder.join("files.json").is_file() && folder.join("workers.js").is_file())
 }

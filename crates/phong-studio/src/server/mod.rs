@@ -5,7 +5,6 @@
 //! is read. Connections, sessions, messages and memory are bounded, and nothing waits for a client
 //! that does not read.
 
-mod folder;
 mod gate;
 mod session;
 mod studio;
@@ -24,7 +23,7 @@ use tokio::sync::Semaphore;
 use tokio::time::timeout;
 
 use crate::engine::Bounds;
-use folder::Shelf;
+use crate::folder::Shelf;
 use studio::Studio;
 
 /// Connections at once; more wait.

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use tokio::sync::Semaphore;
 
-use super::folder::Shelf;
 use crate::engine::Bounds;
+use crate::folder::Shelf;
 
 /// What all sessions share.
 #[derive(Debug)]

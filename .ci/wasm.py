@@ -1,0 +1,259 @@
+#!/usr/bin/env python3
+"""Holds the renderer as WebAssembly against the program: `python3 .ci/wasm.py PHONG FOLDER [BROWSER...]`.
+
+PHONG is the program, with `wasm` beside it as `bash .ci/wasm` makes it; into FOLDER go pictures and
+screenshots. Every scene of the gallery is drawn at 320 × 180 in Node, with vector instructions and
+without, and by two workers of the page of static files in Debian's Chromium. The EXR and PNG files
+have to be those of the program, byte for byte, and a pixel explained the same. The page is served
+from a folder below the root with the strictest policy it can work under.
+"""
+
+import base64
+import gzip
+import json
+import subprocess
+import sys
+import threading
+import time
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+
+from playwright.sync_api import sync_playwright
+
+PHONG, FOLDER = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+CHROMIUM = "/usr/bin/chromium"
+ROOT = Path(__file__).resolve().parent.parent
+SCENES = sorted((ROOT / "scenes").glob("*.toml"))
+SETS = ["--set", "image.size=[320, 180]", "--set", "image.samples=4"]
+LARGEST = 800_000  # bytes of a module, gzipped
+POLICY = (
+    "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' blob: data:; "
+    "connect-src 'self'; worker-src 'self'; base-uri 'self'; form-action 'none'; frame-ancestors 'none'"
+)
+
+# Draws a scene with the page's own engine, and hands over the files and a pixel explained.
+DRAW = """async ([path, size, samples]) => {
+  const { connect } = await import("./engine.js");
+  const replies = [];
+  const files = [];
+  const wake = [];
+  const stir = () => wake.splice(0).forEach((go) => go());
+  const engine = (globalThis.own ??= connect({
+    hear: (reply) => (globalThis.heard(reply), undefined),
+    take: (frame) => (globalThis.taken(frame), undefined),
+    gone: () => globalThis.heard({ is: "gone" }),
+  }));
+  globalThis.heard = (reply) => { replies.push(reply); stir(); };
+  globalThis.taken = (frame) => { if (frame.kind === "file") files.push(frame.bytes); stir(); };
+  const until = async (test) => {
+    for (;;) {
+      const found = replies.findLast(test);
+      if (found) return found;
+      const bad = replies.find((reply) => reply.is === "error" || reply.is === "gone");
+      if (bad) throw new Error(`${path}: ${JSON.stringify(bad)}`);
+      await new Promise((resolve) => wake.push(resolve));
+    }
+  };
+  engine.send({ do: "open", path });
+  const first = await until((reply) => reply.is === "look");
+  engine.send({ do: "look", set: { "image.size": size, "image.samples": samples } });
+  const look = await until((reply) => reply.is === "look" && reply.picture > first.picture);
+  await until((reply) => reply.is === "pass" && reply.picture === look.picture && reply.pass + 1 === reply.passes);
+  for (const format of ["png", "exr"]) engine.send({ do: "export", format });
+  await until(() => files.length === 2);
+  engine.send({ do: "explain", id: 1, pixel: [150, 100] });
+  const { told } = await until((reply) => reply.is === "explanation");
+  const text = (bytes) => {
+    let all = "";
+    for (let i = 0; i < bytes.length; i += 8192) all += String.fromCharCode(...bytes.subarray(i, i + 8192));
+    return btoa(all);
+  };
+  return { png: text(files[0]), exr: text(files[1]), told };
+}"""
+
+# Turns a scene again and again, each time the first pass of the last turn is there; turns a second.
+TURN = """async ([path, size]) => {
+  const engine = globalThis.own;
+  let count = 0;
+  let begun = 0;
+  engine.send({ do: "open", path });
+  engine.send({ do: "look", set: { "image.size": size } });
+  return new Promise((resolve) => {
+    globalThis.heard = (reply) => {
+      if (reply.is !== "pass" || reply.pass !== 0) return;
+      if (count === 5) begun = performance.now();
+      if (count === 65) return resolve(60000 / (performance.now() - begun));
+      count += 1;
+      engine.send({ do: "turn", by: [0.02, 0] });
+    };
+    globalThis.taken = () => {};
+  });
+}"""
+
+
+class Served(SimpleHTTPRequestHandler):
+    extensions_map = {**SimpleHTTPRequestHandler.extensions_map, ".js": "text/javascript", ".wasm": "application/wasm"}
+
+    def end_headers(self):
+        self.send_header("Content-Security-Policy", POLICY)
+        super().end_headers()
+
+    def log_message(self, *_):
+        pass
+
+
+def serve(folder):
+    """A server of static files; its address."""
+    server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Served, directory=folder))
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    return server, f"http://127.0.0.1:{server.server_port}"
+
+
+def numbers(told):
+    """All of an explanation but the places in the text, which name the file as it was opened."""
+    if isinstance(told, dict):
+        return {key: numbers(value) for key, value in told.items() if key != "at"}
+    return [numbers(value) for value in told] if isinstance(told, list) else told
+
+
+def native():
+    """What the program makes of each scene."""
+    all_of_them = {}
+    folder = FOLDER / "native"
+    folder.mkdir(parents=True, exist_ok=True)
+    for scene in SCENES:
+        made = [folder / f"{scene.stem}.{ending}" for ending in ("png", "exr")]
+        for file in made:
+            subprocess.run([PHONG, "render", scene, *SETS, "-o", file, "--quiet"], check=True)
+        words = [PHONG, "explain", scene, "150", "100", "--samples", "1", "--json", *SETS]
+        said = subprocess.run(words, check=True, capture_output=True, text=True)
+        all_of_them[scene.stem] = (*(file.read_bytes() for file in made), numbers(json.loads(said.stdout)))
+    return all_of_them
+
+
+def compare(name, table, expected, got):
+    """Notes what is the same, scene by scene."""
+    for scene, values in expected.items():
+        same = ["same" if a == b else "DIFFERS" for a, b in zip(values, got[scene], strict=True)]
+        table.setdefault(scene, {})[name] = same
+
+
+def in_node(kind):
+    """What Node makes of them with this kind of module, and how long it took."""
+    out = FOLDER / f"node-{kind}"
+    out.mkdir(parents=True, exist_ok=True)
+    begun = time.monotonic()
+    words = ["node", ROOT / ".ci/wasm.mjs", PHONG.parent / "wasm", kind, out, *SCENES]
+    subprocess.run(words, check=True)
+    seconds = time.monotonic() - begun
+    read = lambda stem: tuple((out / f"{stem}.{ending}").read_bytes() for ending in ("png", "exr"))
+    told = lambda stem: numbers(json.loads((out / f"{stem}.json").read_text()))
+    return {scene.stem: (*read(scene.stem), told(scene.stem)) for scene in SCENES}, seconds
+
+
+def wait(page, expression, seconds=60):
+    """Waits until an expression of the page is true; the page's policy forbids Playwright's own waiting."""
+    end = time.monotonic() + seconds
+    while not page.evaluate(expression):
+        assert time.monotonic() < end, f"not within {seconds} s: {expression}"
+        page.wait_for_timeout(5)
+
+
+def open_page(browser, address, faults, **more):
+    """A page that may ask nobody but its own server, and whose complaints are kept."""
+    context = browser.new_context(viewport={"width": 1400, "height": 900}, **more)
+    page = context.new_page()
+    page.on("pageerror", lambda error: faults.append(str(error)))
+    page.on("console", lambda line: faults.append(line.text) if line.type == "error" else None)
+    page.on("request", lambda request: None if request.url.startswith(("blob:", "data:", address.rsplit("/", 3)[0]))
+            else faults.append(f"asks for {request.url}"))
+    page.goto(address)
+    return context, page
+
+
+def in_chromium(browser, address, faults):
+    """What two workers of the page make of the scenes."""
+    context, page = open_page(browser, f"{address}?workers=2", faults)
+    wait(page, "studio.look && studio.done === studio.look.picture")
+    got = {}
+    begun = time.monotonic()
+    for scene in SCENES:
+        made = page.evaluate(DRAW, [scene.name, [320, 180], 4])
+        files = [base64.b64decode(made[kind]) for kind in ("png", "exr")]
+        got[scene.stem] = (*files, numbers(made["told"]))
+    seconds = time.monotonic() - begun
+    turns = page.evaluate(TURN, ["two-balls.toml", [960, 540]])
+    context.close()
+    return got, seconds, turns
+
+
+def walk(browser, address, faults):
+    """The page of static files: how soon it shows something, by hand, and without a network."""
+    firsts = []
+    for _ in range(3):
+        context, page = open_page(browser, address, faults)
+        wait(page, "document.getElementById('progress').value > 0")
+        firsts.append(page.evaluate("performance.now()"))
+        context.close()
+    context, page = open_page(browser, address, faults)
+    wait(page, "studio.look && studio.done === studio.look.picture")
+    box = page.locator("#canvas").bounding_box()
+    page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    wait(page, "studio.told")
+    before = page.evaluate("studio.look.picture")
+    page.focus("#frame")
+    page.keyboard.press("ArrowLeft")
+    wait(page, f"studio.look.picture > {before} && studio.done === studio.look.picture")
+    page.screenshot(path=FOLDER / "1-static.png")
+    # The service worker has all it needs: the page comes without a network, too.
+    page.evaluate("navigator.serviceWorker.ready.then(() => true)")
+    context.set_offline(True)
+    page.reload()
+    wait(page, "studio.look && studio.done === studio.look.picture")
+    context.close()
+    return sorted(firsts)[1]
+
+
+def sizes():
+    """Bytes of the modules, as they are and gzipped."""
+    for kind in ("simd", "plain"):
+        bytes_ = (PHONG.parent / f"wasm/phong-{kind}_bg.wasm").read_bytes()
+        packed = len(gzip.compress(bytes_, 9))
+        print(f"phong-{kind}_bg.wasm: {len(bytes_):,} bytes, {packed:,} gzipped")
+        assert packed <= LARGEST, f"more than {LARGEST:,}"
+
+
+def main():
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    sizes()
+    site = FOLDER / "web/a folder/studio"
+    subprocess.run([PHONG, "studio", ROOT / "scenes", "--static", site], check=True)
+    table, expected = {}, native()
+    for kind in ("simd", "plain"):
+        got, seconds = in_node(kind)
+        compare(f"Node, {kind}", table, expected, got)
+        print(f"Node, {kind}: {len(SCENES)} scenes in {seconds:.1f} s")
+    server, root = serve(FOLDER / "web")
+    address, faults = f"{root}/a%20folder/studio/", []
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        got, seconds, turns = in_chromium(browser, address, faults)
+        compare("Chromium, 2 workers", table, expected, got)
+        print(f"Chromium, 2 workers: {len(SCENES)} scenes in {seconds:.1f} s")
+        print(f"two balls at 960 × 540: {turns:.0f} turns a second, each with its first pass")
+        first = walk(browser, address, faults)
+        print(f"from the address to the first picture: median of 3 {first:.0f} ms")
+        browser.close()
+    server.shutdown()
+    engines = list(next(iter(table.values())))
+    print(f"{'scene':20} " + " ".join(f"{name:24}" for name in engines) + "  (PNG, EXR, explained)")
+    for scene, columns in table.items():
+        print(f"{scene:20} " + " ".join(f"{' '.join(columns[name]):24}" for name in engines))
+    bad = [scene for scene, columns in table.items() if "DIFFERS" in sum(columns.values(), [])]
+    assert not bad, f"not the program's bits: {bad}"
+    assert not faults, faults
+    print(f"the renderer as WebAssembly: {len(table)} scenes in {len(engines)} engines have the program's bits")
+
+
+main()

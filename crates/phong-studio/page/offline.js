@@ -1,0 +1,35 @@
+// Keeps a page of static files for when there is no network. With one, what it says is used.
+
+const NAME = `phong ${registration.scope}`;
+
+addEventListener("install", (event) => {
+  skipWaiting();
+  event.waitUntil(store());
+});
+
+addEventListener("activate", (event) => event.waitUntil(clients.claim()));
+
+async function store() {
+  const { files } = await (await fetch("files.json")).json();
+  const cache = await caches.open(NAME);
+  await cache.addAll(["./", ...files]);
+}
+
+addEventListener("fetch", (event) => {
+  const { request } = event;
+  if (request.method !== "GET" || !request.url.startsWith(registration.scope)) return;
+  event.respondWith(answer(request));
+});
+
+async function answer(request) {
+  const cache = await caches.open(NAME);
+  try {
+    const fresh = await fetch(request);
+    if (fresh.ok) await cache.put(request, fresh.clone());
+    return fresh;
+  } catch (error) {
+    const kept = await cache.match(request, { ignoreSearch: true });
+    if (!kept) throw error;
+    return kept;
+  }
+}

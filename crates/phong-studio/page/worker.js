@@ -1,0 +1,92 @@
+// A worker of the page with an engine of its own: PROTOCOL.md without a server. Requests and replies
+// are texts, tiles and files are buffers, as over a socket; what goes with workers alone is an object.
+
+// How long to draw before the next request is heard, in ms.
+const SLICE = 12;
+
+let studio = null;
+let shelf = {};
+let deadline = 0;
+let trouble = "";
+// Replies that wait until it is known whether a file was lacking; null: they are sent at once.
+let kept = null;
+const asked = new Set();
+const queue = [];
+let awake = false;
+
+// What the module calls.
+globalThis.hear = (reply) => {
+  if (kept) kept.push(reply);
+  else postMessage(reply);
+};
+globalThis.take = (bytes) => {
+  const { buffer } = bytes.slice();
+  postMessage(buffer, [buffer]);
+  return performance.now() < deadline;
+};
+globalThis.failed = (why) => (trouble = why);
+
+onmessage = ({ data }) => {
+  queue.push(data);
+  if (!awake) run();
+};
+
+async function run() {
+  awake = true;
+  try {
+    for (;;) {
+      while (queue.length > 0) await meet(queue.shift());
+      if (!studio.has_work()) break;
+      deadline = performance.now() + SLICE;
+      studio.advance();
+      await breath();
+    }
+    awake = false;
+  } catch (error) {
+    // The module cannot be used any more: whoever started this worker starts another.
+    postMessage({ failed: trouble || String(error) });
+  }
+}
+
+// Lets what was sent meanwhile come in.
+const { port1, port2 } = new MessageChannel();
+function breath() {
+  return new Promise((resolve) => {
+    port1.onmessage = resolve;
+    port2.postMessage(null);
+  });
+}
+
+async function meet(message) {
+  if (typeof message === "string") return receive(message);
+  if (message.module) return begin(message);
+  if (message.join) return message.join.forEach((part) => studio.join(part));
+  if (message.part) postMessage({ part: studio.part() ?? null });
+}
+
+async function begin({ module, script, share, open, scenes }) {
+  const { default: load, Studio } = await import(script);
+  await load({ module_or_path: module });
+  studio = new Studio(...share);
+  shelf = scenes;
+  if (share[0] === 0) studio.hello(open, Object.keys(scenes).filter((name) => !scenes[name].hidden));
+}
+
+// Gives the engine a request; if that asks for files of the folder, it is given again with them.
+async function receive(request) {
+  for (;;) {
+    kept = [];
+    studio.receive(request);
+    const [said, lacking] = [kept, studio.lacking().filter((path) => path in shelf && !asked.has(path))];
+    kept = null;
+    if (lacking.length === 0) return said.forEach((reply) => postMessage(reply));
+    for (const path of lacking) await fetchFile(path);
+  }
+}
+
+async function fetchFile(path) {
+  asked.add(path);
+  const address = new URL(`scenes/${path.split("/").map(encodeURIComponent).join("/")}`, location.href);
+  const answer = await fetch(address).catch(() => null);
+  if (answer?.ok) studio.put(path, new Uint8Array(await answer.arrayBuffer()));
+}

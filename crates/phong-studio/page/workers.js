@@ -1,0 +1,158 @@
+// Engines in workers of this page, which draw each picture together: each has a share of its tiles, and
+// to the page they are one engine. The first answers; of the others only tiles and passes are used.
+
+import { frame } from "./frame.js";
+import { words } from "./words.js";
+
+// More share what is drawn, but each reads the scene for itself.
+const MOST = 8;
+
+// Requests that leave the picture as it is: the first engine alone is asked.
+const ASKED = new Set(["explain", "export", "keys"]);
+
+// A module that gives a vector: whether it is one at all tells whether vectors are known here.
+const VECTOR = [
+  0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 8, 1, 6, 0, 65, 0, 253, 15, 11,
+];
+
+// What every worker begins with: the module, compiled once, and what there is to open.
+async function prepare() {
+  const name = WebAssembly.validate(new Uint8Array(VECTOR)) ? "phong-simd" : "phong-plain";
+  const address = (file) => new URL(file, import.meta.url);
+  const get = async (file) => {
+    const answer = await fetch(address(file));
+    if (!answer.ok) throw new Error(`${file}: ${answer.status}`);
+    return answer;
+  };
+  const [module, { open, scenes }] = await Promise.all([
+    get(`${name}_bg.wasm`).then(async (answer) => WebAssembly.compile(await answer.arrayBuffer())),
+    get("files.json").then((answer) => answer.json()),
+  ]);
+  return { module, script: address(`${name}.js`).href, open, scenes };
+}
+
+export function work({ hear, take }) {
+  return new Team(hear, take);
+}
+
+class Team {
+  constructor(hear, take) {
+    this.hear = hear;
+    this.take = take;
+    const asked = new URLSearchParams(location.search).get("workers");
+    this.count = Math.max(1, Math.min(Number(asked) || (navigator.hardwareConcurrency ?? 2), MOST));
+    this.open = null; // the newest scene that was asked for
+    this.parts = null; // who waits for shares
+    this.ready = prepare().then(
+      (kit) => {
+        this.kit = kit;
+        this.start();
+      },
+      (error) => hear({ is: "error", message: words.noEngine + error.message }),
+    );
+  }
+
+  start() {
+    this.picture = 0; // the number of the newest picture
+    this.begun = false; // whether its first pass is shown
+    this.passed = new Map(); // for each of its passes, how many engines have done it
+    this.early = []; // what others have drawn that cannot be shown yet
+    this.workers = Array.from({ length: this.count }, (_, index) => {
+      const worker = new Worker(new URL("worker.js", import.meta.url), { type: "module" });
+      worker.onmessage = ({ data }) => this.heard(index, data);
+      worker.onerror = (event) => this.restart(event.message ?? "");
+      worker.postMessage({ ...this.kit, share: [index, this.count] });
+      return worker;
+    });
+  }
+
+  send(request) {
+    this.ready.then(() => {
+      if (!this.kit) return;
+      if (request.do === "open") this.open = request;
+      if (request.do === "export") this.exported(request);
+      else this.tell(request, ASKED.has(request.do) ? 1 : this.count);
+    });
+  }
+
+  tell(request, many) {
+    for (const worker of this.workers.slice(0, many)) worker.postMessage(JSON.stringify(request));
+  }
+
+  // The first engine is given the shares of the others, and then asked.
+  async exported(request) {
+    const others = this.workers.slice(1);
+    const parts = new Promise((resolve) => (this.parts = { all: [], resolve }));
+    others.forEach((worker) => worker.postMessage({ part: true }));
+    const all = others.length > 0 ? await parts : [];
+    this.workers[0].postMessage({ join: all.filter((part) => part) });
+    this.tell(request, 1);
+  }
+
+  heard(index, data) {
+    if (typeof data === "string") return this.replied(index, JSON.parse(data));
+    if (data instanceof ArrayBuffer) return this.drawn(index, frame(data));
+    if (data.failed !== undefined) return this.restart(data.failed);
+    this.parts.all.push(data.part);
+    if (this.parts.all.length === this.count - 1) this.parts.resolve(this.parts.all);
+  }
+
+  replied(index, reply) {
+    if (reply.is === "pass") return this.drawn(index, reply);
+    if (index !== 0) return;
+    if (this.again && (reply.is === "hello" || reply.is === "scene")) return;
+    if (reply.is === "look") {
+      this.again = false;
+      this.picture = reply.picture;
+      this.begun = false;
+      this.passed.clear();
+      this.early = this.early.filter((one) => one.picture >= reply.picture);
+    }
+    this.hear(reply);
+  }
+
+  // A tile or a pass. The first pass is the first engine's; nothing finer is shown before.
+  drawn(index, one) {
+    if (one.kind === "file") return this.take(one);
+    const first = index === 0 && one.picture === this.picture;
+    if (!first && (one.picture > this.picture || (one.picture === this.picture && !this.begun))) {
+      this.early.push(one);
+    } else if (one.picture === this.picture) {
+      this.show(one);
+    }
+  }
+
+  show(one) {
+    if (one.is !== "pass") return this.take(one);
+    if (one.pass === 0) {
+      this.begun = true;
+      this.hear(one);
+      const early = this.early.filter(({ picture }) => picture === this.picture);
+      this.early = this.early.filter(({ picture }) => picture !== this.picture);
+      return early.forEach((each) => this.show(each));
+    }
+    const passed = 1 + (this.passed.get(one.pass) ?? 0);
+    this.passed.set(one.pass, passed);
+    if (passed < this.count) return;
+    this.hear(one);
+    if (one.pass + 1 === one.passes) keep();
+  }
+
+  // An engine has come to a bad end: all begin anew with the scene that was opened last.
+  restart(why) {
+    this.workers.forEach((worker) => worker.terminate());
+    this.hear({ is: "error", message: words.failed + why });
+    if (this.again) return; // twice in a row: it is the scene
+    this.again = true;
+    this.start();
+    if (this.open) this.tell(this.open, this.count);
+  }
+}
+
+// Keeps the page for when there is no network, once there is time for it.
+let isKept = false;
+function keep() {
+  if (isKept || !globalThis.isSecureContext) return;
+  isKept = true;
+  navigator.serviceWorker?.register(new URL("offline.js", import.meta.url)).catch(() => {});
+}
