@@ -102,7 +102,10 @@ def _result(known: _Submitted[Name], done: int, timeout: float | None) -> bytes 
     try:
         result: bytes = known.future.result(timeout=timeout)
     except KilledWorker as error:
-        if known.tried < _RETRIES and done > known.done_before:
+        # Dask counts the deaths that a task met for as long as it knows it, and scenes are kept for
+        # many pictures: one that was unlucky too often is sent anew.
+        is_scene = str(error.task) != str(known.future.key)
+        if known.tried < _RETRIES and (done > known.done_before or (is_scene and not known.tried)):
             return None
         limit = getattr(error.last_worker, "memory_limit", 0)
         memory = f", which may use {limit / 1e6:.0f} MB of memory" if limit else ""
