@@ -289,6 +289,63 @@ def test_after_the_scheduler_died_another_call_goes_on_from_the_store(
     assert np.array_equal(np.asarray(image), np.asarray(phong.render(scene, **options)))
 
 
+def test_workers_of_different_vector_instructions_give_the_same_bits(
+    processes: Processes, tmp_path: Path
+) -> None:
+    import kills
+    from distributed import Client
+
+    processes.scheduler()
+    processes.worker("env", "PHONG_SIMD=scalar")
+    processes.worker()
+    diary = tmp_path / "diary"
+    diary.touch()
+    options: dict[str, Any] = {"size": (160, 90), "samples": 16, "progress": False}
+    with Client(processes.address, timeout=120) as client:
+        client.wait_for_workers(2, timeout=300)
+        levels = client.run(os.environ.get, "PHONG_SIMD").values()
+        assert sorted(map(str, levels)) == ["None", "scalar"]
+        client.register_plugin(kills.Diary(str(diary)))
+        for name in THREE:
+            image = phong.dask.render(SCENES / name, client, shares=8, **options)
+            alone = phong.render(SCENES / name, **options)
+            assert np.array_equal(np.asarray(image), np.asarray(alone)), name
+    lines = [line.split(maxsplit=2) for line in diary.read_text().splitlines()]
+    worked = {process for process, what, key in lines if what == "done" and "share" in key}
+    assert len(worked) == 2, "both have rendered shares"
+
+
+def test_an_unlucky_scene_is_sent_anew_and_a_share_that_kills_its_workers_is_not() -> None:
+    need("distributed")
+    from distributed import KilledWorker
+    from distributed.core import Status
+    from distributed.scheduler import WorkerState
+
+    from phong._cluster import Task, _result, _Submitted
+
+    class Lost:
+        key = "phong-share-1-0-0"
+
+        def __init__(self, task: str) -> None:
+            self.task = task
+
+        def result(self, timeout: float | None) -> bytes:
+            worker = WorkerState(address="tcp://there:1", status=Status.closed, pid=0, name="there",
+                                 nthreads=1, memory_limit=0, local_directory="", nanny="",
+                                 server_id="there")  # fmt: skip
+            raise KilledWorker(self.task, worker, 3)
+
+    def result(task: str, tried: int) -> bytes | None:
+        lost: Any = Lost(task)
+        known = _Submitted(Task(0, "share 0", lambda: lost), lost, tried, done_before=0)
+        return _result(known, 0, None)
+
+    assert result("phong-scene-1", 0) is None
+    for task, tried in (("phong-scene-1", 1), (Lost.key, 0)):
+        with pytest.raises(phong.dask.ClusterError, match="4 workers died"):
+            result(task, tried)
+
+
 def test_a_damaged_file_of_the_store_is_rendered_again(client: Any, tmp_path: Path) -> None:
     first = phong.dask.render(balls(), client, shares=3, store=tmp_path, **SMALL)
     for file in tmp_path.iterdir():

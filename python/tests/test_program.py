@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -18,9 +19,16 @@ SCENE = ROOT / "scenes" / "two-balls.toml"
 SMALL: dict[str, Any] = {"size": (60, 40), "samples": 2}
 
 
-def program(*arguments: object, ok: int = 0, text: str | None = None) -> str:
+def program(*arguments: object, ok: int = 0, text: str | None = None, **variables: str) -> str:
     command = [sys.executable, "-m", "phong", *map(str, arguments)]
-    done = subprocess.run(command, capture_output=True, text=True, input=text, timeout=120)
+    done = subprocess.run(
+        command,
+        capture_output=True,
+        text=True,
+        input=text,
+        timeout=120,
+        env={**os.environ, **variables},
+    )
     assert done.returncode == ok, done.stderr
     return done.stdout
 
@@ -35,6 +43,23 @@ def test_a_picture_has_the_same_bytes(name: str, tmp_path: Path) -> None:
     image.save(tmp_path / "b.exr")
     for ending in ("png", "exr"):
         assert (tmp_path / f"a.{ending}").read_bytes() == (tmp_path / f"b.{ending}").read_bytes()
+
+
+def test_every_set_of_vector_instructions_gives_the_same_bytes(tmp_path: Path) -> None:
+    scene, options = ROOT / "scenes/glass.toml", ("--size", "60x40", "--samples", 2, "--quiet")
+    for level in ("", "scalar"):
+        program("render", scene, *options, "-o", tmp_path / f"a{level}.png", PHONG_SIMD=level)
+    assert (tmp_path / "a.png").read_bytes() == (tmp_path / "ascalar.png").read_bytes()
+
+
+def test_an_unknown_set_of_vector_instructions_is_told(tmp_path: Path) -> None:
+    program("render", SCENE, "-o", tmp_path / "a.png", ok=2, PHONG_SIMD="sse9")
+    code = "import phong, sys; phong.render(sys.argv[1], size=(2, 2), samples=1)"
+    environment = {**os.environ, "PHONG_SIMD": "sse9"}
+    done = subprocess.run(
+        [sys.executable, "-c", code, str(SCENE)], env=environment, capture_output=True, text=True
+    )
+    assert 'PHONG_SIMD is "sse9": it names vector instructions' in done.stderr
 
 
 def test_shares_of_both_go_together(tmp_path: Path) -> None:
@@ -72,6 +97,28 @@ def test_formulas_have_the_same_values() -> None:
     told = program("eval", text="\n".join(queries) + "\n").splitlines()
     expected = np.array([json.loads(line)["value"] for line in told], np.float32)
     assert np.array_equal(phong.evaluate("phong_spec", n, l, e, alpha=alphas), expected)
+
+
+def test_formulas_are_evaluated_at_a_million_places_at_once() -> None:
+    rng = np.random.default_rng(3)
+    n = rng.normal(size=(1000, 1, 3))
+    n /= np.linalg.norm(n, axis=-1, keepdims=True)
+    l = rng.normal(size=(1, 1000, 3))  # noqa: E741
+    l /= np.linalg.norm(l, axis=-1, keepdims=True)  # noqa: E741
+    values = phong.evaluate("lambert", n, l)
+    assert values.shape == (1000, 1000)
+    assert np.allclose(values, np.maximum(0, (n * l).sum(-1)), atol=1e-6)
+    few = phong.evaluate("lambert", n[:3], l[:, :4])
+    assert np.array_equal(few, values[:3, :4])
+    with pytest.raises(ValueError, match=r"alpha is NaN.* \(at flat index 1\)"):
+        phong.evaluate("phong_spec", n[0, 0], n[0, 0], n[0, 0], alpha=[1, np.nan])
+
+
+def test_a_parameter_named_as_the_normal_is_written_with_an_underscore() -> None:
+    told = json.loads(
+        program("eval", text='{"model": "D_blinn", "params": {"NH": 0.9, "n": 12}}\n')
+    )
+    assert phong.evaluate("D_blinn", NH=0.9, n_=12) == np.float32(told["value"])
 
 
 def test_fits_and_comparisons_and_grades_are_alike(tmp_path: Path) -> None:

@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use crate::{
-    Aabb, Cylinder, Level, Primitives, Sphere,
+    Aabb, Cylinder, Primitives, Sphere,
     build::{self, BuildError, BuildOptions, Nodes},
     level::Token,
     traverse,
@@ -211,7 +211,7 @@ fn moved(primitives: &Primitives, by: DVec3) -> Primitives {
 
 /// The vector instructions asked for.
 pub(crate) fn token(options: BuildOptions) -> Result<Token, BuildError> {
-    let level = options.level.unwrap_or_else(Level::detect);
+    let level = options.level_used()?;
     Token::of(level).ok_or(BuildError::NoSuchLevel(level))
 }
 

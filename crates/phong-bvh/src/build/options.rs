@@ -10,8 +10,38 @@ use crate::Level;
 pub struct BuildOptions {
     /// How much time to spend on a better tree.
     pub preset: Preset,
-    /// The vector instructions to use, by building and tracing. None: the fastest of this machine.
+    /// The vector instructions to use, by building and tracing. None: those that the environment
+    /// variable `PHONG_SIMD` names, and without it the fastest of this machine.
     pub level: Option<Level>,
+}
+
+impl BuildOptions {
+    /// The level that is used: see [`level`](Self::level).
+    ///
+    /// # Errors
+    /// [`BuildError::NoSuchLevel`] and [`BuildError::UnknownLevel`].
+    pub fn level_used(&self) -> Result<Level, BuildError> {
+        let level = match (self.level, std::env::var_os("PHONG_SIMD")) {
+            (Some(level), _) => level,
+            (None, Some(name)) if !name.is_empty() => level_named(&name.to_string_lossy())?,
+            (None, _) => return Ok(Level::detect()),
+        };
+        if level.is_available() { Ok(level) } else { Err(BuildError::NoSuchLevel(level)) }
+    }
+}
+
+/// The level that the environment asks for.
+fn level_named(name: &str) -> Result<Level, BuildError> {
+    let named = match name {
+        "scalar" => Some(Level::Scalar),
+        "sse4.2" => Some(Level::Sse42),
+        "avx2" => Some(Level::Avx2),
+        "avx512" => Some(Level::Avx512),
+        "neon" => Some(Level::Neon),
+        "simd128" => Some(Level::Simd128),
+        _ => None,
+    };
+    named.ok_or_else(|| BuildError::UnknownLevel(name.to_owned()))
 }
 
 /// How much time to spend on a better tree. The preset never changes a result.
@@ -67,6 +97,33 @@ pub enum BuildError {
     #[error("the transform of part {0} has no inverse")]
     NoInverse(u32),
     /// The level asked for is not one of this machine: the caller's fault.
-    #[error("this machine has no level {0:?}; leave the level out to use its fastest")]
+    #[error("this machine has no level {0:?}; leave the level (PHONG_SIMD) out to use its fastest")]
     NoSuchLevel(Level),
+    /// The environment variable `PHONG_SIMD` names no level: the user's fault.
+    #[error(
+        "PHONG_SIMD is {0:?}: it names vector instructions, one of scalar, sse4.2, avx2, avx512, \
+         neon and simd128; without it the fastest of this machine are used"
+    )]
+    UnknownLevel(String),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_environment_names_levels_and_a_word_that_names_none_is_told() {
+        assert_eq!(level_named("scalar"), Ok(Level::Scalar));
+        assert_eq!(level_named("sse4.2"), Ok(Level::Sse42));
+        let told = level_named("sse9").unwrap_err().to_string();
+        assert!(told.starts_with("PHONG_SIMD is \"sse9\""), "{told}");
+    }
+
+    #[test]
+    fn a_level_that_is_asked_for_is_used_if_the_machine_has_it() {
+        let asked = |level| BuildOptions { level: Some(level), ..BuildOptions::default() };
+        assert_eq!(asked(Level::Scalar).level_used(), Ok(Level::Scalar));
+        let foreign = if cfg!(target_arch = "x86_64") { Level::Neon } else { Level::Avx2 };
+        assert_eq!(asked(foreign).level_used(), Err(BuildError::NoSuchLevel(foreign)));
+    }
 }
