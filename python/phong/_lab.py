@@ -192,32 +192,29 @@ def evaluate(
 
     ``n``, ``l``, ``e``: the normal, to the light, to the eye; shape (..., 3), unit to 1e-3.
     ``params``: those of the model (``phong eval --help`` lists them); numbers or arrays, or words.
-    Leading axes are broadcast. The values are ``float32``: of shape (...), or (..., 3) where they
-    are vectors or colours. Raises ``ValueError`` with the index of what has no value.
+    A parameter called ``n`` there is ``n_`` here, where ``n`` is the normal. Leading axes are
+    broadcast. The values are ``float32``: of shape (...), or (..., 3) where they are vectors or
+    colours. Raises ``ValueError`` with the index of what has no value.
     """
-    vectors: dict[str, NDArray[np.float64]] = {}
+    arrays: dict[str, NDArray[np.float64]] = {}
     for name, given in (("N", n), ("L", l), ("E", e)):
         if given is None:
             continue
         array = _numbers(name.lower(), given)
         if array.shape[-1:] != (3,):
             raise ValueError(f"{name.lower()} must be of shape (..., 3); it is {array.shape}")
-        vectors[name] = array
+        arrays[name] = array
     constant: dict[str, Any] = {}
-    varying: dict[str, NDArray[np.float64]] = {}
-    for name, value in params.items():
+    for keyword, value in params.items():
+        name = keyword.removesuffix("_")
         if isinstance(value, (str, bool, dict, type(None))) or _is_mixed(value):
             constant[name] = _plain(name, value)
             continue
         array = _numbers(name, value)
         is_color = name in _COLORS and array.shape[-1:] == (3,)
-        if is_color or name == "X":
-            varying[name] = array
-        elif array.ndim == 0:
-            constant[name] = array.item()
-        else:
-            varying[name] = array[..., None]
-    arrays = {**vectors, **varying}
+        if name == "X" and array.shape[-1:] != (3,):
+            raise ValueError(f"X must be of shape (..., 3); it is {array.shape}")
+        arrays[name] = array if is_color or name == "X" else array[..., None]
     try:
         shape = np.broadcast_shapes(*(array.shape[:-1] for array in arrays.values()))
     except ValueError:
@@ -225,16 +222,17 @@ def evaluate(
         raise ValueError(f"leading axes do not fit together: {shapes}") from None
 
     def rows(array: NDArray[np.float64]) -> NDArray[np.float64]:
-        wide = np.broadcast_to(array, (*shape, array.shape[-1]))
-        return np.ascontiguousarray(wide.reshape(-1, array.shape[-1]))
+        width = array.shape[-1]
+        # One row stands for all.
+        wide = array if array.size == width else np.broadcast_to(array, (*shape, width))
+        return np.ascontiguousarray(wide.reshape(-1, width))
 
     count = int(np.prod(shape, dtype=np.int64))
     values, width = _phong._evaluate(
         model,
         count,
-        [(name, rows(array)) for name, array in vectors.items()],
         json.dumps(constant),
-        [(name, rows(array)) for name, array in varying.items()],
+        [(name, rows(array)) for name, array in arrays.items()],
     )
     shaped = values.reshape(shape if width == 1 else (*shape, width))
     return shaped[()] if shaped.ndim == 0 else shaped

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use numpy::PyReadonlyArray2;
 use phong::image::{Draft, Picture, Plane, Transfer, place};
-use phong_lab::eval::{self, Value};
+use phong_lab::eval::{Column, Table, WrongRow};
 use phong_lab::figures::{CATALOGUE, Finish, Setting, find};
 use phong_lab::fit::{self, FitError, Model};
 use phong_lab::{compare, grade};
@@ -125,68 +125,43 @@ pub(crate) fn _fit(py: Python<'_>, a: String, b: String) -> PyResult<String> {
     Ok(fit::json(&found).to_string())
 }
 
-/// A formula at many vectors: its values, and how many numbers each has. See `phong.evaluate`.
+/// Rows that are evaluated between two looks at signals.
+const ROWS: usize = 1 << 16;
+
+/// A formula at many places: its values, and how many numbers each has. See `phong.evaluate`.
 ///
-/// `constant` are the parameters that are the same for all, as JSON; `varying` those of each, one
-/// number or three; vectors are rows of three.
+/// `constant` are the parameters that are the same for all, as JSON; `arrays` the vectors and the
+/// parameters that are arrays: a row for each place, or one row for all.
 #[pyfunction]
 #[expect(clippy::needless_pass_by_value, reason = "arguments of Python functions are given whole")]
 pub(crate) fn _evaluate<'py>(
     py: Python<'py>,
     model: &str,
     count: usize,
-    vectors: Vec<(String, PyReadonlyArray2<'py, f64>)>,
     constant: &str,
-    varying: Vec<(String, PyReadonlyArray2<'py, f64>)>,
+    arrays: Vec<(String, PyReadonlyArray2<'py, f64>)>,
 ) -> PyResult<(Bound<'py, PyAny>, usize)> {
-    let constant: Map<String, Json> = serde_json::from_str(constant)
+    let params: Map<String, Json> = serde_json::from_str(constant)
         .map_err(|error| value_error(format!("params cannot be told: {error}")))?;
-    let mut values = Vec::new();
-    let mut width = 1;
-    let row = |array: &PyReadonlyArray2<'py, f64>, index: usize| -> Vec<f64> {
-        array.as_array().row(index).to_vec()
-    };
-    let number = |value: f64| -> Json {
-        serde_json::Number::from_f64(value)
-            .map_or_else(|| Json::from(value.to_string()), Json::from)
-    };
-    for index in 0..count {
-        if index % 4096 == 4095 {
-            py.check_signals()?;
+    let mut columns = Vec::with_capacity(arrays.len());
+    for (name, array) in &arrays {
+        let (rows, width) = array.as_array().dim();
+        let values = array.as_slice().map_err(|error| type_error(format!("{name}: {error}")))?;
+        if rows != count && rows != 1 {
+            return Err(value_error(format!("{name} has {rows} rows; wanted are {count}")));
         }
-        let mut query = Map::new();
-        query.insert("model".to_owned(), model.into());
-        for (name, array) in &vectors {
-            query.insert(name.clone(), row(array, index).into_iter().map(number).collect());
-        }
-        let mut params = constant.clone();
-        for (name, array) in &varying {
-            let value = match row(array, index)[..] {
-                [one] => number(one),
-                ref more => more.iter().copied().map(number).collect(),
-            };
-            params.insert(name.clone(), value);
-        }
-        if !params.is_empty() {
-            query.insert("params".to_owned(), params.into());
-        }
-        let at = || if count == 1 { String::new() } else { format!(" (at flat index {index})") };
-        let (query, grey) =
-            eval::read(&query).map_err(|error| value_error(format!("{error}{}", at())))?;
-        let value = query.value().map_err(|error| value_error(format!("{error}{}", at())))?;
-        let one = match value {
-            Value::Number(number) => [number; 3],
-            Value::Color(color) if grey => [color.r; 3],
-            Value::Color(color) => {
-                width = 3;
-                color.to_array()
-            }
-            Value::Direction(direction) => {
-                width = 3;
-                direction.to_array()
-            }
-        };
-        values.extend_from_slice(&one[..width]);
+        columns.push(Column { name, values, width });
+    }
+    let table = Table { model, columns: &columns, params: &params };
+    let (mut values, mut width) = (Vec::new(), 1);
+    for first in (0..count).step_by(ROWS) {
+        py.check_signals()?;
+        let rows = first..(first + ROWS).min(count);
+        let found = py.detach(|| table.evaluate(rows, &mut values));
+        width = found.map_err(|WrongRow { row, why }| {
+            let at = if count == 1 { String::new() } else { format!(" (at flat index {row})") };
+            value_error(format!("{why}{at}"))
+        })?;
     }
     Ok((numpy::PyArray1::from_vec(py, values).into_any(), width))
 }

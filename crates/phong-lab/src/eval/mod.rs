@@ -13,6 +13,7 @@
 mod answer;
 mod line;
 mod query;
+mod table;
 
 use std::f32::consts::FRAC_1_PI;
 
@@ -29,6 +30,7 @@ use thiserror::Error;
 
 pub use answer::answer;
 pub use query::read;
+pub use table::{Column, Table, WrongRow};
 
 /// N, L and E: all unit, all away from the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]

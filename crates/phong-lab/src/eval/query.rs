@@ -1,4 +1,6 @@
-//! A query, from JSON.
+//! A query, from JSON or a row of arrays.
+
+use std::fmt;
 
 use phong::math::Dir3;
 use phong::reflectance::{Distribution, Fresnel, Incident, OrenNayarForm, Shadowing, WardForm};
@@ -34,6 +36,9 @@ const MODELS: [&str; 23] = [
     "ward_brdf",
 ];
 
+/// The vectors of a query.
+const VECTORS: [&str; 3] = ["N", "L", "E"];
+
 /// Keys of a query, beside its `id`.
 const KEYS: [&str; 5] = ["model", "N", "L", "E", "params"];
 
@@ -53,26 +58,99 @@ pub fn read(object: &Map<String, Json>) -> Result<(Query, bool), String> {
     }
     let model = match object.get("model") {
         Some(Json::String(model)) => model.as_str(),
-        Some(other) => return Err(format!("model is a text, not {}", kind(other))),
+        Some(other) => return Err(format!("model is a text, not {}", kind(Given::Json(other)))),
         None => return Err("a query needs a model; `phong eval --help` lists them".to_owned()),
     };
     let none = Map::new();
     let params = match object.get("params") {
         Some(Json::Object(params)) => params,
-        Some(other) => return Err(format!("params is an object, not {}", kind(other))),
+        Some(other) => {
+            return Err(format!("params is an object, not {}", kind(Given::Json(other))));
+        }
         None => &none,
     };
-    let mut fields = Fields { model, object, params, asked: Vec::new(), grey: true };
+    query(&Parts { model, object, params, row: &[] })
+}
+
+/// The query that some parts make; and whether all its colours are greys.
+pub(super) fn query(parts: &Parts<'_>) -> Result<(Query, bool), String> {
+    let mut fields = Fields { model: parts.model, parts, asked: Vec::new(), grey: true };
     let query = fields.query()?;
     fields.nothing_is_left()?;
     Ok((query, fields.grey))
 }
 
+/// What a query is made of.
+pub(super) struct Parts<'a> {
+    pub(super) model: &'a str,
+    /// N, L and E, as far as they are no arrays.
+    pub(super) object: &'a Map<String, Json>,
+    /// The params, as far as they are no arrays.
+    pub(super) params: &'a Map<String, Json>,
+    /// A row of each array, by the name of a vector or a param.
+    pub(super) row: &'a [(&'a str, &'a [f64])],
+}
+
+impl<'a> Parts<'a> {
+    fn in_row(&self, name: &str) -> Option<Given<'a>> {
+        self.row.iter().find(|(of, _)| *of == name).map(|(_, numbers)| Given::Row(numbers))
+    }
+
+    fn vector(&self, name: &str) -> Option<Given<'a>> {
+        self.in_row(name).or_else(|| self.object.get(name).map(Given::Json))
+    }
+
+    fn param(&self, name: &str) -> Option<Given<'a>> {
+        self.in_row(name).or_else(|| self.params.get(name).map(Given::Json))
+    }
+
+    /// The names of all params.
+    fn params(&self) -> impl Iterator<Item = &'a str> {
+        let of_arrays =
+            self.row.iter().map(|(name, _)| *name).filter(|name| !VECTORS.contains(name));
+        self.params.keys().map(String::as_str).chain(of_arrays)
+    }
+}
+
+/// A part of a query: JSON, or the row of an array, where one number is a number and several are a
+/// list.
+#[derive(Clone, Copy)]
+enum Given<'a> {
+    Json(&'a Json),
+    Row(&'a [f64]),
+}
+
+impl<'a> Given<'a> {
+    fn number(self) -> Option<f64> {
+        match self {
+            Self::Json(value) => value.as_f64(),
+            Self::Row(&[one]) => Some(one),
+            Self::Row(_) => None,
+        }
+    }
+
+    fn json(self) -> Option<&'a Json> {
+        match self {
+            Self::Json(value) => Some(value),
+            Self::Row(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for Given<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Json(value) => value.fmt(f),
+            Self::Row([one]) => one.fmt(f),
+            Self::Row(more) => write!(f, "{more:?}"),
+        }
+    }
+}
+
 /// The parts of a query, and which of them have been asked for.
 struct Fields<'a> {
     model: &'a str,
-    object: &'a Map<String, Json>,
-    params: &'a Map<String, Json>,
+    parts: &'a Parts<'a>,
     /// Params that the model has.
     asked: Vec<&'static str>,
     /// Whether no colour has been a list so far.
@@ -209,8 +287,9 @@ impl<'a> Fields<'a> {
     }
 
     fn lights(&mut self) -> Result<Vec<Incident>, String> {
-        let Json::Array(lights) = self.param("lights")? else {
-            return Err(format!("lights is a list, not {}", kind(&self.params["lights"])));
+        let given = self.param("lights")?;
+        let Some(Json::Array(lights)) = given.json() else {
+            return Err(format!("lights is a list of objects, not {}", kind(given)));
         };
         lights.iter().enumerate().map(|(i, light)| self.light(i, light)).collect()
     }
@@ -218,14 +297,14 @@ impl<'a> Fields<'a> {
     fn light(&mut self, i: usize, light: &Json) -> Result<Incident, String> {
         const PARTS: [&str; 3] = ["L", "Cd", "Cs"];
         let Json::Object(light) = light else {
-            return Err(format!("lights[{i}] is an object, not {}", kind(light)));
+            return Err(format!("lights[{i}] is an object, not {}", kind(Given::Json(light))));
         };
         if let Some(key) = light.keys().find(|key| !PARTS.contains(&key.as_str())) {
             return Err(format!("lights[{i}] has no `{key}`; it has {}", PARTS.join(", ")));
         }
         let part = |name| {
             let value = light.get(name).ok_or_else(|| format!("lights[{i}] needs {name}"))?;
-            Ok::<_, String>((format!("lights[{i}].{name}"), value))
+            Ok::<_, String>((format!("lights[{i}].{name}"), Given::Json(value)))
         };
         let [l, c_d, c_s] = [part("L")?, part("Cd")?, part("Cs")?];
         let l = unit(&l.0, l.1)?;
@@ -256,21 +335,21 @@ impl<'a> Fields<'a> {
     }
 
     fn fresnel(&mut self) -> Result<Fresnel, String> {
-        let list = match self.optional("fresnel") {
-            None | Some(Json::Null) => return Ok(Fresnel::None),
-            Some(Json::Array(list)) => list.as_slice(),
+        let list = match self.optional("fresnel").map(Given::json) {
+            None | Some(Some(Json::Null)) => return Ok(Fresnel::None),
+            Some(Some(Json::Array(list))) => list.as_slice(),
             Some(_) => &[],
         };
         match list {
             [Json::String(name), f0] if name == "schlick" => {
-                Ok(Fresnel::Schlick { f0: self.color_of("F0", f0)? })
+                Ok(Fresnel::Schlick { f0: self.color_of("F0", Given::Json(f0))? })
             }
             [Json::String(name), eta] if name == "dielectric" => {
-                Ok(Fresnel::Dielectric { eta: number("eta", eta)? })
+                Ok(Fresnel::Dielectric { eta: number("eta", Given::Json(eta))? })
             }
             [Json::String(name), eta, k] if name == "conductor" => Ok(Fresnel::Conductor {
-                eta: self.color_of("eta", eta)?,
-                k: self.color_of("k", k)?,
+                eta: self.color_of("eta", Given::Json(eta))?,
+                k: self.color_of("k", Given::Json(k))?,
             }),
             _ => Err("fresnel is null, [\"schlick\", F0], [\"dielectric\", eta] or \
                       [\"conductor\", eta, k]"
@@ -293,18 +372,18 @@ impl<'a> Fields<'a> {
 
     /// One of N, L, E.
     fn vector(&self, name: &str) -> Result<Dir3, String> {
-        let value = self.object.get(name);
+        let value = self.parts.vector(name);
         unit(name, value.ok_or_else(|| format!("`{}` needs the vector {name}", self.model))?)
     }
 
     /// A param that need not be there.
-    fn optional(&mut self, name: &'static str) -> Option<&'a Json> {
+    fn optional(&mut self, name: &'static str) -> Option<Given<'a>> {
         self.asked.push(name);
-        self.params.get(name)
+        self.parts.param(name)
     }
 
     /// A param that must be there.
-    fn param(&mut self, name: &'static str) -> Result<&'a Json, String> {
+    fn param(&mut self, name: &'static str) -> Result<Given<'a>, String> {
         let model = self.model;
         self.optional(name).ok_or_else(|| format!("`{model}` needs params.{name}"))
     }
@@ -319,22 +398,24 @@ impl<'a> Fields<'a> {
     }
 
     /// A colour: one number for all channels, or a list of three.
-    fn color_of(&mut self, name: &str, value: &Json) -> Result<Rgb, String> {
+    fn color_of(&mut self, name: &str, value: Given<'_>) -> Result<Rgb, String> {
         match value {
-            Json::Array(_) => {
+            Given::Json(Json::Number(_)) | Given::Row([_]) => number(name, value).map(Rgb::grey),
+            Given::Json(Json::Array(_)) | Given::Row(_) => {
                 self.grey = false;
                 let [r, g, b] = three(name, value)?;
                 Ok(Rgb::new(to_f32(name, r)?, to_f32(name, g)?, to_f32(name, b)?))
             }
-            Json::Number(_) => number(name, value).map(Rgb::grey),
-            other => Err(format!("{name} is a number or a list of 3 numbers, not {}", kind(other))),
+            other @ Given::Json(_) => {
+                Err(format!("{name} is a number or a list of 3 numbers, not {}", kind(other)))
+            }
         }
     }
 
     fn flag(&mut self, name: &'static str, default: bool) -> Result<bool, String> {
         match self.optional(name) {
             None => Ok(default),
-            Some(Json::Bool(flag)) => Ok(*flag),
+            Some(Given::Json(Json::Bool(flag))) => Ok(*flag),
             Some(other) => Err(format!("{name} is true or false, not {}", kind(other))),
         }
     }
@@ -351,7 +432,8 @@ impl<'a> Fields<'a> {
             (None, None) => self.param(name)?,
             (Some(value), _) => value,
         };
-        let found = choices.iter().find(|(choice, _)| value.as_str() == Some(choice));
+        let text = value.json().and_then(Json::as_str);
+        let found = choices.iter().find(|(choice, _)| text == Some(choice));
         found.map(|(_, meaning)| *meaning).ok_or_else(|| {
             let names: Vec<String> =
                 choices.iter().map(|(name, _)| format!("\"{name}\"")).collect();
@@ -362,7 +444,7 @@ impl<'a> Fields<'a> {
 
     /// Refuses params that nothing asked for.
     fn nothing_is_left(&self) -> Result<(), String> {
-        let Some(key) = self.params.keys().find(|key| !self.asked.contains(&key.as_str())) else {
+        let Some(key) = self.parts.params().find(|key| !self.asked.contains(key)) else {
             return Ok(());
         };
         let way_out = match (closest(key, self.asked.iter().copied()), self.asked.is_empty()) {
@@ -375,7 +457,7 @@ impl<'a> Fields<'a> {
 }
 
 /// A unit vector, normalised from what is nearly one.
-fn unit(name: &str, value: &Json) -> Result<Dir3, String> {
+fn unit(name: &str, value: Given<'_>) -> Result<Dir3, String> {
     let v = three(name, value)?;
     let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
     Some(v.map(|c| (c / length) as f32))
@@ -384,22 +466,28 @@ fn unit(name: &str, value: &Json) -> Result<Dir3, String> {
         .ok_or_else(|| format!("{name} is not a unit vector: its length is {length}"))
 }
 
-fn three(name: &str, value: &Json) -> Result<[f64; 3], String> {
-    let Json::Array(list) = value else {
-        return Err(format!("{name} is a list of 3 numbers, not {}", kind(value)));
+fn three(name: &str, value: Given<'_>) -> Result<[f64; 3], String> {
+    let list = match value {
+        Given::Row(&[x, y, z]) => return Ok([x, y, z]),
+        Given::Row(row) => return Err(format!("{name} has 3 components, not {}", row.len())),
+        Given::Json(Json::Array(list)) => list,
+        Given::Json(_) => {
+            return Err(format!("{name} is a list of 3 numbers, not {}", kind(value)));
+        }
     };
     let [x, y, z] = list.as_slice() else {
         return Err(format!("{name} has 3 components, not {}", list.len()));
     };
     let component = |i: usize, value: &Json| {
-        value.as_f64().ok_or_else(|| format!("{name}[{i}] is a number, not {}", kind(value)))
+        let wrong = || format!("{name}[{i}] is a number, not {}", kind(Given::Json(value)));
+        value.as_f64().ok_or_else(wrong)
     };
     Ok([component(0, x)?, component(1, y)?, component(2, z)?])
 }
 
-fn number(name: &str, value: &Json) -> Result<f32, String> {
+fn number(name: &str, value: Given<'_>) -> Result<f32, String> {
     let number =
-        value.as_f64().ok_or_else(|| format!("{name} is a number, not {}", kind(value)))?;
+        value.number().ok_or_else(|| format!("{name} is a number, not {}", kind(value)))?;
     to_f32(name, number)
 }
 
@@ -407,13 +495,20 @@ fn to_f32(name: &str, number: f64) -> Result<f32, String> {
     let narrowed = number as f32;
     if narrowed.is_finite() {
         Ok(narrowed)
-    } else {
+    } else if number.is_finite() {
         Err(format!("{name} = {number:e} is beyond f32"))
+    } else {
+        Err(format!("{name} is {number}: it must be finite"))
     }
 }
 
-/// What a JSON value is, with its article.
-fn kind(value: &Json) -> &'static str {
+/// What a value is, with its article.
+fn kind(value: Given<'_>) -> &'static str {
+    let value = match value {
+        Given::Json(value) => value,
+        Given::Row([_]) => return "a number",
+        Given::Row(_) => return "a list",
+    };
     match value {
         Json::Null => "null",
         Json::Bool(_) => "true or false",
