@@ -132,3 +132,18 @@ def test_warnings_stay_with_every_picture() -> None:
     scene.add(phong.Sphere(center=(0, 0, 0), radius=1))
     first, second = (phong.render(scene, **SMALL).warnings for _ in range(2))
     assert first == second
+
+
+def test_what_can_hardly_be_meant_is_told_of_what_code_makes_as_of_text() -> None:
+    glass = phong.Material("glass", transmission=1)
+    scene = phong.Scene(camera=phong.Camera(eye=(0, 0, 5), look_at=(0, 0, 0), fov=0.7))
+    scene.add(phong.Sphere(center=(0, 0, 0), radius=0.01, material=glass))
+    told = [said.message for said in phong.render(scene, **SMALL).warnings]
+    assert [word for m in told for word in ("radians", "Fresnel") if word in m] == [
+        "radians",
+        "Fresnel",
+    ]
+    assert [said.message for said in scene.check()] == told
+    scene.camera = phong.Camera(eye=(0, 0, 5), look_at=(0, 0, 0))
+    scene.set_material("glass", phong.Material(transmission=1, reflection=1))
+    assert phong.render(scene, **SMALL).warnings == []

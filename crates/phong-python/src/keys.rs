@@ -159,21 +159,25 @@ impl Text {
         }
     }
 
-    /// Textures that the tables may name.
-    pub(crate) fn know_textures(&mut self, known: Table) {
-        for (name, texture) in known {
+    /// Textures that a table may name: those that it names are taken.
+    pub(crate) fn know_textures(&mut self, known: Table, table: &Table) {
+        let named = |name: &str| {
+            let names = table.values().filter_map(|value| value.get("texture")?.as_str());
+            names.into_iter().any(|other| other == name)
+        };
+        for (name, texture) in known.into_iter().filter(|(name, _)| named(name)) {
             self.textures.entry(name).or_insert(texture);
         }
     }
 
-    /// The scene of these tables, or what is wrong with them; `what` is what errors call it.
-    /// Files that it names are opened in `files`.
+    /// The scene of these tables with what is to be said of them, or what is wrong with them; `what`
+    /// is what errors call it. Files that it names are opened in `files`.
     pub(crate) fn read(
         mut self,
         py: Python<'_>,
         what: &str,
         files: &dyn Source,
-    ) -> PyResult<Scene> {
+    ) -> PyResult<(Scene, Vec<Diagnostic>)> {
         self.put("version", 1);
         if !self.document.contains_key("camera") {
             let point = |z: f64| Value::Array(vec![0.0.into(), 0.0.into(), z.into()]);
@@ -186,9 +190,15 @@ impl Text {
         }
         let files = Overlaid { path: what.to_owned(), text: self.document.to_string(), files };
         let reading = read(what, Some(Format::Toml), &files, &Limits::default());
-        let unsound: Vec<_> =
-            reading.diagnostics.into_iter().filter(Diagnostic::is_error).map(placeless).collect();
-        reading.scene.ok_or_else(|| scene_error(py, &unsound))
+        let (unsound, mut said): (Vec<_>, Vec<_>) =
+            reading.diagnostics.into_iter().map(placeless).partition(Diagnostic::is_error);
+        let scene = reading.scene.ok_or_else(|| scene_error(py, &unsound))?;
+        if !said.is_empty() {
+            // That so small a scene has no lights or no objects is no news.
+            let of_whole = scene.check();
+            said.retain(|one| of_whole.iter().all(|other| other.message != one.message));
+        }
+        Ok((scene, said))
     }
 }
 
@@ -253,7 +263,7 @@ pub(crate) fn check_keys(kind: &str, keys: &Bound<'_, PyDict>) -> PyResult<()> {
                     && let Some(Value::String(name)) = by.get("texture")
                 {
                     let white = Table::from_iter([("kind".to_owned(), "checker".into())]);
-                    text.know_textures(Table::from_iter([(name.clone(), white.into())]));
+                    text.know_textures(Table::from_iter([(name.clone(), white.into())]), &table);
                 }
             }
             text.name(&format!("{kind}s"), kind, table);

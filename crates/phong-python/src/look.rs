@@ -1,7 +1,7 @@
 //! What a scene looks like as its text says it, and from where it is looked at.
 
 use glam::DVec3;
-use phong_scene::{Export, ExportOptions, Folder, Image, Scene, Side, closest};
+use phong_scene::{Diagnostic, Export, ExportOptions, Folder, Image, Scene, Side, closest};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString};
 use toml::Table;
@@ -22,16 +22,16 @@ pub(crate) fn tables(scene: Scene) -> PyResult<Table> {
     text.parse().map_err(|error| value_error(format!("the scene has no text: {error}")))
 }
 
-/// A picture's settings with some keys of `[image]` laid over them.
+/// A picture's settings with some keys of `[image]` laid over them, and what is to be said of these.
 pub(crate) fn image_with(
     py: Python<'_>,
     image: &Image,
     keys: &Bound<'_, PyDict>,
-) -> PyResult<Image> {
+) -> PyResult<(Image, Vec<Diagnostic>)> {
     let mut text = Text::default();
     let over = text.table(keys)?;
     if over.is_empty() {
-        return Ok(image.clone());
+        return Ok((image.clone(), Vec::new()));
     }
     let own = tables(Scene { image: image.clone(), ..Scene::default() })?;
     let mut table = match own.get("image") {
@@ -40,7 +40,8 @@ pub(crate) fn image_with(
     };
     table.extend(over);
     text.put("image", table);
-    Ok(text.read(py, "render", &Folder)?.image)
+    let (read, said) = text.read(py, "render", &Folder)?;
+    Ok((read.image, said))
 }
 
 /// A side of a model by its name.

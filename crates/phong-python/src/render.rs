@@ -139,9 +139,10 @@ impl Asked {
         let names = take("layers")?;
         let (snapshot, own, warnings) = {
             let state = scene.state();
-            (state.snapshot(), state.scene.image.clone(), state.warnings.clone())
+            (state.snapshot(), state.scene.image.clone(), state.warnings())
         };
-        let image = image_with(py, &own, &keys)?;
+        let (image, said) = image_with(py, &own, &keys)?;
+        let warnings = [warnings, said].concat();
         let told = |error: phong::render::OptionsError| value_error(error.to_string());
         let mut options = RenderOptions::of(&image).map_err(told)?.with_shadows(shadows);
         if let Some(crop) = crop {

@@ -1,5 +1,6 @@
 //! A scene under construction, with what is compiled of it: nothing here knows Python.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use phong::geometry::{Geometry, GeometryError, GeometryOptions};
@@ -19,6 +20,21 @@ pub(crate) struct Automatic {
     pub(crate) bare: bool,
 }
 
+/// What of a scene something was said of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Subject {
+    /// The file or the text that it was read from.
+    Text,
+    Camera,
+    Lights,
+    Ambient,
+    Image,
+    /// The material of a number.
+    Material(u32),
+    /// The object of a number.
+    Part(u64),
+}
+
 /// A scene under construction.
 #[derive(Clone, Debug)]
 pub(crate) struct State {
@@ -27,8 +43,8 @@ pub(crate) struct State {
     /// From where it is looked at; `None`: from its own camera.
     pub(crate) framing: Option<Framing>,
     pub(crate) automatic: Automatic,
-    /// What was said when it was read.
-    pub(crate) warnings: Vec<Diagnostic>,
+    /// What was said of what it was made of.
+    said: BTreeMap<Subject, Vec<Diagnostic>>,
     /// The number of each object, which stays the same when others go. Ascending.
     pub(crate) parts: Vec<u64>,
     /// The number of the next object.
@@ -82,7 +98,7 @@ impl State {
             scene: Arc::new(scene),
             framing,
             automatic,
-            warnings: Vec::new(),
+            said: BTreeMap::new(),
             parts: (0..count).collect(),
             next: count,
             version: 0,
@@ -127,7 +143,22 @@ impl State {
     /// Takes an object away.
     pub(crate) fn remove(&mut self, place: usize) {
         self.objects().objects.remove(place);
-        self.parts.remove(place);
+        let number = self.parts.remove(place);
+        self.say(Subject::Part(number), Vec::new());
+    }
+
+    /// Keeps what is to be said of something, in place of what was said of it before.
+    pub(crate) fn say(&mut self, of: Subject, said: Vec<Diagnostic>) {
+        if said.is_empty() {
+            self.said.remove(&of);
+        } else {
+            self.said.insert(of, said);
+        }
+    }
+
+    /// All that is to be said of what it was made of.
+    pub(crate) fn warnings(&self) -> Vec<Diagnostic> {
+        self.said.values().flatten().cloned().collect()
     }
 
     /// The material of a name.
@@ -160,7 +191,7 @@ impl State {
     /// The same material, its textures among the scene's.
     pub(crate) fn with_textures(&mut self, material: &Material, textures: &[Texture]) -> Material {
         let used = material.textured();
-        let mut numbers = std::collections::BTreeMap::new();
+        let mut numbers = BTreeMap::new();
         for (_, by) in used {
             let Some(texture) = textures.get(by.texture.0 as usize) else { continue };
             let texture = Texture { place: Place::default(), ..texture.clone() };

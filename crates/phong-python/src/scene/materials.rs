@@ -1,11 +1,11 @@
 //! Which material an argument means, and another one for what has one.
 
 use phong_scene::{
-    Folder, Material, MaterialId, Object, Scene as SceneText, Shape, Shared, closest,
+    Diagnostic, Folder, Material, MaterialId, Object, Scene as SceneText, Shape, Shared, closest,
 };
 use pyo3::prelude::*;
 use pyo3::types::PyString;
-use toml::Table;
+use toml::{Table, Value};
 
 use super::Scene;
 use crate::arrays::neither;
@@ -13,6 +13,7 @@ use crate::errors::value_error;
 use crate::keys::{Said, Text};
 use crate::look::tables;
 use crate::part::Part;
+use crate::state::Subject;
 
 impl Scene {
     /// The material that an argument means.
@@ -31,29 +32,39 @@ impl Scene {
             });
         }
         let said = Said::expect(given, "material", "material")?;
-        let (material, textures) = self.read_material(given.py(), &said)?;
-        Ok(self.state().material(&material, &textures))
+        let (material, textures, warnings) = self.read_material(given.py(), &said)?;
+        let mut state = self.state();
+        let number = state.material(&material, &textures);
+        state.say(Subject::Material(number.0), warnings);
+        Ok(number)
     }
 
-    /// A material, and the textures by which its own are numbered.
+    /// A material, the textures by which its own are numbered, and what is to be said of it.
     fn read_material(
         &self,
         py: Python<'_>,
         said: &Said<'_>,
-    ) -> PyResult<(Material, Vec<phong_scene::Texture>)> {
+    ) -> PyResult<(Material, Vec<phong_scene::Texture>, Vec<Diagnostic>)> {
         let name = said.name.clone().unwrap_or_else(|| "material".to_owned());
         let mut text = Text::default();
         let table = text.table(&said.keys)?;
-        if table.values().any(toml::Value::is_table) {
+        if table.values().any(Value::is_table) {
             let known = self.text()?.remove("textures");
-            if let Some(toml::Value::Table(known)) = known {
-                text.know_textures(known);
+            if let Some(Value::Table(known)) = known {
+                text.know_textures(known, &table);
             }
         }
         text.name("materials", &name, table);
-        let read = text.read(py, "Material", &Folder)?;
+        // Something is made of it, or it would be told as unused.
+        let ball = [
+            ("center", Value::Array(vec![0.0.into(); 3])),
+            ("radius", 1.0.into()),
+            ("material", name.clone().into()),
+        ];
+        text.push("sphere", Table::from_iter(ball.map(|(key, value)| (key.to_owned(), value))));
+        let (read, warnings) = text.read(py, "Material", &Folder)?;
         let material = read.materials.into_iter().find(|material| material.name == name);
-        Ok((material.unwrap_or_default(), read.textures))
+        Ok((material.unwrap_or_default(), read.textures, warnings))
     }
 
     /// All but its objects, as the tables of a text.
@@ -97,15 +108,16 @@ impl Scene {
             Some(old)
         };
         let Some(number) = number else { return Ok(()) };
-        let new = if material.is_instance_of::<PyString>() {
+        let (new, warnings) = if material.is_instance_of::<PyString>() {
             let other = self.material(Some(material))?;
-            self.state().scene.materials[other.0 as usize].clone()
+            (self.state().scene.materials[other.0 as usize].clone(), Vec::new())
         } else {
             let said = Said::expect(material, "material", "material")?;
-            let (material, textures) = self.read_material(material.py(), &said)?;
-            self.state().with_textures(&material, &textures)
+            let (material, textures, warnings) = self.read_material(material.py(), &said)?;
+            (self.state().with_textures(&material, &textures), warnings)
         };
         let mut state = self.state();
+        state.say(Subject::Material(number.0), warnings);
         let slot = &mut state.look().materials[number.0 as usize];
         let name = std::mem::take(&mut slot.name);
         *slot = Material { name, ..new };

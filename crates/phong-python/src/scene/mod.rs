@@ -18,7 +18,7 @@ use crate::files::{Beside, TEXT, format_of, memory, path_of};
 use crate::keys::{Said, Text};
 use crate::look::{image_with, side};
 use crate::part::Part;
-use crate::state::{Automatic, State};
+use crate::state::{Automatic, State, Subject};
 use crate::{bulk, content, look};
 
 /// What is drawn, and what it looks like.
@@ -264,7 +264,7 @@ impl Scene {
         let table = text.table(&keys)?;
         let named = table.contains_key("name");
         text.push(&said.kind, table);
-        let read = text.read(py, &said.kind, &Folder)?;
+        let (read, warnings) = text.read(py, &said.kind, &Folder)?;
         let mut objects = read.objects.into_iter();
         let (Some(object), None) = (objects.next(), objects.next()) else {
             return Err(value_error(format!(
@@ -273,7 +273,9 @@ impl Scene {
             )));
         };
         let name = named.then_some(object.name);
-        Ok(self.put(object.shape, material, name, place * object.transform))
+        let part = self.put(object.shape, material, name, place * object.transform);
+        self.state().say(Subject::Part(part.number), warnings);
+        Ok(part)
     }
 
     /// Draws a part at other places as well; their parts.
@@ -344,7 +346,7 @@ impl Scene {
     fn check<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         let (scene, said) = {
             let state = self.state();
-            (state.framed(), state.warnings.clone())
+            (state.framed(), state.warnings())
         };
         let mut all = said;
         let found = crate::work::quietly(py, None, move |_: &_| scene.check())?;
@@ -383,8 +385,9 @@ impl Scene {
         let mut text = Text::default();
         let table = text.table(&said.keys)?;
         text.put("camera", table);
-        let read = text.read(camera.py(), "Camera", &Folder)?;
+        let (read, said) = text.read(camera.py(), "Camera", &Folder)?;
         let mut state = self.state();
+        state.say(Subject::Camera, said);
         state.look().camera = read.camera;
         state.framing = None;
         Ok(())
@@ -407,8 +410,9 @@ impl Scene {
             let table = text.table(&said.keys)?;
             text.push("light", table);
         }
-        let read = text.read(py, "lights", &Folder)?;
+        let (read, said) = text.read(py, "lights", &Folder)?;
         let mut state = self.state();
+        state.say(Subject::Lights, said);
         state.look().lights = read.lights;
         state.automatic.lights = false;
         if state.automatic.bare {
@@ -427,16 +431,20 @@ impl Scene {
         let mut text = Text::default();
         let table = text.table(&keys)?;
         text.put("ambient", table);
-        let read = text.read(ambient.py(), "ambient", &Folder)?;
-        self.state().look().ambient = read.ambient;
+        let (read, said) = text.read(ambient.py(), "ambient", &Folder)?;
+        let mut state = self.state();
+        state.say(Subject::Ambient, said);
+        state.look().ambient = read.ambient;
         Ok(())
     }
 
     /// Lays keys of `[image]` (`size`, `samples`, `background`, …) over the scene's own.
     fn set_image(&self, keys: &Bound<'_, PyDict>) -> PyResult<()> {
         let image = self.state().scene.image.clone();
-        let image = image_with(keys.py(), &image, keys)?;
-        self.state().look().image = image;
+        let (image, said) = image_with(keys.py(), &image, keys)?;
+        let mut state = self.state();
+        state.say(Subject::Image, said);
+        state.look().image = image;
         Ok(())
     }
 
@@ -500,7 +508,7 @@ fn of_reading(py: Python<'_>, reading: Reading) -> PyResult<State> {
     let Some(scene) = scene else { return Err(scene_error(py, &diagnostics)) };
     let framing = bare.then(Framing::default);
     let mut state = State::new(scene, framing, Automatic { lights: bare, bare });
-    state.warnings = diagnostics;
+    state.say(Subject::Text, diagnostics);
     Ok(state)
 }
 
