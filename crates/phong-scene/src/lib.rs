@@ -4,6 +4,7 @@
 //! in. This crate knows no rays and no pixels, and never imports another crate of the project.
 //! It never prints, exits or panics on input: reading gives *all* [`Diagnostic`]s as data.
 
+mod ambient_occlusion;
 mod batch;
 mod bounds;
 mod camera;
@@ -30,6 +31,7 @@ mod transform;
 mod unpack;
 mod wording;
 
+pub use ambient_occlusion::{AmbientOcclusion, OcclusionDistance};
 pub use batch::{Batch, BatchReading, Parameter, ParameterValues, Written};
 pub use bounds::Bounds;
 pub use camera::{Camera, CameraKind};

@@ -38,7 +38,11 @@
 //! | `image` | a table | every key's default | The picture. |
 //! | `camera` | a table | required | Where the picture is taken from. |
 //! | `ambient` | a table | every key's default | The ambient light. |
-//! | `ambient_occlusion` | not built yet | none | Ambient occlusion. |
+//! | `ambient_occlusion` | a table | none | What takes ambient light away: a factor of the ambient term. |
+//! | `sky` | not built yet | none | A sky that lights the scene. |
+//! | `fog` | not built yet | none | What fades with distance. |
+//! | `outline` | not built yet | none | Lines around things. |
+//! | `clip` | not built yet | none | What is cut away. |
 //! | `light` | a list of tables | none | The lights. |
 //! | `materials` | tables by name | none | The materials, by name. |
 //! | `textures` | tables by name | none | The textures, by name. |
@@ -92,6 +96,7 @@
 
 use glam::DAffine3;
 
+use crate::ambient_occlusion::AmbientOcclusion;
 use crate::camera::Camera;
 use crate::color::Rgb;
 use crate::diagnostic::{Diagnostic, Place, SceneError};
@@ -125,6 +130,8 @@ pub struct Scene {
     pub camera: Camera,
     /// The ambient light; `C_a` is this times the material's ambient colour. Linear.
     pub ambient: Rgb,
+    /// What takes ambient light away; `None`: nothing does.
+    pub ambient_occlusion: Option<AmbientOcclusion>,
     /// The lights, in the order of the text.
     pub lights: Vec<Light>,
     /// The materials; [`MaterialId`] indexes them.
@@ -145,6 +152,7 @@ impl Default for Scene {
             image: Image::default(),
             camera: Camera::default(),
             ambient: Rgb::WHITE,
+            ambient_occlusion: None,
             lights: Vec::new(),
             materials: vec![Material::default()],
             textures: Vec::new(),

@@ -20,13 +20,16 @@ pub enum Aov {
     Material,
     /// Share of the lights that are seen, in [0, 1]; a light below the horizon is not seen.
     Shadow,
+    /// Share of the ambient light that finds its way to the surface, in [0, 1]; 1 in a scene without
+    /// ambient occlusion.
+    Openness,
     /// Nodes visited by the centre ray: the one thing that may differ between SIMD levels.
     Cost,
 }
 
 impl Aov {
     /// Every one, in the order of the documentation.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Depth,
         Self::Normal,
         Self::Position,
@@ -35,6 +38,7 @@ impl Aov {
         Self::Object,
         Self::Material,
         Self::Shadow,
+        Self::Openness,
         Self::Cost,
     ];
 
@@ -49,6 +53,7 @@ impl Aov {
             Self::Object => "object",
             Self::Material => "material",
             Self::Shadow => "shadow",
+            Self::Openness => "openness",
             Self::Cost => "cost",
         }
     }
@@ -63,7 +68,12 @@ impl Aov {
         match self {
             Self::Normal | Self::Position | Self::Albedo => 3,
             Self::Uv => 2,
-            Self::Depth | Self::Object | Self::Material | Self::Shadow | Self::Cost => 1,
+            Self::Depth
+            | Self::Object
+            | Self::Material
+            | Self::Shadow
+            | Self::Openness
+            | Self::Cost => 1,
         }
     }
 }

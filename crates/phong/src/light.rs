@@ -240,7 +240,11 @@ fn point(position: DVec3, attenuation: [f64; 3], radius: f64, cone: Option<Cone>
 /// seen from there is a disc. (The frame is that of Duff and others, *Building an orthonormal basis,
 /// revisited*, 2017.)
 #[inline(always)]
-fn across<F: Lanes<Scalar = f32>>(radius: F, [x, y, z]: [F; 3], [u, v]: [F; 2]) -> [F; 3] {
+pub(crate) fn across<F: Lanes<Scalar = f32>>(
+    radius: F,
+    [x, y, z]: [F; 3],
+    [u, v]: [F; 2],
+) -> [F; 3] {
     let (zero, one) = (x.splat(0.0), x.splat(1.0));
     let sign = F::select(z.lt(zero), zero - one, one);
     let a = (zero - one) / (sign + z);

@@ -2,7 +2,9 @@
 //!
 //! All of it is cheap to make and to change, and nothing of it is needed to build trees.
 
-use phong_scene::{Background, Camera, Diagnostic, Image, Light, Material, Rgb, Scene, Texture};
+use phong_scene::{
+    AmbientOcclusion, Background, Camera, Diagnostic, Image, Light, Material, Rgb, Scene, Texture,
+};
 
 /// What a geometry looks like, as it was written. Each part can be replaced.
 ///
@@ -19,6 +21,8 @@ pub struct Look {
     pub textures: Vec<Texture>,
     /// The ambient light; `C_a` is this times the material's ambient colour. Linear.
     pub ambient: Rgb,
+    /// What takes ambient light away; `None`: nothing does.
+    pub ambient_occlusion: Option<AmbientOcclusion>,
     /// What rays see that hit nothing.
     pub background: Background,
 }
@@ -32,16 +36,26 @@ impl Look {
             materials: scene.materials.clone(),
             textures: scene.textures.clone(),
             ambient: scene.ambient,
+            ambient_occlusion: scene.ambient_occlusion,
             background: scene.image.background,
         }
     }
     /// What is wrong with it, by the rules of [`Scene::check`].
     #[must_use]
     pub fn check(&self) -> Vec<Diagnostic> {
-        let Self { camera, lights, materials, textures, ambient, background } = self.clone();
+        let Self { camera, lights, materials, textures, ambient, ambient_occlusion, background } =
+            self.clone();
         let image = Image { background, ..Image::default() };
-        let scene =
-            Scene { image, camera, ambient, lights, materials, textures, ..Scene::default() };
+        let scene = Scene {
+            image,
+            camera,
+            ambient,
+            ambient_occlusion,
+            lights,
+            materials,
+            textures,
+            ..Scene::default()
+        };
         scene.check().into_iter().filter(Diagnostic::is_error).collect()
     }
 }

@@ -14,6 +14,8 @@ pub(crate) enum Use {
     Lens,
     /// The place on light number `0…`.
     Light(u32),
+    /// Where a ray goes that looks around for what takes ambient light away.
+    Around,
 }
 
 /// The source of the coordinates of one sample of one pixel.
@@ -29,11 +31,8 @@ impl Sampler {
     #[inline]
     pub(crate) fn new([x, y]: [u32; 2], index: u32, count: u32, seed: u64) -> Self {
         let centred = count <= 1;
-        let key = || {
-            let seed = hash(seed as u32 ^ hash((seed >> 32) as u32));
-            hash(x ^ hash(y ^ seed))
-        };
-        Self { key: if centred { 0 } else { key() }, index, centred }
+        let seed = hash(seed as u32 ^ hash((seed >> 32) as u32));
+        Self { key: hash(x ^ hash(y ^ seed)), index, centred }
     }
 
     /// Another sample of the same pixel.
@@ -65,6 +64,7 @@ impl Sampler {
             Use::Pixel => 0,
             Use::Lens => 1,
             Use::Light(number) => 2 + number,
+            Use::Around => u32::MAX,
         };
         let index = hash(self.key ^ hash(dimension ^ 0x9e37_79b9));
         Keys { index, x: hash(index ^ 0x68bc_21eb), y: hash(index ^ 0x02e5_be93) }
@@ -129,6 +129,14 @@ impl Samplers8 {
     #[inline(always)]
     pub(crate) fn pair(&self, purpose: Use) -> [[f32; 8]; 2] {
         Places8::new(self, purpose).at(self.index)
+    }
+
+    /// Of `count` places for each sample the one of this number. All of a pixel's samples fill the square
+    /// evenly; those of one sample do as well, and are not its middle.
+    #[inline(always)]
+    pub(crate) fn several(&self, purpose: Use, number: u32, count: u32) -> [[f32; 8]; 2] {
+        let index = self.index.map(|index| index.wrapping_mul(count).wrapping_add(number));
+        Places8::new(&Self { centred: false, ..*self }, purpose).at(index)
     }
 }
 
@@ -228,6 +236,21 @@ mod tests {
     fn one_sample_is_the_middle() {
         assert_eq!(points(1, Use::Pixel), [[0.5, 0.5]]);
         assert_eq!(points(1, Use::Light(3)), [[0.5, 0.5]]);
+    }
+
+    #[test]
+    fn several_places_of_each_sample_fill_the_square_evenly_even_of_one_sample() {
+        for (samples, several) in [(1, 64), (4, 16)] {
+            let mut columns = [0; 64];
+            for index in 0..samples {
+                let samplers = Samplers8::splat(Sampler::new([3, 7], index, samples, 1));
+                for number in 0..several {
+                    let [x, _] = samplers.several(Use::Around, number, several);
+                    columns[(x[5] * 64.0) as usize] += 1;
+                }
+            }
+            assert_eq!(columns, [1; 64], "{samples} samples of {several}");
+        }
     }
 
     #[test]

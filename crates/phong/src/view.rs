@@ -3,6 +3,7 @@
 mod coincident;
 mod far;
 mod fixture;
+mod occlusion;
 mod shading;
 mod varied;
 
@@ -23,6 +24,7 @@ use crate::texture::Texture;
 pub(crate) use coincident::Coincidences;
 pub use far::StartedRay;
 pub(crate) use fixture::Fixture;
+pub(crate) use occlusion::Occlusion;
 use shading::Shading;
 pub(crate) use shading::Shading8;
 pub(crate) use varied::MadeMaterial;
@@ -44,6 +46,8 @@ pub struct View {
     textures: Vec<Texture>,
     /// Where rays need more than the closest hit; `None`: nowhere.
     coincidences: Option<Coincidences>,
+    /// What takes ambient light away; `None`: nothing does.
+    occlusion: Option<Occlusion>,
     /// Whether rays go on from any material.
     has_bounces: bool,
     /// Whether any light has an extent.
@@ -114,6 +118,7 @@ impl View {
             |m: &phong_scene::Material| !(m.reflection.is_black() && m.transmission.is_black());
         Ok(Self {
             coincidences: Coincidences::of(&geometry, &materials),
+            occlusion: look.ambient_occlusion.map(|o| Occlusion::new(&o, geometry.world())),
             has_bounces: look.materials.iter().any(bounces),
             has_soft_lights: lights.iter().any(|light| light.soft),
             has_ambient_per_light: materials.iter().any(Material::takes_ambient_per_light),
@@ -190,9 +195,16 @@ impl View {
         self.coincidences.as_ref()
     }
 
-    /// Whether any light has an extent: whether samples differ but by their rays.
-    pub fn has_soft_lights(&self) -> bool {
-        self.has_soft_lights
+    /// What takes ambient light away; `None`: nothing does.
+    #[inline]
+    pub(crate) fn occlusion(&self) -> Option<Occlusion> {
+        self.occlusion
+    }
+
+    /// Whether samples differ but by their rays: where any light has an extent, and where rays look around
+    /// for what takes ambient light away.
+    pub(crate) fn asks_for_samplers(&self) -> bool {
+        self.has_soft_lights || self.occlusion.is_some()
     }
 
     /// Whether any of the materials takes ambient light from each light.

@@ -85,6 +85,9 @@ pub trait Witness {
     fn missed(&mut self, ray: &Ray, background: Rgb);
     /// A ray met a surface, with these terms, that belong to no light and to no ray that goes on.
     fn met(&mut self, ray: &Ray, at: &SurfaceInteraction, terms: Terms);
+    /// This share of the ambient light finds its way to the surface just met; not told in scenes that do
+    /// not ask. What was told of it, and what lights add to its ambient term, counts that much.
+    fn opened(&mut self, _share: f32) {}
     /// A light was asked for at the surface just met.
     fn lit(&mut self, light: &LightContribution);
     /// A ray goes on, with this weight; `fresnel` is the reflectance F where it was asked for.

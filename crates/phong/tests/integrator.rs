@@ -29,6 +29,7 @@ fn scene() -> Scene {
             focus: None,
         },
         ambient: Rgb::WHITE,
+        ambient_occlusion: None,
         lights: Vec::new(),
         materials: vec![Material::default()],
         objects: Vec::new(),

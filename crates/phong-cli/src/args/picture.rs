@@ -44,7 +44,7 @@ pub(crate) struct RenderArgs {
     #[arg(long, help_heading = "File")]
     pub(crate) terms: bool,
 
-    /// Also depth, normal, position, albedo, uv, object, material, shadow or cost
+    /// Also depth, normal, position, albedo, uv, object, material, shadow, openness or cost
     #[arg(long, value_name = "NAME,...", value_delimiter = ',', value_parser = values::aov)]
     #[arg(help_heading = "File")]
     pub(crate) aov: Vec<phong::aov::Aov>,

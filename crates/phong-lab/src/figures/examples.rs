@@ -79,6 +79,7 @@ fn scene(eye: DVec3, look_at: DVec3, fov: f64) -> Scene {
             focus: None,
         },
         ambient: Rgb::WHITE,
+        ambient_occlusion: None,
         lights: vec![
             point(DVec3::new(-5.0, 7.0, 6.0), 0.8),
             distant(DVec3::new(2.0, 3.0, 2.0), 0.35),

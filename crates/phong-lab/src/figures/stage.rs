@@ -89,6 +89,7 @@ pub(super) fn ball(material: ConstantMaterial, lights: Vec<Light>, eye: DVec3) -
             focus: None,
         },
         ambient: Rgb::WHITE,
+        ambient_occlusion: None,
         lights,
         materials: vec![material.into()],
         objects: vec![object(sphere, 0)],

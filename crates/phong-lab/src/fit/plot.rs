@@ -204,6 +204,7 @@ fn ball_on_floor(lobe: Lobe) -> Scene {
             focus: None,
         },
         ambient: Rgb::WHITE,
+        ambient_occlusion: None,
         // One from over the shoulder, for the ball; one from beyond, low, for the floor.
         lights: vec![light(DVec3::new(0.5, -0.6, -1.0)), light(DVec3::new(0.14, -0.33, 1.0))],
         materials: vec![material(lobe).into()],

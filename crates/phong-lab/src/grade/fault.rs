@@ -150,7 +150,7 @@ impl OtherLook {
         }
         out.material = Arc::clone(material);
         let ambient = self.view.ambient();
-        out.ambient = material.ready.ambient(out.color, ambient);
+        out.ambient = material.ready.ambient(out.color, ambient) * out.openness;
         for light in &mut out.lights {
             let [now, before] = [&self.lights, &self.former_lights].map(|l| l[light.number]);
             let scaled = |here: Rgb, now: Rgb, before: Rgb| match before.max_channel() {
@@ -167,7 +167,8 @@ impl OtherLook {
                 color: light.color,
                 specular_color: light.specular_color,
             };
-            out.ambient += material.ready.ambient_of_light(out.color, ambient, &sample);
+            let more = material.ready.ambient_of_light(out.color, ambient, &sample);
+            out.ambient += more * out.openness;
         }
         out
     }

@@ -56,6 +56,8 @@ pub(super) struct Surface {
     pub(super) color: Rgb,
     /// The ambient term as it is in the sum, per-light parts included.
     pub(super) ambient: Rgb,
+    /// The share of the ambient light that finds its way here: a factor of the ambient term.
+    pub(super) openness: f32,
     pub(super) lights: Vec<LightPoint>,
 }
 
@@ -185,6 +187,7 @@ pub(super) fn surface(
         tangent: Dir3::from_array(tangent).unwrap_or(Dir3::X),
         color: at.color,
         ambient,
+        openness: 1.0,
         lights: Vec::with_capacity(view.lights().len()),
     }
 }
@@ -216,6 +219,12 @@ impl Witness for Listener<'_> {
         }
     }
 
+    fn opened(&mut self, share: f32) {
+        if let (true, Some(surface)) = (self.weights.is_empty(), &mut self.point.surface) {
+            surface.openness = share;
+        }
+    }
+
     fn lit(&mut self, told: &LightContribution) {
         let (true, Some(surface), Some(sample), Some(at)) =
             (self.weights.is_empty(), &mut self.point.surface, told.sample, &self.at)
@@ -223,7 +232,8 @@ impl Witness for Listener<'_> {
             return;
         };
         let ambient = self.casting.view.ambient();
-        surface.ambient += surface.material.ready.ambient_of_light(surface.color, ambient, &sample);
+        let more = surface.material.ready.ambient_of_light(surface.color, ambient, &sample);
+        surface.ambient += more * surface.openness;
         let seen = [told.above, told.visible];
         surface.lights.push(self.casting.light(told.light, at, &sample, seen));
     }

@@ -1,7 +1,8 @@
 //! An explanation for programs.
 
 use phong::explain::{
-    Blocker, End, Explanation, LightFrom, Lit, Onward, RayTold, Sample, Surface, TextureTold,
+    Blocker, End, Explanation, LightFrom, Lit, Onward, Openness, RayTold, Sample, Surface,
+    TextureTold,
 };
 use phong::math::Dir3;
 use phong::terms::Terms;
@@ -67,6 +68,12 @@ fn ray_into(out: &mut Map<String, Value>, told: &RayTold) {
             put("e", dir(s.e));
             put("ambient", rgb(s.ambient));
             put("c_a", rgb(s.c_a));
+            if let Some(Openness { share, rays, distance }) = s.openness {
+                let told = json!({
+                    "share": number(share), "rays": rays, "distance": number(distance),
+                });
+                put("openness", told);
+            }
             put("emission", rgb(s.terms.emission));
             put("c_e", rgb(s.c_e()));
             put("material", material(&s.material));

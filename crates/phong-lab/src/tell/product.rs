@@ -57,7 +57,8 @@ pub(super) fn own_terms(s: &Surface) -> Vec<(Term, Product)> {
     let m = &s.material;
     let mut terms = Vec::new();
     if m.ambient_rule != AmbientRule::PerLight {
-        let factors = vec![one("k_a", "k_a", m.k_a), color("C_a", "C_a", s.c_a)];
+        let mut factors = vec![one("k_a", "k_a", m.k_a), color("C_a", "C_a", s.c_a)];
+        factors.extend(openness(s));
         terms.push((Term::Ambient, Product { factors, value: s.ambient }));
     }
     if m.k_e > 0.0 {
@@ -65,6 +66,11 @@ pub(super) fn own_terms(s: &Surface) -> Vec<(Term, Product)> {
         terms.push((Term::Emission, Product { factors, value: s.terms.emission }));
     }
     terms
+}
+
+/// The share of the ambient light that finds its way here, in scenes that ask.
+fn openness(s: &Surface) -> Option<Factor> {
+    s.openness.map(|open| one("× openness", r"\text{openness}", open.share))
 }
 
 /// What one light adds to the ambient term; `None` where lights add nothing to it.
@@ -76,7 +82,8 @@ pub(super) fn ambient_of_light(s: &Surface, lit: &Lit) -> Option<Product> {
         AmbientRule::Both => color("colour", r"\text{colour}", m.ambient_color.unwrap_or(s.color)),
     };
     let light = color("× light", r"\text{light}", lit.color);
-    let factors = vec![one("k_a", "k_a", m.k_a), surface, light];
+    let mut factors = vec![one("k_a", "k_a", m.k_a), surface, light];
+    factors.extend(openness(s));
     Some(Product { factors, value: lit.ambient })
 }
 

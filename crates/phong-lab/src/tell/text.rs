@@ -4,7 +4,8 @@ use std::fmt::{self, Write};
 
 use glam::DVec3;
 use phong::explain::{
-    Encoded, End, Explanation, LightFrom, Lit, Onward, RayTold, Sample, Surface, TextureTold,
+    Encoded, End, Explanation, LightFrom, Lit, Onward, Openness, RayTold, Sample, Surface,
+    TextureTold,
 };
 use phong::terms::Terms;
 use phong::witness::CutReason;
@@ -161,6 +162,13 @@ impl Page {
             ("E       ", self.numbers.direction(s.e) + "   = -d"),
         ]);
         self.blank();
+        if let Some(Openness { share, rays, distance }) = s.openness {
+            let met = (share * rays as f32).round();
+            let distance = self.numbers.one(distance);
+            self.line(format_args!(
+                "openness = {met} of {rays} rays meet nothing within {distance}"
+            ));
+        }
         if s.material.ambient_rule == AmbientRule::PerLight {
             self.line(format_args!("ambient  is added by each light"));
         }

@@ -153,6 +153,10 @@ impl<'s> Judge<'s> {
         self.judge(&nowhere, || "image".into(), |f| settings::image(&scene.image, f));
         self.judge(&nowhere, || "camera".into(), |f| settings::camera(&scene.camera, f));
         self.judge(&nowhere, || "ambient".into(), |f| settings::ambient(scene.ambient, f));
+        if let Some(occlusion) = &scene.ambient_occlusion {
+            let name = || "ambient_occlusion".into();
+            self.judge(&nowhere, name, |f| settings::occlusion(occlusion, f));
+        }
         for (i, light) in scene.lights.iter().enumerate() {
             let name = || named("lights", i, &light.name, &light.place);
             self.judge(&light.place, name, |f| settings::light(light, f));

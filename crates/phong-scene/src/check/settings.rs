@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::fault::Faults;
 use super::value::values;
+use crate::ambient_occlusion::AmbientOcclusion;
 use crate::camera::Camera;
 use crate::color::Rgb;
 use crate::light::{Light, LightKind};
@@ -19,6 +20,10 @@ pub(super) fn image(image: &Image, faults: &mut Faults) {
 
 pub(super) fn ambient(color: Rgb, faults: &mut Faults) {
     faults.color("color", color, LARGEST);
+}
+
+pub(super) fn occlusion(occlusion: &AmbientOcclusion, faults: &mut Faults) {
+    values(occlusion, None, faults);
 }
 
 /// Judges a camera.

@@ -26,7 +26,7 @@ pub(super) fn values<T: Keyed>(of: &T, textures: Option<&[Texture]>, faults: &mu
 fn single(key: &Key, value: &Value, faults: &mut Faults) {
     let name = key.name;
     match (value, key.kind) {
-        (Value::Number(n), Kind::Number(range)) => {
+        (Value::Number(n), Kind::Number(range) | Kind::NumberOr(range, _)) => {
             faults.number(name, *n, &range);
         }
         (Value::Integer(n), Kind::Integer(min, max)) if !(min..=max).contains(n) => {

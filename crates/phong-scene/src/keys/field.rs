@@ -5,6 +5,7 @@ use std::fmt;
 
 use super::value::Value;
 use super::{Key, Table};
+use crate::ambient_occlusion::AmbientOcclusion;
 use crate::camera::Camera;
 use crate::light::Light;
 use crate::material::Material;
@@ -18,6 +19,7 @@ pub(crate) enum Field {
     /// Nowhere by itself: the reader and the writer of the table work it out.
     None,
     Image(Access<Image>),
+    AmbientOcclusion(Access<AmbientOcclusion>),
     Camera(Access<Camera>),
     Light(Access<Light>),
     Texture(Access<Texture>),

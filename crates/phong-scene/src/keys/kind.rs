@@ -16,6 +16,8 @@ pub(crate) enum Kind {
     Integer(u64, u64),
     /// A number.
     Number(Range),
+    /// A number, or this word.
+    NumberOr(Range, &'static str),
     /// `[x, y, z]`, any three numbers.
     Point,
     /// `[x, y, z]`, not all 0.
@@ -92,6 +94,7 @@ impl Kind {
             Self::Integer(min, max) => format!("a whole number from {min} to {max}"),
             Self::Number(range) if range.is_any() => "a number".to_owned(),
             Self::Number(range) => format!("a number {}", range.words()),
+            Self::NumberOr(range, word) => format!("a number {}, or \"{word}\"", range.words()),
             Self::Point => "three numbers, `[x, y, z]`".to_owned(),
             Self::Direction => "three numbers, `[x, y, z]`, not all 0".to_owned(),
             Self::Color | Self::Reflectance => {

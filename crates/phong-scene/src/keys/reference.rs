@@ -149,7 +149,8 @@ mod tests {
     use crate::keys::shape::SHAPES;
     use crate::keys::{INCLUDE, LIGHT, MATERIAL, TEXTURE};
 
-    const CONCEPTS: [(&str, &str); 6] = [
+    const CONCEPTS: [(&str, &str); 7] = [
+        ("ambient_occlusion.rs", include_str!("../ambient_occlusion.rs")),
         ("camera.rs", include_str!("../camera.rs")),
         ("light.rs", include_str!("../light.rs")),
         ("material.rs", include_str!("../material.rs")),

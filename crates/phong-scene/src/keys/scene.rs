@@ -7,6 +7,8 @@ use super::material::MATERIAL;
 use super::shape::{GROUP, SHAPES};
 use super::texture::TEXTURE;
 use super::{Default, Key, Kind, Table};
+use crate::ambient_occlusion::AmbientOcclusion;
+use crate::limits::Range;
 use crate::scene::{FilterKind, Image};
 use crate::wording::Word;
 
@@ -43,10 +45,14 @@ pub(crate) static SCENE: Table = Table {
             ),
             Key::new(
                 "ambient_occlusion",
-                Kind::NotYet,
+                Kind::Table(&AMBIENT_OCCLUSION),
                 Default::Said("none"),
-                "Ambient occlusion.",
+                "What takes ambient light away: a factor of the ambient term.",
             ),
+            Key::new("sky", Kind::NotYet, Default::Said("none"), "A sky that lights the scene."),
+            Key::new("fog", Kind::NotYet, Default::Said("none"), "What fades with distance."),
+            Key::new("outline", Kind::NotYet, Default::Said("none"), "Lines around things."),
+            Key::new("clip", Kind::NotYet, Default::Said("none"), "What is cut away."),
             Key::new("light", Kind::Tables(&LIGHT), Default::Said("none"), "The lights."),
             Key::new(
                 "materials",
@@ -164,6 +170,33 @@ pub(crate) static AMBIENT: Table = Table {
         Default::Number(1.0),
         "`C_a` is this times the material's ambient colour.",
     )]],
+};
+
+keyed!(AmbientOcclusion, |_| &AMBIENT_OCCLUSION);
+
+/// `[ambient_occlusion]`.
+pub(crate) static AMBIENT_OCCLUSION: Table = Table {
+    name: "ambient_occlusion",
+    doc: "How much of the ambient light finds its way to a surface: the share of rays over it that \
+          meet nothing.",
+    select: None,
+    keys: &[&[
+        Key::new(
+            "samples",
+            Kind::Integer(1, AmbientOcclusion::MOST_SAMPLES as u64),
+            Default::Integer(16),
+            "Rays that look for open sky, from every surface that a ray meets.",
+        )
+        .of(field!(AmbientOcclusion.samples)),
+        Key::new(
+            "distance",
+            Kind::NumberOr(Range::POSITIVE, "auto"),
+            Default::Word("auto"),
+            "How far they look, in scene units; beyond it nothing takes ambient light away. \
+             `\"auto\"` is a quarter of the diagonal of the box around everything but planes.",
+        )
+        .of(field!(AmbientOcclusion.distance)),
+    ]],
 };
 
 /// `[[include]]`.

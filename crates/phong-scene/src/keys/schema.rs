@@ -121,6 +121,7 @@ fn kind(kind: Kind) -> Value {
         Kind::Flag => json!({ "type": "boolean" }),
         Kind::Integer(min, max) => json!({ "type": "integer", "minimum": min, "maximum": max }),
         Kind::Number(range) => number(&range),
+        Kind::NumberOr(range, word) => json!({ "anyOf": [number(&range), { "enum": [word] }] }),
         Kind::Point | Kind::Direction => list(&any_number(), 3),
         Kind::Color | Kind::ColorOrObject => color(LARGEST), // "object" is among its texts
         Kind::Reflectance => color(1.0),

@@ -2,6 +2,7 @@
 
 use glam::{DAffine3, DVec2, DVec3, DVec4};
 
+use crate::ambient_occlusion::OcclusionDistance;
 use crate::color::Rgb;
 use crate::scene::Background;
 use crate::texture::{Param, TextureRef};
@@ -123,6 +124,23 @@ impl Stored for Background {
         match value {
             Value::Color(color) => Some(Self::Color(color)),
             Value::Background(background) => Some(background),
+            _ => None,
+        }
+    }
+}
+
+impl Stored for OcclusionDistance {
+    fn value(&self) -> Option<Value> {
+        Some(match *self {
+            Self::Auto => Value::Word("auto"),
+            Self::Units(distance) => Value::Number(distance),
+        })
+    }
+
+    fn of(value: Value) -> Option<Self> {
+        match value {
+            Value::Word(_) => Some(Self::Auto),
+            Value::Number(distance) => Some(Self::Units(distance)),
             _ => None,
         }
     }

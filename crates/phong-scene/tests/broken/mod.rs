@@ -2,9 +2,9 @@
 
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 use phong_scene::{
-    Background, Camera, CameraKind, ConstantMaterial, Fresnel, Group, GroupId, Image, Light,
-    LightKind, Material, MaterialId, Mesh, Model, NO_INDEX, Object, Points, Rgb, Scene, Shape,
-    Texture, TextureId, TextureKind, TextureRef,
+    AmbientOcclusion, Background, Camera, CameraKind, ConstantMaterial, Fresnel, Group, GroupId,
+    Image, Light, LightKind, Material, MaterialId, Mesh, Model, NO_INDEX, Object,
+    OcclusionDistance, Points, Rgb, Scene, Shape, Texture, TextureId, TextureKind, TextureRef,
 };
 use proptest::prelude::*;
 
@@ -246,6 +246,7 @@ prop_compose! {
         Scene {
             image: Image { size, samples, depth, background, ..Image::default() },
             camera: Camera { kind, eye, look_at, up, aperture, focus: None },
+            ambient_occlusion: Some(AmbientOcclusion { samples: depth, distance: OcclusionDistance::Units(fov) }),
             ambient, lights, materials, textures, objects, groups,
         }
     }

@@ -28,6 +28,7 @@ cases! {
     a_material_called_default_is_that_of_shapes_without_one
     a_model_brings_its_materials_unless_one_is_named
     a_panorama_needs_no_angle
+    ambient_light_may_meet_things
     an_include_may_be_read_twice
     an_included_file_may_use_materials_of_the_scene
     an_orthographic_camera_has_a_height
@@ -75,6 +76,7 @@ cases! {
     a_version_that_is_not_given_is_a_warning
     a_very_long_line_is_cut_around_the_place
     a_wrong_type_says_what_is_wanted_and_what_was_found
+    ambient_occlusion_out_of_range_is_told
     an_empty_file_lacks_a_camera
     an_include_of_itself_is_told
     an_include_that_comes_round_is_told

@@ -2,7 +2,8 @@
 
 use phong_scene::{Limits, Memory, read};
 
-const CONCEPTS: [(&str, &str); 5] = [
+const CONCEPTS: [(&str, &str); 6] = [
+    ("ambient_occlusion.rs", include_str!("../../src/ambient_occlusion.rs")),
     ("camera.rs", include_str!("../../src/camera.rs")),
     ("light.rs", include_str!("../../src/light.rs")),
     ("material.rs", include_str!("../../src/material.rs")),

@@ -2,10 +2,11 @@
 
 use glam::{DAffine3, DMat3, DVec2, DVec3, Vec2, Vec3};
 use phong_scene::{
-    AmbientRule, Background, Camera, CameraKind, Caps, Channel, ConstantMaterial as Material,
-    Cylinders, Dialect, Distribution, FilterKind, Fresnel, Group, GroupId, Image, Light, LightKind,
-    MaterialId, Mesh, Model, NO_INDEX, Object, Place, Points, Rgb, Scene, Shadowing, Shape,
-    Texture, TextureId, TextureKind, TextureRef, TextureSpace, Tint, Viewer, WardForm,
+    AmbientOcclusion, AmbientRule, Background, Camera, CameraKind, Caps, Channel,
+    ConstantMaterial as Material, Cylinders, Dialect, Distribution, FilterKind, Fresnel, Group,
+    GroupId, Image, Light, LightKind, MaterialId, Mesh, Model, NO_INDEX, Object, OcclusionDistance,
+    Place, Points, Rgb, Scene, Shadowing, Shape, Texture, TextureId, TextureKind, TextureRef,
+    TextureSpace, Tint, Viewer, WardForm,
 };
 use proptest::prelude::*;
 
@@ -93,7 +94,19 @@ impl Make {
         let objects = self.objects(materials.len(), groups.len());
         let lights = (0..self.below(4)).map(|i| self.light(i + 1)).collect();
         let (image, camera, ambient) = (self.image(), self.camera(), self.color());
-        Scene { image, camera, ambient, lights, materials, textures, objects, groups }
+        let distance = self.one(&[OcclusionDistance::Auto, OcclusionDistance::Units(2.5)]);
+        let ambient_occlusion = self.flag().then_some(AmbientOcclusion { samples: 9, distance });
+        Scene {
+            image,
+            camera,
+            ambient,
+            ambient_occlusion,
+            lights,
+            materials,
+            textures,
+            objects,
+            groups,
+        }
     }
 
     fn image(&mut self) -> Image {

@@ -63,12 +63,23 @@ fn bad(name: &str) {
 
 /// Everything in a scene that is not as by default, a line a thing.
 fn summary(scene: &Scene) -> String {
-    let Scene { image, camera, ambient, lights, materials, textures, objects, groups } = scene;
+    let Scene {
+        image,
+        camera,
+        ambient,
+        ambient_occlusion,
+        lights,
+        materials,
+        textures,
+        objects,
+        groups,
+    } = scene;
     let mut lines = vec![
         differing(image, &Image::default()),
         differing(camera, &Camera::default()),
         format!("ambient {ambient:?}"),
     ];
+    lines.extend(ambient_occlusion.map(|occlusion| format!("{occlusion:?}")));
     lines.extend(lights.iter().map(|light| differing(light, &Light::default())));
     lines.extend(materials.iter().map(|material| differing(material, &Material::default())));
     lines.extend(textures.iter().map(|texture| differing(texture, &Texture::default())));

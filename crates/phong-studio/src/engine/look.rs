@@ -29,7 +29,8 @@ pub(super) struct Base {
 const NAME: &str = "scene.toml";
 
 /// What can be laid over a scene, by the first word of its keys.
-const PARTS: [&str; 6] = ["image", "camera", "ambient", "light", "materials", "textures"];
+const PARTS: [&str; 7] =
+    ["image", "camera", "ambient", "ambient_occlusion", "light", "materials", "textures"];
 
 /// Whether a key is one of the look.
 pub(super) fn allowed(path: &str) -> Result<(), String> {
@@ -42,12 +43,22 @@ pub(super) fn allowed(path: &str) -> Result<(), String> {
 
 /// All of a scene but its objects, as text.
 pub(super) fn text(scene: &Scene) -> Result<String, String> {
-    let Scene { image, camera, ambient, lights, materials, textures, objects: _, groups: _ } =
-        scene.clone();
+    let Scene {
+        image,
+        camera,
+        ambient,
+        ambient_occlusion,
+        lights,
+        materials,
+        textures,
+        objects: _,
+        groups: _,
+    } = scene.clone();
     let bare = Scene {
         image,
         camera,
         ambient,
+        ambient_occlusion,
         lights,
         materials,
         textures,

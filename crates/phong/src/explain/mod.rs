@@ -113,6 +113,8 @@ pub struct Surface {
     pub color: Rgb,
     /// `C_a`: the ambient light times the material's ambient colour.
     pub c_a: Rgb,
+    /// How much of the ambient light finds its way here; `None`: nothing takes it away.
+    pub openness: Option<Openness>,
     /// The ambient term that belongs to no light.
     pub ambient: Rgb,
     /// Every light, in order.
@@ -123,6 +125,17 @@ pub struct Surface {
     pub transmission: Option<Onward>,
     /// All terms here, summed in the integrator's order.
     pub terms: Terms,
+}
+
+/// How much of the ambient light finds its way to a surface: a factor of the ambient term.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Openness {
+    /// The share of the rays that met nothing.
+    pub share: f32,
+    /// How many rays looked around.
+    pub rays: u32,
+    /// How far they looked, scene units; infinite: as far as there is anything.
+    pub distance: f32,
 }
 
 /// A parameter of a material that takes its value from a texture.

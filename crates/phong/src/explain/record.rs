@@ -3,14 +3,14 @@
 use phong_bvh::Ray;
 use phong_scene::{Rgb, TextureRef};
 
-use super::{Blocker, End, LightFrom, Lit, Onward, RayTold, Surface, TextureTold};
+use super::{Blocker, End, LightFrom, Lit, Onward, Openness, RayTold, Surface, TextureTold};
 use crate::interaction::SurfaceInteraction;
 use crate::material::Material;
 use crate::math::Dir3;
 use crate::reflectance::Incident;
 use crate::terms::Terms;
 use crate::texture::{Texture, TexturePoint};
-use crate::view::View;
+use crate::view::{Occlusion, View};
 use crate::witness::{Branch, Cut, LightContribution, Witness};
 
 /// Listens to one ray and all that follow from it.
@@ -114,6 +114,7 @@ impl Witness for Recorder<'_> {
             eta: at.eta,
             color: at.color,
             c_a,
+            openness: None,
             ambient: terms.ambient,
             lights: Vec::with_capacity(scene.lights().len()),
             reflection: None,
@@ -122,6 +123,15 @@ impl Witness for Recorder<'_> {
         };
         let met = (*at, scene.material_at(at.material, &point));
         self.tell(ray, Some(met), End::Surface(Box::new(surface)));
+    }
+
+    fn opened(&mut self, share: f32) {
+        let occlusion = self.scene.occlusion();
+        if let (Some(surface), Some(Occlusion { samples: rays, distance })) =
+            (self.surface(), occlusion)
+        {
+            surface.openness = Some(Openness { share, rays, distance });
+        }
     }
 
     fn lit(&mut self, light: &LightContribution) {
@@ -134,8 +144,10 @@ impl Witness for Recorder<'_> {
         let e = material.eye(at.e);
         let r = l.map(|l| at.n.mirror(l));
         let h = l.and_then(|l| l.halfway(e));
+        let open = self.surface().and_then(|surface| surface.openness);
+        let open = open.map_or(1.0, |open| open.share);
         let ambient = light.sample.map_or(Rgb::BLACK, |sample| {
-            material.ambient_of_light(at.color, scene.ambient(), &sample)
+            material.ambient_of_light(at.color, scene.ambient(), &sample) * open
         });
         let blocker =
             light.shadow.filter(|_| !light.visible).and_then(|shadow| self.blocker(&shadow));

@@ -30,7 +30,7 @@ struct Tone<'a> {
 /// Writes one layer; the picture with its alpha where any pixel is not wholly covered.
 ///
 /// Colours (the picture, the terms, `albedo`) go through the curve. `normal` is ½ + ½n, `uv` is
-/// (u, v, 0), `shadow` the share, all without the curve. `object`, `material` and `cost` are grey
+/// (u, v, 0), `shadow` and `openness` the share, all without the curve. `object`, `material` and `cost` are grey
 /// levels of 16 bits that *are* the number. `depth` is the nearest depth ÷ depth in 16 bits: 1 the
 /// nearest, 0 nothing; `position` runs from 0 to 1 along each side of the box of all positions.
 /// Where the very values matter, EXR and PFM have them.
@@ -60,7 +60,7 @@ pub(super) fn write(
         LayerKind::Term(_) | LayerKind::Aov(Aov::Albedo) => {
             (values.into(), Tone { curve, ..plain })
         }
-        LayerKind::Alpha | LayerKind::Aov(Aov::Shadow) => (values.into(), plain),
+        LayerKind::Alpha | LayerKind::Aov(Aov::Shadow | Aov::Openness) => (values.into(), plain),
         LayerKind::Aov(Aov::Normal) => (values.iter().map(|n| 0.5 + 0.5 * n).collect(), plain),
         LayerKind::Aov(Aov::Uv) => {
             (values.chunks_exact(2).flat_map(|uv| [uv[0], uv[1], 0.0]).collect(), plain)

@@ -114,7 +114,7 @@ impl Radiance8 {
 pub struct RayCounts {
     /// From the camera.
     pub primary: u64,
-    /// Towards lights.
+    /// Towards lights, and those that look around for what takes ambient light away.
     pub shadow: u64,
     /// Mirror and glass.
     pub secondary: u64,

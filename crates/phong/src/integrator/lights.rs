@@ -7,6 +7,7 @@ use phong_scene::Rgb;
 use super::Integrator;
 use super::bundle::Radiance8;
 use super::interactions::{Interactions, add_in, is_above, material, same_material, to_eye};
+use super::openness::Openness;
 use super::shadow_rays::{Starts, aim};
 use crate::light::{Light, LightSample, Reach};
 use crate::math::Dir3;
@@ -168,6 +169,7 @@ impl Integrator<'_> {
         number: usize,
         interactions: &Interactions,
         from: &LightSamples,
+        openness: &Openness,
         out: &mut [Radiance8],
     ) {
         let light = &self.scene.lights()[number];
@@ -181,7 +183,8 @@ impl Integrator<'_> {
                 {
                     let color = Rgb::from(get(&shading.color, lane));
                     let more = material.ambient_of_light(color, self.scene.ambient(), &sample);
-                    out.terms.add(Term::Ambient, lane, more);
+                    let share = openness.share(i, lane).unwrap_or(1.0);
+                    out.terms.add(Term::Ambient, lane, more * share);
                 }
             }
         }

@@ -11,6 +11,7 @@ mod bundle;
 mod crossing;
 mod interactions;
 mod lights;
+mod openness;
 mod optics;
 mod shadow_rays;
 
@@ -31,6 +32,7 @@ use bundle::count;
 use crossing::Departure;
 use interactions::Interactions;
 use lights::LightSamples;
+use openness::Openness;
 use optics::{Scatter, Scattered8};
 
 /// Traces rays through a scene.
@@ -55,6 +57,7 @@ pub(crate) struct Integrator<'a> {
 #[derive(Default)]
 pub(crate) struct ScratchBuffer {
     interactions: Interactions,
+    openness: Openness,
     lights: LightSamples,
     out: Vec<Radiance8>,
     /// The mirror or refracted rays of this bundle, and the memory for tracing them.
@@ -166,12 +169,17 @@ impl Integrator<'_> {
         counts: &mut RayCounts,
         witness: &mut W,
     ) {
-        let ScratchBuffer { interactions, lights, out, deeper } = scratch;
+        let ScratchBuffer { interactions, openness, lights, out, deeper } = scratch;
         if self.is_stopped() {
             out.resize(rays.len(), Radiance8::NONE);
             return;
         }
         interactions.intersect(self, rays, &paths.departures, height, out);
+        openness.begin();
+        if let Some(occlusion) = self.scene.occlusion() {
+            counts.shadow += self.look_around(occlusion, interactions, samplers, openness);
+            openness.dim(out);
+        }
         lights.begin();
         if W::LISTENS {
             for (i, (rays8, out)) in rays.iter().zip(&*out).enumerate() {
@@ -183,6 +191,9 @@ impl Integrator<'_> {
                             &interactions.at(rays, i, lane, self.scene.materials().len()),
                             terms,
                         );
+                        if let Some(share) = openness.share(i, lane) {
+                            witness.opened(share);
+                        }
                     } else {
                         witness.missed(&rays8.get(lane), terms.background);
                     }
@@ -195,7 +206,7 @@ impl Integrator<'_> {
             }
             counts.shadow += self.sample_light(light, rays, interactions, samplers, lights);
             if self.scene.has_ambient_per_light() {
-                self.ambient_of_light(light, interactions, lights, out);
+                self.ambient_of_light(light, interactions, lights, openness, out);
             }
             if W::LISTENS {
                 self.report_light(light, rays, interactions, lights, witness);

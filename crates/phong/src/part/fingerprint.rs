@@ -9,9 +9,22 @@ use phong_scene::{Cylinders, Group, Material, Mesh, Object, Place, Points, Scene
 /// the same scene has the same one on every machine, whatever its files are called.
 pub fn fingerprint(scene: &Scene) -> u32 {
     // Taken apart without `..`: what a scene gains must be thought of here.
-    let Scene { image: _, camera, ambient, lights, materials, textures, objects, groups } = scene;
+    let Scene {
+        image: _,
+        camera,
+        ambient,
+        ambient_occlusion,
+        lights,
+        materials,
+        textures,
+        objects,
+        groups,
+    } = scene;
     let mut sum = Sum(Hasher::new());
     sum.debug(&(camera, ambient));
+    if let Some(occlusion) = ambient_occlusion {
+        sum.debug(occlusion);
+    }
     for light in lights {
         let mut light = light.clone();
         light.place = Place::default();

@@ -200,6 +200,7 @@ fn a_scene_is_known_by_what_it_holds_and_not_by_where_it_was_written() {
             focus: None,
         },
         ambient: Rgb::WHITE,
+        ambient_occlusion: None,
         lights: Vec::new(),
         materials: vec![Material::default()],
         objects: vec![object],

@@ -26,11 +26,12 @@ pub(super) struct Pixels8 {
 }
 
 impl Pixels8 {
-    pub(super) fn new([x, y]: [u32; 2], len: u32, options: &RenderOptions) -> Self {
+    /// `each`: whether the samplers of all pixels are asked for, though they have one sample each.
+    pub(super) fn new([x, y]: [u32; 2], len: u32, options: &RenderOptions, each: bool) -> Self {
         let sampler = |x: u32| Sampler::new([x, y], 0, options.samples(), options.seed());
         let mut samplers = Samplers8::splat(sampler(x));
-        // Of one sample they are all the same.
-        if options.samples() > 1 {
+        // The middle of the pixel, of the lens and of lights is the same for all.
+        if options.samples() > 1 || each {
             (0..len).for_each(|lane| samplers.set(lane as usize, sampler(x + lane)));
         }
         Self { first: [x, y], len, samplers, places: Places8::new(&samplers, Use::Pixel) }
@@ -59,7 +60,7 @@ impl Samples {
         pixels: &[Pixels8],
         indices: Range<u32>,
     ) {
-        let soft = integrator.scene.has_soft_lights();
+        let soft = integrator.scene.asks_for_samplers();
         let (camera, is_far) = (integrator.scene.camera(), integrator.scene.is_far(options.size()));
         if camera.is_projective() && !is_far {
             self.bundle.samplers.clear();
@@ -240,8 +241,8 @@ mod tests {
                     stop: None,
                 };
                 let filter = Filter::new(filter);
-                let pixels =
-                    [Pixels8::new([0, 3], 8, &options), Pixels8::new([16, 4], 5, &options)];
+                let pixels = [[0, 8], [16, 5]]
+                    .map(|[x, len]| Pixels8::new([x, 3 + x / 16], len, &options, false));
                 let mut drawn = Samples::default();
                 drawn.draw(&integrator, &options, &filter, &pixels, 0..3);
                 for (i, rays) in drawn.bundle.rays.iter().enumerate() {

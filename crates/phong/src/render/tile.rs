@@ -94,7 +94,7 @@ impl<'a> TileRenderer<'a> {
             Pass::Coarse => return self.coarse(window, buffers, counts).map(|()| None),
             Pass::UpTo(samples) => samples,
         };
-        cut(window, self.options, &mut buffers.pixels);
+        cut(window, self.options, self.integrator.scene.occlusion().is_some(), &mut buffers.pixels);
         let kept = if self.options.samples() == 1 {
             self.one_sample(window, buffers, counts)?;
             None
@@ -195,7 +195,9 @@ impl<'a> TileRenderer<'a> {
         let TileBuffers { pixels, drawn, scratch, values, .. } = buffers;
         for squares in coarse_squares(window).chunks(MOST_EIGHTS) {
             pixels.clear();
-            pixels.extend(squares.iter().map(|square| Pixels8::new(middle(square), 1, &centres)));
+            pixels.extend(
+                squares.iter().map(|square| Pixels8::new(middle(square), 1, &centres, false)),
+            );
             drawn.draw(&self.integrator, &centres, &self.filter, pixels, 0..1);
             let brought = self.integrator.trace(&drawn.bundle, scratch, counts, &mut ());
             self.check_cancelled()?;
@@ -274,37 +276,47 @@ impl<'a> TileRenderer<'a> {
                     values[place] = (scene.object(&at.hit) + 1) as f32;
                 }
                 (Aov::Material, Some(at)) => values[place] = (at.material + 1) as f32,
-                (Aov::Shadow, Some(_)) => {
-                    let mut seen = LightsSeen::default();
+                (Aov::Shadow | Aov::Openness, Some(_)) => {
+                    let mut seen = Reached::default();
                     let sampler = Sampler::new([x, y], 0, 1, self.options.seed());
                     let first_hit = Integrator { depth: 0, ..self.integrator };
                     if let Some(ray) = ray {
                         let ray = CameraRay { ray, sampler, height: 0.0 };
                         first_hit.trace_one(ray, &mut RayCounts::default(), &mut seen);
                     }
-                    values[place] = seen.share();
+                    values[place] = match aov {
+                        Aov::Openness => seen.openness.unwrap_or(1.0),
+                        _ => seen.share(),
+                    };
                 }
             }
         }
     }
 }
 
-/// Counts the lights seen from the surface met.
+/// What light reaches the surface met.
 #[derive(Default)]
-struct LightsSeen {
+struct Reached {
+    /// The lights that are seen, of so many.
     seen: u32,
     lights: u32,
+    /// The share of the ambient light, where that is asked for.
+    openness: Option<f32>,
 }
 
-impl LightsSeen {
+impl Reached {
+    /// The share of the lights that are seen.
     fn share(&self) -> f32 {
         if self.lights == 0 { 0.0 } else { self.seen as f32 / self.lights as f32 }
     }
 }
 
-impl Witness for LightsSeen {
+impl Witness for Reached {
     fn missed(&mut self, _: &phong_bvh::Ray, _: Rgb) {}
     fn met(&mut self, _: &phong_bvh::Ray, _: &crate::interaction::SurfaceInteraction, _: Terms) {}
+    fn opened(&mut self, share: f32) {
+        self.openness = Some(share);
+    }
     fn lit(&mut self, light: &LightContribution) {
         self.lights += 1;
         self.seen += u32::from(light.visible);
@@ -334,13 +346,13 @@ fn middle_of(square: Window, [width, height]: [u32; 2]) -> [u32; 2] {
 }
 
 /// Cuts a tile into squares, so that a bundle's neighbours are neighbours.
-fn cut(window: Window, options: &RenderOptions, pixels: &mut Vec<Pixels8>) {
+fn cut(window: Window, options: &RenderOptions, each: bool, pixels: &mut Vec<Pixels8>) {
     pixels.clear();
     for y0 in (window.y0..window.y1).step_by(SQUARE as usize) {
         for x0 in (window.x0..window.x1).step_by(SQUARE as usize) {
             let len = SQUARE.min(window.x1 - x0);
             for y in y0..window.y1.min(y0 + SQUARE) {
-                pixels.push(Pixels8::new([x0, y], len, options));
+                pixels.push(Pixels8::new([x0, y], len, options, each));
             }
         }
     }

@@ -46,6 +46,10 @@ pub(crate) fn leave_out(
             let message = format!("{format} holds no settings of a picture (`[image]`)");
             account.drop(Diagnostic::warning(message, None));
         }
+        if scene.ambient_occlusion.is_some() {
+            let message = format!("{format} holds no ambient occlusion");
+            account.drop(Diagnostic::warning(message, None));
+        }
         if scene.ambient != Rgb::WHITE {
             let message = format!("{format} holds no ambient light");
             account.drop(Diagnostic::warning(message, None));

@@ -15,6 +15,7 @@ use super::table::{Values, say_unknown};
 use super::text::{Spot, Text};
 use super::texture::{self, TextureNames};
 use super::{material, reuse, settings, shape, syntax};
+use crate::ambient_occlusion::AmbientOcclusion;
 use crate::camera::Camera;
 use crate::change::Change;
 use crate::color::Rgb;
@@ -41,6 +42,7 @@ pub(super) struct Reader<'a> {
     pub(super) image: Image,
     pub(super) camera: Option<Camera>,
     pub(super) ambient: Rgb,
+    pub(super) ambient_occlusion: Option<AmbientOcclusion>,
     pub(super) lights: Vec<Light>,
     light_count: usize,
     pub(super) materials: Named<Material>,
@@ -85,6 +87,7 @@ impl<'a> Reader<'a> {
             image: Image::default(),
             camera: None,
             ambient: Rgb::WHITE,
+            ambient_occlusion: None,
             lights: Vec::new(),
             light_count: 0,
             materials: Named::new(),
@@ -216,9 +219,10 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// `[image]` and `[ambient]` where the text has none, and something is laid over them.
+    /// `[image]`, `[ambient]` and `[ambient_occlusion]` where the text has none, and something is laid
+    /// over them.
     fn settings_not_written(&mut self, document: &DeTable<'_>, head: Spot) {
-        for name in ["image", "ambient"] {
+        for name in ["image", "ambient", "ambient_occlusion"] {
             let Some(Kind::Table(table)) = keys::SCENE.find(name, None).map(|key| key.kind) else {
                 continue;
             };
@@ -258,13 +262,17 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// `[image]`, `[camera]` or `[ambient]`.
+    /// `[image]`, `[camera]` and the like.
     fn setting(&mut self, table: &'static Table, text: &DeTable<'_>, spot: Spot) {
         let over = self.changes.over(table.name, &[]);
         let values = Values::read_changed(table, text, spot, &over, &mut self.notes);
         match table.name {
             "camera" => self.camera = settings::camera(&values, &mut self.notes),
             "ambient" => self.ambient = values.color("color").unwrap_or(Rgb::WHITE),
+            "ambient_occlusion" => {
+                let mut occlusion = AmbientOcclusion::default();
+                self.ambient_occlusion = values.fill(&mut occlusion).map(|()| occlusion);
+            }
             _ => self.image = settings::image(&values).unwrap_or_default(),
         }
     }

@@ -62,6 +62,7 @@ impl Reader<'_> {
             image: self.image,
             camera,
             ambient: self.ambient,
+            ambient_occlusion: self.ambient_occlusion,
             lights: self.lights,
             materials,
             textures,

@@ -41,7 +41,17 @@ pub(crate) fn write_toml(
              narrower shape cuts off its sides"
         ));
     }
-    let Scene { image, camera, ambient, lights, materials, textures, objects, groups } = scene;
+    let Scene {
+        image,
+        camera,
+        ambient,
+        ambient_occlusion,
+        lights,
+        materials,
+        textures,
+        objects,
+        groups,
+    } = scene;
     let stem = file.strip_suffix(".toml").unwrap_or(file).to_owned();
     let group_names = groups.iter().map(|group| group.name.clone()).collect();
     let mut out = Writer {
@@ -66,6 +76,11 @@ pub(crate) fn write_toml(
             "camera" => {
                 let kind = table.word_of(&camera);
                 out.setting(&header, table, kind, |key| key.get(&camera));
+            }
+            "ambient_occlusion" => {
+                if let Some(occlusion) = ambient_occlusion {
+                    out.table(&header, table, None, |key| key.get(&occlusion));
+                }
             }
             _ => out.setting(&header, table, None, |_| Some(Value::Color(ambient))),
         }

@@ -1,0 +1,138 @@
+//! Ambient occlusion: the share of rays over a surface that meet nothing nearby.
+//!
+//! The rays are spread by the cosine to the normal, so that the share is of the light that a sky of one
+//! colour sends, as a matt surface weighs it. They start where shadow rays start, and are traced eight side
+//! by side, one of each surface of a bundle at a time.
+
+use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
+use phong_bvh::{Kernel, Rays8, lanes};
+
+use super::Integrator;
+use super::bundle::Radiance8;
+use super::interactions::{Interactions, is_above};
+use super::shadow_rays::Starts;
+use crate::camera::concentric_disc8;
+use crate::light::across;
+use crate::math::lanes::{add, load3, normalize, scale, store3};
+use crate::sampling::{Samplers8, Use};
+use crate::terms::Term;
+use crate::view::Occlusion;
+
+/// How open the surroundings of surfaces are.
+#[derive(Default)]
+pub(super) struct Openness {
+    rays: Vec<Rays8>,
+    blocked: Vec<u32>,
+    /// The share of rays that meet nothing, eight surfaces for eight; empty where it is not asked for.
+    shares: Vec<[f32; 8]>,
+}
+
+impl Openness {
+    /// Forgets what was found out.
+    pub(super) fn begin(&mut self) {
+        self.shares.clear();
+    }
+
+    /// The share of the ambient light that finds its way to a surface; `None` where that is not asked for.
+    #[inline]
+    pub(super) fn share(&self, i: usize, lane: usize) -> Option<f32> {
+        self.shares.get(i).map(|shares| shares[lane])
+    }
+
+    /// Takes from the ambient terms what does not find its way.
+    pub(super) fn dim(&self, out: &mut [Radiance8]) {
+        for (out, shares) in out.iter_mut().zip(&self.shares) {
+            for channel in &mut out.terms[Term::Ambient] {
+                channel.iter_mut().zip(shares).for_each(|(value, share)| *value *= share);
+            }
+        }
+    }
+}
+
+impl Integrator<'_> {
+    /// Finds out how open the surroundings of every surface are. Returns the number of rays.
+    pub(super) fn look_around(
+        &self,
+        occlusion: Occlusion,
+        interactions: &Interactions,
+        samplers: &[Samplers8],
+        to: &mut Openness,
+    ) -> u64 {
+        let world = self.scene.world();
+        let Openness { rays, blocked, shares } = to;
+        let len = samplers.len();
+        shares.clear();
+        if !self.shadows {
+            // Nothing stands in the way of any light.
+            shares.resize(len, [1.0; 8]);
+            return 0;
+        }
+        shares.resize(len, [0.0; 8]);
+        rays.resize(len, Rays8::NONE);
+        blocked.resize(len, 0);
+        world.run(Starts { interactions, to: &mut *rays });
+        let mut count = 0;
+        for number in 0..occlusion.samples {
+            if self.is_stopped() {
+                return count;
+            }
+            count += world.run(Spread { occlusion, number, interactions, samplers, to: rays });
+            world.occluded_eights(rays, blocked);
+            for ((shares, rays), blocked) in shares.iter_mut().zip(&*rays).zip(&*blocked) {
+                for lane in lanes(rays.there & !blocked) {
+                    shares[lane] += 1.0;
+                }
+            }
+        }
+        let all = occlusion.samples as f32;
+        for share in shares.as_flattened_mut() {
+            *share /= all;
+        }
+        count
+    }
+}
+
+/// Sends one ray from every surface, where one is above its horizon. The others count as met: as with
+/// lights, that is the horizon of N, and of faces as well that stand for no smooth surface.
+struct Spread<'a> {
+    occlusion: Occlusion,
+    /// Which of the rays of a surface.
+    number: u32,
+    interactions: &'a Interactions,
+    samplers: &'a [Samplers8],
+    to: &'a mut [Rays8],
+}
+
+impl Kernel for Spread<'_> {
+    type Output = u64;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> u64 {
+        let Self { occlusion: Occlusion { samples, distance }, number, .. } = self;
+        let Self { interactions: Interactions { hits, shading, .. }, samplers, to, .. } = self;
+        let one = f32x8::splat(simd, 1.0);
+        let mut count = 0;
+        for (((to, samplers), hits), shading) in to.iter_mut().zip(samplers).zip(hits).zip(shading)
+        {
+            to.there = 0;
+            if hits.met == 0 {
+                continue;
+            }
+            let [low, high] =
+                concentric_disc8(simd, &samplers.several(Use::Around, number, samples));
+            let [u, v] = [low[0].narrow(high[0]), low[1].narrow(high[1])];
+            let n = load3(simd, &shading.n);
+            let up = one - u * u - v * v;
+            let zero = f32x8::splat(simd, 0.0);
+            let up = up.simd_gt(zero).select(up, zero).sqrt();
+            let dir = normalize(add(across(one, n, [u, v]), scale(up, n)));
+            let smooth = mask32x8::from_bitmask(simd, shading.smooth.into());
+            let above = is_above(dir, n) & (is_above(dir, load3(simd, &shading.front)) | smooth);
+            to.there = hits.met & above.to_bitmask() as u32;
+            to.dir = store3(dir);
+            to.t_max = [distance; 8];
+            count += u64::from(to.there.count_ones());
+        }
+        count
+    }
+}
