@@ -28,13 +28,10 @@ fn scene() -> Scene {
             aperture: 0.0,
             focus: None,
         },
-        ambient: Rgb::WHITE,
-        ambient_occlusion: None,
         lights: Vec::new(),
         materials: vec![Material::default()],
         objects: Vec::new(),
-        groups: Vec::new(),
-        textures: Vec::new(),
+        ..Scene::default()
     }
 }
 

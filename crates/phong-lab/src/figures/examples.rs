@@ -78,16 +78,13 @@ fn scene(eye: DVec3, look_at: DVec3, fov: f64) -> Scene {
             aperture: 0.0,
             focus: None,
         },
-        ambient: Rgb::WHITE,
-        ambient_occlusion: None,
         lights: vec![
             point(DVec3::new(-5.0, 7.0, 6.0), 0.8),
             distant(DVec3::new(2.0, 3.0, 2.0), 0.35),
         ],
         materials: vec![floor().into()],
-        textures: Vec::new(),
         objects: vec![object(Shape::Plane { point: DVec3::ZERO, normal: DVec3::Y }, 0)],
-        groups: Vec::new(),
+        ..Scene::default()
     }
 }
 

@@ -88,13 +88,10 @@ pub(super) fn ball(material: ConstantMaterial, lights: Vec<Light>, eye: DVec3) -
             aperture: 0.0,
             focus: None,
         },
-        ambient: Rgb::WHITE,
-        ambient_occlusion: None,
         lights,
         materials: vec![material.into()],
         objects: vec![object(sphere, 0)],
-        groups: Vec::new(),
-        textures: Vec::new(),
+        ..Scene::default()
     }
 }
 

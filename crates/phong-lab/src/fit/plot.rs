@@ -203,17 +203,14 @@ fn ball_on_floor(lobe: Lobe) -> Scene {
             aperture: 0.0,
             focus: None,
         },
-        ambient: Rgb::WHITE,
-        ambient_occlusion: None,
         // One from over the shoulder, for the ball; one from beyond, low, for the floor.
         lights: vec![light(DVec3::new(0.5, -0.6, -1.0)), light(DVec3::new(0.14, -0.33, 1.0))],
         materials: vec![material(lobe).into()],
-        textures: Vec::new(),
         objects: vec![
             object("ball", Shape::Sphere { center: DVec3::new(0.0, 1.0, 0.0), radius: 1.0 }),
             object("floor", Shape::Plane { point: DVec3::ZERO, normal: DVec3::Y }),
         ],
-        groups: Vec::new(),
+        ..Scene::default()
     }
 }
 

@@ -146,11 +146,9 @@ pub(crate) fn scene(w: &World) -> Scene {
             aperture: 0.0,
             focus: None,
         },
-        ambient: Rgb::WHITE,
         lights: lights.collect(),
         materials: materials.map(Into::into).collect(),
-        textures: Vec::new(),
         objects: objects.collect(),
-        groups: Vec::new(),
+        ..Scene::default()
     }
 }

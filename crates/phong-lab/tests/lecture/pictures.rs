@@ -33,7 +33,6 @@ fn ball(lights: Vec<Light>) -> Scene {
             aperture: 0.0,
             focus: None,
         },
-        ambient: Rgb::WHITE,
         lights,
         materials: vec![
             ConstantMaterial {
@@ -46,7 +45,6 @@ fn ball(lights: Vec<Light>) -> Scene {
             }
             .into(),
         ],
-        textures: Vec::new(),
         objects: vec![Object {
             name: "ball".to_owned(),
             shape: Shape::Sphere { center: CENTER, radius: RADIUS },
@@ -54,7 +52,7 @@ fn ball(lights: Vec<Light>) -> Scene {
             transform: DAffine3::IDENTITY,
             place: Place::default(),
         }],
-        groups: Vec::new(),
+        ..Scene::default()
     }
 }
 

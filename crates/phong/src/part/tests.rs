@@ -199,13 +199,10 @@ fn a_scene_is_known_by_what_it_holds_and_not_by_where_it_was_written() {
             aperture: 0.0,
             focus: None,
         },
-        ambient: Rgb::WHITE,
-        ambient_occlusion: None,
         lights: Vec::new(),
         materials: vec![Material::default()],
         objects: vec![object],
-        textures: Vec::new(),
-        groups: Vec::new(),
+        ..Scene::default()
     };
     let mut elsewhere = scene.clone();
     elsewhere.objects[0].place = Place { file: "b.toml".into(), line: 7, column: 1 };
