@@ -15,11 +15,11 @@ fn only_what_is_read_is_listed_as_an_input() {
         let help = told(&format!("{command} --help"));
         let words = help.split_whitespace().collect::<Vec<_>>().join(" ");
         for read in
-            [".obj .ply .stl .off .pdb .cif .xyz", "toml, obj, ply, stl, off, pdb, cif, xyz"]
+            [".obj .ply .stl .off .gltf .pdb .cif", "off, gltf, pdb, cif, xyz, gro, lammpstrj, dat"]
         {
             assert!(words.contains(read), "{command}: {read}: {help}");
         }
-        for ending in ["gltf", "glb", "nff"] {
+        for ending in ["pov", "fbx"] {
             assert!(!help.contains(&format!(".{ending}")), "{command}: {ending}");
         }
     }

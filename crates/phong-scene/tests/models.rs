@@ -1,6 +1,6 @@
 //! Model files in, summaries and diagnostics out.
 //!
-//! Beside every `NAME.obj`, `.mtl`, `.ply`, `.stl` and `.off` lies `NAME.txt`: what reading it gives, as
+//! Beside every `NAME.obj`, `.mtl`, `.ply`, `.stl`, `.off` and `.gltf` lies `NAME.txt`: what reading it gives, as
 //! text; beside files of atoms `NAME.ENDING.txt`.
 //! `PHONG_BLESS=1` writes the texts anew.
 
@@ -12,7 +12,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use phong_scene::{
-    Diagnostic, Limits, Material, Memory, Mesh, NO_INDEX, Reading, Scene, Shape, read,
+    Diagnostic, Limits, Material, Memory, Mesh, NO_INDEX, Object, Reading, Scene, Shape, read,
 };
 
 use differing::differing;
@@ -45,6 +45,21 @@ fn files_of_atoms_give_what_lies_beside_them() -> io::Result<()> {
         })?;
     }
     Ok(())
+}
+
+#[test]
+fn gltf_files_give_what_lies_beside_them() -> io::Result<()> {
+    for_each("gltf", |name, source| Ok(read(name, None, source, &Limits::default())))
+}
+
+#[test]
+fn tachyon_scenes_give_what_lies_beside_them() -> io::Result<()> {
+    for_each_of("tachyon", "dat", |name, source| Ok(read(name, None, source, &Limits::default())))
+}
+
+#[test]
+fn nff_scenes_give_what_lies_beside_them() -> io::Result<()> {
+    for_each("nff", |name, source| Ok(read(name, None, source, &Limits::default())))
 }
 
 #[test]
@@ -123,43 +138,61 @@ fn tell(reading: &Reading) -> String {
     }
     if let Some(scene) = &reading.scene {
         tell_scene(&mut text, scene);
+        if !reading.bare {
+            text.push(format!("{:?}", scene.camera));
+            text.extend(scene.lights.iter().map(|light| {
+                format!("{}: {:?} {:?}", light.name, light.kind, light.color.to_array())
+            }));
+        }
     }
     text.iter().map(|line| line.trim_end().to_owned() + "\n").collect()
 }
 
 fn tell_scene(text: &mut Vec<String>, scene: &Scene) {
+    for group in &scene.groups {
+        text.push(format!("group {:?}", group.name));
+        group.objects.iter().for_each(|object| tell_object(text, object, scene));
+    }
     for object in &scene.objects {
         let bounds = scene.bounds();
         text.push(format!("{}: {} to {}", object.name, bounds.min, bounds.max));
-        match &object.shape {
-            Shape::Mesh(mesh) => tell_mesh(text, mesh, &scene.materials),
-            Shape::Points(points) => {
-                text.push(format!("  origin {}", points.origin));
-                for (i, sphere) in points.spheres.iter().take(8).enumerate() {
-                    let color = points
-                        .colors
-                        .get(i)
-                        .map_or(String::new(), |c| format!(" {:?}", c.to_array()));
-                    text.push(format!("  {sphere:?}{color}"));
-                }
-                text.push(format!("  {} in all", points.spheres.len()));
-            }
-            Shape::Cylinders(cylinders) => {
-                text.push(format!("  origin {}, {:?}", cylinders.origin, cylinders.caps));
-                for (i, ends) in cylinders.segments.iter().take(8).enumerate() {
-                    let colors =
-                        cylinders.colors.get(i).map(|ends| ends.map(phong_scene::Rgb::to_array));
-                    let colors = colors.map_or(String::new(), |colors| format!(" {colors:?}"));
-                    text.push(format!("  {ends:?}{colors}"));
-                }
-                text.push(format!("  {} in all", cylinders.segments.len()));
-            }
-            other => text.push(format!("  {other:?}")),
-        }
+        tell_object(text, object, scene);
     }
     // Material 0 is that of things without one.
     for material in &scene.materials[1..] {
         text.push(differing(material, &Material::default()));
+    }
+}
+
+fn tell_object(text: &mut Vec<String>, object: &Object, scene: &Scene) {
+    if object.transform != glam::DAffine3::IDENTITY {
+        text.push(format!("  {:?}", object.transform.to_cols_array()));
+    }
+    if object.material.0 > 0 {
+        text.push(format!("  of material {:?}", scene.materials[object.material.0 as usize].name));
+    }
+    match &object.shape {
+        Shape::Mesh(mesh) => tell_mesh(text, mesh, &scene.materials),
+        Shape::Points(points) => {
+            text.push(format!("  origin {}", points.origin));
+            for (i, sphere) in points.spheres.iter().take(8).enumerate() {
+                let color =
+                    points.colors.get(i).map_or(String::new(), |c| format!(" {:?}", c.to_array()));
+                text.push(format!("  {sphere:?}{color}"));
+            }
+            text.push(format!("  {} in all", points.spheres.len()));
+        }
+        Shape::Cylinders(cylinders) => {
+            text.push(format!("  origin {}, {:?}", cylinders.origin, cylinders.caps));
+            for (i, ends) in cylinders.segments.iter().take(8).enumerate() {
+                let colors =
+                    cylinders.colors.get(i).map(|ends| ends.map(phong_scene::Rgb::to_array));
+                let colors = colors.map_or(String::new(), |colors| format!(" {colors:?}"));
+                text.push(format!("  {ends:?}{colors}"));
+            }
+            text.push(format!("  {} in all", cylinders.segments.len()));
+        }
+        other => text.push(format!("  {other:?}")),
     }
 }
 

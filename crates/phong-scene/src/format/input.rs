@@ -73,10 +73,12 @@ pub(crate) struct Models {
 pub(crate) enum Named {
     /// A model that this reads.
     Model(ReadModel),
-    /// A scene with its own camera.
+    /// A scene of our own text.
     Scene,
-    /// Of a format of this name that is known, but not read yet.
-    NotYet(&'static str),
+    /// Of a format of this name that holds scenes, which nothing takes a part of.
+    Foreign(&'static str),
+    /// Of a format of this name that is known, but not read.
+    Refused(&'static str),
     /// The name does not say.
     Unknown,
 }

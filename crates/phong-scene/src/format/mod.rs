@@ -5,10 +5,12 @@ mod atoms;
 mod cif;
 pub(crate) mod export;
 mod faces;
+pub(crate) mod gltf;
 mod gro;
 pub(crate) mod input;
 mod lammps;
 pub(crate) mod mtl;
+pub(crate) mod nff;
 pub(crate) mod obj;
 pub(crate) mod off;
 pub(crate) mod origin;
@@ -16,6 +18,7 @@ mod pdb;
 pub(crate) mod ply;
 pub(crate) mod stl;
 pub(crate) mod table;
+pub(crate) mod tachyon;
 mod text;
 pub(crate) mod toml;
 mod triangles;
@@ -23,7 +26,7 @@ mod xyz;
 
 use self::export::{Account, File, PlyEncoding, Writing};
 use self::input::Input;
-use self::table::{Format, MODELS, Read, endings, models_are_read_from};
+use self::table::{Format, MODELS, Read, endings};
 use crate::change::Change;
 use crate::diagnostic::{Diagnostic, Place, Span};
 use crate::frame::{Framing, frame};
@@ -31,6 +34,10 @@ use crate::limits::Limits;
 use crate::scene::{Reading, Scene};
 use crate::source::Source;
 use crate::unpack::Unpacked;
+
+/// What to do where a format is known, but not read.
+const INSTEAD: &str = "let the program that wrote it export the model as .obj, .glb or .ply, or the scene as \
+                       .dat for Tachyon, as VMD and OVITO do";
 
 /// Reads a scene or a bare model, and everything there is to say about it.
 ///
@@ -81,8 +88,8 @@ pub fn read_changed(
     let input = Input { changes, ..Input::new(path, source, limits) };
     let read = match format.reader() {
         None => {
-            let message = format!("{format} files are not read yet");
-            return refused(message, models_are_read_from(), true);
+            let message = format!("{format} files are programs, which are not read");
+            return refused(message, INSTEAD.to_owned(), true);
         }
         Some(Read::Scene(read)) => return read(&input, &MODELS),
         Some(Read::Model(read)) => read,
@@ -193,12 +200,11 @@ mod tests {
     }
 
     #[test]
-    fn a_known_format_that_is_not_built_says_not_yet() {
-        for path in ["a.gltf", "a.glb", "a.dat", "a.nff"] {
-            let reading = read(path, None, &Memory::new().with(path, *b""), &Limits::default());
-            let said = reading.diagnostics[0].to_string();
-            assert!(reading.scene.is_none() && said.contains("not read yet"), "{said}");
-        }
+    fn a_known_format_that_is_not_read_says_what_to_do_instead() {
+        let files = Memory::new().with("a.pov", *b"camera { location 0 }");
+        let reading = read("a.pov", None, &files, &Limits::default());
+        let said = reading.diagnostics[0].to_string();
+        assert!(reading.scene.is_none() && said.contains("export the model as .obj"), "{said}");
     }
 
     #[test]

@@ -7,7 +7,7 @@ use std::fmt;
 use super::export::WriteScene;
 use super::input::{Models, Named, ReadModel, ReadScene};
 use super::text::decode;
-use super::{cif, gro, lammps, obj, off, pdb, ply, stl, toml, xyz};
+use super::{cif, gltf, gro, lammps, nff, obj, off, pdb, ply, stl, tachyon, toml, xyz};
 use crate::source::Source;
 use crate::unpack::head_of;
 
@@ -33,7 +33,7 @@ pub enum Format {
     Stl,
     /// OFF, Geomview's polygons, as text.
     Off,
-    /// glTF 2.0, as text or binary. Known, not read yet.
+    /// glTF 2.0, as text or binary (GLB).
     Gltf,
     /// Protein Data Bank: atoms of large molecules.
     Pdb,
@@ -45,10 +45,12 @@ pub enum Format {
     Gro,
     /// LAMMPS: dumps and data files of particles.
     Lammps,
-    /// Tachyon scenes. Known, not read yet.
+    /// Tachyon scenes, with camera and lights.
     Tachyon,
-    /// Neutral File Format. Known, not read yet.
+    /// NFF, Haines' Neutral File Format: scenes with camera and lights.
     Nff,
+    /// POV-Ray scenes: known, but programs in a language of their own, which are not read.
+    PovRay,
 }
 
 /// All that is known of a format.
@@ -62,7 +64,7 @@ struct Entry {
     tells: Option<fn(&[u8]) -> bool>,
     /// Whether it holds a model without camera and lights.
     bare: bool,
-    /// `None`: known, but not read yet.
+    /// `None`: known, but not read.
     read: Option<Read>,
     /// `None`: not written yet.
     write: Option<WriteScene>,
@@ -78,7 +80,7 @@ pub(crate) enum Read {
 }
 
 /// Every format.
-static TABLE: [Entry; 13] = [
+static TABLE: [Entry; 14] = [
     Entry {
         format: Format::Toml,
         name: "TOML scene",
@@ -128,9 +130,9 @@ static TABLE: [Entry; 13] = [
         format: Format::Gltf,
         name: "glTF",
         endings: &["gltf", "glb"],
-        tells: None,
+        tells: Some(gltf::is_gltf),
         bare: true,
-        read: None,
+        read: Some(Read::Model(gltf::read)),
         write: None,
     },
     Entry {
@@ -182,15 +184,24 @@ static TABLE: [Entry; 13] = [
         format: Format::Tachyon,
         name: "Tachyon",
         endings: &["dat"],
-        tells: None,
+        tells: Some(tachyon::is_tachyon),
         bare: false,
-        read: None,
+        read: Some(Read::Scene(tachyon::read)),
         write: None,
     },
     Entry {
         format: Format::Nff,
         name: "NFF",
         endings: &["nff"],
+        tells: Some(nff::is_nff),
+        bare: false,
+        read: Some(Read::Scene(nff::read)),
+        write: None,
+    },
+    Entry {
+        format: Format::PovRay,
+        name: "POV-Ray",
+        endings: &["pov"],
         tells: None,
         bare: false,
         read: None,
@@ -269,7 +280,7 @@ impl Format {
         self.entry().bare
     }
 
-    /// How it is read; `None`: not yet.
+    /// How it is read; `None`: it is not.
     pub(crate) fn reader(self) -> Option<Read> {
         self.entry().read
     }
@@ -298,8 +309,9 @@ fn find(path: &str, source: &dyn Source) -> Named {
     match format.or_else(|| Format::of_file(path, source)).map(Format::entry) {
         None => Named::Unknown,
         Some(Entry { read: Some(Read::Model(read)), .. }) => Named::Model(*read),
-        Some(Entry { read: Some(Read::Scene(_)), .. }) => Named::Scene,
-        Some(Entry { name, .. }) => Named::NotYet(name),
+        Some(Entry { format: Format::Toml, .. }) => Named::Scene,
+        Some(Entry { name, read: Some(Read::Scene(_)), .. }) => Named::Foreign(name),
+        Some(Entry { name, .. }) => Named::Refused(name),
     }
 }
 

@@ -45,7 +45,8 @@ impl Reader<'_> {
         }
         let mut limits = self.limits.clone();
         limits.text_bytes = limits.text_bytes.saturating_sub(self.bytes);
-        if matches!((self.models.find)(&inner, self.source), Named::Model(_) | Named::NotYet(_)) {
+        let found = (self.models.find)(&inner, self.source);
+        if matches!(found, Named::Model(_) | Named::Foreign(_) | Named::Refused(_)) {
             return self.include_model(v, path);
         }
         match text::load(&inner, self.source, &limits) {
@@ -269,7 +270,12 @@ impl Reader<'_> {
         let message = match (self.models.find)(&file, self.source) {
             Named::Model(read) => return Some((file, read)),
             Named::Scene => "a scene cannot be drawn as a model".to_owned(),
-            Named::NotYet(format) => format!("{format} files are not read yet"),
+            Named::Foreign(format) => {
+                format!(
+                    "{format} scenes are no part of another scene; `phong convert` makes a .toml"
+                )
+            }
+            Named::Refused(format) => format!("{format} files are programs, which are not read"),
             Named::Unknown => {
                 format!("the name {} does not say what the file is", wording::path(&name))
             }

@@ -1,0 +1,443 @@
+//! glTF 2.0: as text with its buffers in it or beside it, and as one binary file (GLB).
+//!
+//! | in the file | read as |
+//! |---|---|
+//! | nodes of the scene (of the first, of all, where none is named) | objects where their nodes stand; a mesh of several nodes is a group, placed by instances |
+//! | meshes without nodes at all | objects where they are |
+//! | primitives: triangles, strips, fans | meshes; without `NORMAL`, flat |
+//! | points; lines, strips and loops of them | spheres, as those of PLY files are; capsules of 0.2 % of their extent in radius |
+//! | `COLOR_0` | linear colours, times the material's; their alpha is not drawn |
+//! | accessors: strided, sparse, normalised, without a view | numbers, as the format says |
+//! | skins | the mesh bent to where its bones stand in the file; morph targets are not applied |
+//! | cameras | the camera of the first node that has one |
+//! | `KHR_lights_punctual` | lights of their intensity / π; point and spot lights fall off with the square |
+//! | metallic and rough materials | GGX with α = roughness², Smith, Schlick; F₀ = 0.04 and the base colour for metals, of which no diffuse colour is left |
+//! | ambient light, of which the format says nothing | `k_a` is 0.1, for metals 0.4, in place of what they would mirror |
+//! | `KHR_materials_ior`, `_specular`, `_emissive_strength`, `_pbrSpecularGlossiness` | F₀, the glow, a roughness of 1 − glossiness |
+//! | `KHR_materials_transmission`, `alphaMode` `BLEND` | rays that go straight on, by the factor and by 1 − alpha |
+//! | `KHR_materials_unlit` | a surface that glows in its colour, and is not lit |
+//! | images | not drawn yet: a warning |
+//! | other extensions | a warning; where the file requires one, an error |
+//!
+//! What is wrong is said with a JSON pointer. What is out of range, or cut short, refuses the file,
+//! unless it is read leniently: then what can be drawn is.
+//!
+//! Own reader on `serde_json`: the crate `gltf` checks a document before it looks at it, and stops
+//! there, so that one bad mesh among many would leave nothing; it knows no limits.
+
+mod buffer;
+mod json;
+mod material;
+mod nodes;
+mod primitive;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::io;
+use std::sync::Arc;
+
+use glam::{DAffine3, DMat4};
+use serde_json::Value;
+
+use self::buffer::Buffers;
+use self::json::{At, Fault, Result};
+use self::material::Surface;
+use self::nodes::Node;
+use self::primitive::{Pose, Reader, matrix};
+use super::export::free_name;
+use super::input::Input;
+use super::text::{Findings, whole};
+use crate::diagnostic::{Diagnostic, Place, Span};
+use crate::fragment::Fragment;
+use crate::material::MaterialId;
+use crate::scene::{Group, Object};
+use crate::shape::{GroupId, Shape};
+use crate::source::trouble;
+use crate::transform::is_regular;
+
+/// What a binary file begins with, and the names of its two chunks.
+const MAGIC: &[u8] = b"glTF";
+const JSON: &[u8] = b"JSON";
+const BIN: &[u8] = b"BIN\0";
+
+/// The extensions that are understood, or change nothing that is drawn.
+const KNOWN: [&str; 9] = [
+    nodes::LIGHTS,
+    "KHR_mesh_quantization",
+    "KHR_materials_unlit",
+    "KHR_materials_ior",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_texture_transform",
+];
+
+/// Whether a file that begins so is surely glTF.
+pub(crate) fn is_gltf(head: &[u8]) -> bool {
+    let has = |words: &[u8]| head.windows(words.len()).any(|part| part == words);
+    head.starts_with(MAGIC)
+        || head.trim_ascii_start().starts_with(b"{") && has(b"\"asset\"") && has(b"\"version\"")
+}
+
+/// Reads a glTF file; `None` if a diagnostic is an error.
+pub(crate) fn read(input: &Input<'_>, out: &mut Vec<Diagnostic>) -> Option<Fragment> {
+    let file: Arc<str> = input.path.into();
+    let mut findings = Findings::default();
+    let fragment = document(&file, input, &mut findings);
+    let sound = !findings.any_error();
+    findings.tell(&file, out);
+    match fragment {
+        Ok(fragment) => fragment.filter(|_| sound),
+        Err(error) => {
+            let message = format!("cannot be read: {}", trouble(&error));
+            out.push(Diagnostic::error(message, whole(&file)));
+            None
+        }
+    }
+}
+
+/// Reads the file and what it names.
+fn document(
+    file: &Arc<str>,
+    input: &Input<'_>,
+    findings: &mut Findings,
+) -> io::Result<Option<Fragment>> {
+    let limits = input.limits;
+    let blob = input.source.open(file)?;
+    if blob.len() > limits.bytes {
+        return Err(io::Error::new(io::ErrorKind::FileTooLarge, "it is larger than is allowed"));
+    }
+    let mut bytes = vec![0; blob.len() as usize];
+    let read = blob.read_full(&mut bytes, 0)?;
+    bytes.truncate(read);
+    drop(blob);
+    let mut binary = None;
+    let mut text = &bytes[..];
+    if bytes.starts_with(MAGIC) {
+        match chunks(&bytes) {
+            Ok((json, rest)) => (text, binary) = (json, rest.map(<[u8]>::to_vec)),
+            Err(message) => {
+                findings.error("broken files", || whole(file), || message);
+                return Ok(None);
+            }
+        }
+    }
+    if text.len() as u64 > limits.text_bytes {
+        let message = format!("its JSON has more than {} bytes", limits.text_bytes);
+        return Err(io::Error::new(io::ErrorKind::FileTooLarge, message));
+    }
+    let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
+    let value: Value = match serde_json::from_slice(text) {
+        Ok(value) => value,
+        Err(error) => {
+            let (line, column) = (error.line() as u32, error.column() as u32);
+            let place = Place { file: Arc::clone(file), line, column };
+            let said = error.to_string();
+            let said = said.rsplit_once(" at line").map_or(said.as_str(), |(said, _)| said);
+            let message = format!("the JSON is broken: {said}");
+            let span = Span { place, ..Span::default() };
+            findings.error("broken files", || span, || message);
+            return Ok(None);
+        }
+    };
+    drop(bytes);
+    let root = At::root(&value);
+    let fragment = assemble(&root, binary, file, input, findings);
+    Ok(fragment.map_err(|fault| tell(findings, true, file, fault)).ok())
+}
+
+/// The text of a binary file, and the bytes behind it.
+fn chunks(bytes: &[u8]) -> std::result::Result<(&[u8], Option<&[u8]>), String> {
+    let number = |at: usize| {
+        let bytes = bytes.get(at..)?.first_chunk()?;
+        Some(u32::from_le_bytes(*bytes) as usize)
+    };
+    let (version, length) = (number(4), number(8));
+    match version {
+        Some(2) => {}
+        Some(other) => return Err(format!("it is binary glTF {other}; only 2 is read")),
+        None => return Err("the file ends within its head".to_owned()),
+    }
+    let there = bytes.len();
+    if let Some(length) = length.filter(|length| *length > there) {
+        return Err(format!("the file is cut short: {there} of its {length} bytes are there"));
+    }
+    let chunk = |at: usize, kind: &[u8]| -> Option<&[u8]> {
+        let length = number(at)?;
+        let named = bytes.get(at + 4..at + 8)? == kind;
+        bytes.get(at + 8..(at + 8).checked_add(length)?).filter(|_| named)
+    };
+    let json = chunk(12, JSON).ok_or_else(|| "the file holds no chunk of JSON".to_owned())?;
+    // Chunks begin at multiples of four.
+    let binary = chunk(20 + json.len().next_multiple_of(4), BIN);
+    Ok((json, binary))
+}
+
+/// Says a fault: an error, unless it leaves something to be drawn leniently.
+fn tell(findings: &mut Findings, fatal: bool, file: &Arc<str>, fault: Fault) {
+    let Fault { pointer, message } = fault;
+    let pointer = if pointer.is_empty() { "/".to_owned() } else { pointer };
+    let message = || format!("{pointer}: {message}");
+    findings.damage(!fatal, "faults of the document", || whole(file), message);
+}
+
+/// All that the document's scene holds.
+fn assemble(
+    root: &At<'_>,
+    binary: Option<Vec<u8>>,
+    file: &Arc<str>,
+    input: &Input<'_>,
+    findings: &mut Findings,
+) -> Result<Fragment> {
+    let Input { path, source, limits, radius, .. } = *input;
+    check_version(root)?;
+    check_extensions(root, file, findings)?;
+    let nodes = nodes::drawn(root)?;
+    let buffers = Buffers::read(root, path, binary, source, limits)?;
+    let reader = Reader { root: root.clone(), buffers, file: Arc::clone(file), limits, radius };
+    let mut scene = Scene {
+        lenient: limits.lenient,
+        reader,
+        fragment: Fragment::default(),
+        surfaces: BTreeMap::new(),
+        names: BTreeSet::new(),
+        findings,
+    };
+    scene.draw(&nodes)?;
+    Ok(scene.fragment)
+}
+
+fn check_version(root: &At<'_>) -> Result<()> {
+    let asset = root.need("asset")?;
+    for key in ["version", "minVersion"] {
+        let Some(at) = asset.get(key) else { continue };
+        let version = at.text()?;
+        let major = version.split('.').next().unwrap_or_default();
+        if major != "2" || key == "minVersion" && version != "2.0" {
+            return Err(at.fault(format!("it is glTF {version}; only 2.0 is read")));
+        }
+    }
+    asset.need("version").map(|_| ())
+}
+
+fn check_extensions(root: &At<'_>, file: &Arc<str>, findings: &mut Findings) -> Result<()> {
+    let mut required = BTreeSet::new();
+    for at in root.list("extensionsRequired")? {
+        let name = at.text()?;
+        required.insert(name);
+        if !KNOWN.contains(&name) {
+            let message = format!("the file requires `{name}`, which is not understood");
+            return Err(at.fault(message));
+        }
+    }
+    for at in root.list("extensionsUsed")? {
+        let name = at.text()?;
+        if !KNOWN.contains(&name) {
+            findings.warning(
+                "extensions that are not used",
+                || whole(file),
+                || format!("{}: `{name}` is not understood, and not used", at.pointer),
+            );
+        }
+    }
+    Ok(())
+}
+
+/// What is drawn so far.
+struct Scene<'a, 'f> {
+    lenient: bool,
+    reader: Reader<'a>,
+    fragment: Fragment,
+    /// By the number of a material, `None` for what names none: its number here, and itself.
+    surfaces: BTreeMap<Option<usize>, (MaterialId, Surface)>,
+    /// The names of groups.
+    names: BTreeSet<String>,
+    findings: &'f mut Findings,
+}
+
+impl<'a> Scene<'a, '_> {
+    fn draw(&mut self, nodes: &[Node<'a>]) -> Result<()> {
+        let root = self.reader.root.clone();
+        let place = Place { file: Arc::clone(&self.reader.file), ..Place::default() };
+        let meshes = root.list("meshes")?;
+        let mut uses = vec![Vec::new(); meshes.len()];
+        let mut cameras = 0;
+        for node in nodes {
+            match nodes::camera(&root, node) {
+                Ok(None) => {}
+                Ok(Some(camera)) => {
+                    cameras += 1;
+                    self.fragment.camera.get_or_insert(camera);
+                }
+                Err(fault) => self.fault(fault),
+            }
+            match nodes::light(&root, node, &place) {
+                Ok(light) => self.fragment.lights.extend(light),
+                Err(fault) => self.fault(fault),
+            }
+            let Some(number) = node.at.get("mesh") else { continue };
+            match uses.get_mut(number.index()?) {
+                Some(uses) => uses.push(node),
+                None => self.fault(number.fault("there is no such mesh")),
+            }
+        }
+        if cameras > 1 {
+            self.warn("cameras", format!("there are {cameras} cameras; the first is used"));
+        }
+        let unused = uses.iter().filter(|uses| uses.is_empty()).count();
+        let without_nodes = root.list("nodes")?.is_empty();
+        if unused > 0 && !without_nodes {
+            self.warn("meshes", format!("meshes that the scene does not use: {unused}; not drawn"));
+        }
+        for (mesh, nodes) in meshes.iter().zip(&uses) {
+            if let Err(fault) = self.mesh(mesh, nodes, without_nodes) {
+                self.fault(fault);
+            }
+        }
+        if self.fragment.objects.is_empty() {
+            let message = || "there is nothing to draw: no mesh is left".to_owned();
+            self.findings.error("empty models", || whole(&self.reader.file), message);
+        }
+        Ok(())
+    }
+
+    /// One mesh, where these nodes stand.
+    fn mesh(&mut self, at: &At<'a>, nodes: &[&Node<'a>], alone: bool) -> Result<()> {
+        let mut placed = Vec::new();
+        for node in nodes {
+            if let Some(skin) = node.at.get("skin") {
+                // Its bones say where it stands, and not its node.
+                let pose = self.pose(&skin)?;
+                let objects = self.primitives(at, Some(&pose))?;
+                self.fragment.objects.extend(objects);
+            } else if is_regular(node.to_world.matrix3) && node.to_world.is_finite() {
+                placed.push(node.to_world);
+            } else {
+                let message =
+                    format!("{}: it has no extent; its mesh is not drawn", node.at.pointer);
+                self.warn("nodes without extent", message);
+            }
+        }
+        if alone {
+            placed.push(DAffine3::IDENTITY);
+        }
+        let Some(first) = placed.first().copied() else { return Ok(()) };
+        let mut objects = self.primitives(at, None)?;
+        if objects.is_empty() {
+            return Ok(());
+        }
+        if placed.len() == 1 {
+            objects.iter_mut().for_each(|object| object.transform = first);
+            self.fragment.objects.append(&mut objects);
+            return Ok(());
+        }
+        let name = free_name(&at.name("mesh"), &mut self.names);
+        let group = GroupId(self.fragment.groups.len() as u32);
+        self.fragment.groups.push(Group { name, objects });
+        let instance = |transform| Object {
+            name: String::new(),
+            transform,
+            ..Object::from(Shape::Instance(group))
+        };
+        self.fragment.objects.extend(placed.into_iter().map(instance));
+        Ok(())
+    }
+
+    /// The objects of a mesh, in its own space.
+    fn primitives(&mut self, at: &At<'a>, pose: Option<&Pose>) -> Result<Vec<Object>> {
+        let moved = |weights: &At<'_>| -> Result<bool> {
+            Ok(weights.items()?.iter().any(|weight| weight.number().is_ok_and(|w| w != 0.0)))
+        };
+        if at.get("weights").map_or(Ok(false), |weights| moved(&weights))? {
+            self.warn("morphs", format!("{}: morph targets are not applied", at.pointer));
+        }
+        let mut objects = Vec::new();
+        for primitive in at.need("primitives")?.items()? {
+            match self.primitive(&primitive, pose) {
+                Ok(object) => objects.extend(object),
+                Err(fault) => self.fault(fault),
+            }
+        }
+        Ok(objects)
+    }
+
+    fn primitive(&mut self, at: &At<'a>, pose: Option<&Pose>) -> Result<Option<Object>> {
+        let (material, surface) = match self.surface(at.get("material").as_ref()) {
+            Ok(surface) => surface,
+            Err(Fault { pointer, message }) => {
+                let message = format!("{pointer}: {message}; the default material is used");
+                self.warn("materials that cannot be read", message);
+                self.surface(None)?
+            }
+        };
+        let shape = self.reader.shape(at, &surface, pose, self.findings)?;
+        let object = |shape| Object { name: String::new(), material, ..Object::from(shape) };
+        Ok(shape.map(object))
+    }
+
+    /// The material of a primitive.
+    fn surface(&mut self, at: Option<&At<'a>>) -> Result<(MaterialId, Surface)> {
+        let number = at.map(At::index).transpose()?;
+        if let Some(known) = self.surfaces.get(&number) {
+            return Ok(known.clone());
+        }
+        let surface = match (at, number) {
+            (Some(at), Some(number)) => {
+                let root = &self.reader.root;
+                let of = root.item("materials", number).map_err(|f| at.fault(f.message))?;
+                material::read(&of, &self.reader.file, self.findings)?
+            }
+            _ => material::plain(),
+        };
+        let materials = &mut self.fragment.materials;
+        // Material 0 is of what has none: whoever takes the model chooses it.
+        let id = if number.is_some() { materials.len() as u32 } else { 0 };
+        if number.is_some() {
+            materials.push(surface.material.clone());
+        }
+        let known = (MaterialId(id), surface);
+        self.surfaces.insert(number, known.clone());
+        Ok(known)
+    }
+
+    /// Where the bones of a skin stand.
+    fn pose(&self, skin: &At<'a>) -> Result<Pose> {
+        let root = &self.reader.root;
+        let at = root.item("skins", skin.index()?).map_err(|f| skin.fault(f.message))?;
+        let worlds: BTreeMap<usize, DAffine3> = nodes::drawn(root)?
+            .into_iter()
+            .filter_map(|node| {
+                let number = node.at.pointer.rsplit('/').next()?.parse().ok()?;
+                Some((number, node.to_world))
+            })
+            .collect();
+        let inverse = match at.get("inverseBindMatrices") {
+            Some(index) => {
+                let Reader { buffers, limits, .. } = &self.reader;
+                buffers.rows(root, &index, limits)?.matrices()
+            }
+            None => Vec::new(),
+        };
+        let bone = |(i, joint): (usize, At<'a>)| -> Result<DMat4> {
+            let number = joint.index()?;
+            let world = worlds.get(&number).copied().unwrap_or(DAffine3::IDENTITY);
+            let inverse = inverse.get(i).map_or(DMat4::IDENTITY, |numbers| matrix(*numbers));
+            Ok(DMat4::from(world) * inverse)
+        };
+        at.need("joints")?
+            .items()?
+            .into_iter()
+            .enumerate()
+            .map(bone)
+            .collect::<Result<_>>()
+            .map(Pose)
+    }
+
+    fn fault(&mut self, fault: Fault) {
+        tell(self.findings, !self.lenient, &self.reader.file, fault);
+    }
+
+    fn warn(&mut self, plural: &'static str, message: String) {
+        self.findings.warning(plural, || whole(&self.reader.file), || message);
+    }
+}
