@@ -8,7 +8,7 @@ import { words } from "./words.js";
 const MOST = 8;
 
 // Requests that leave the picture as it is: the first engine alone is asked.
-const ASKED = new Set(["explain", "export", "keys"]);
+const ASKED = new Set(["explain", "export", "keys", "facets", "lobe"]);
 
 // A module that gives a vector: whether it is one at all tells whether vectors are known here.
 const VECTOR = [

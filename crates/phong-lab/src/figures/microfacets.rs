@@ -40,6 +40,39 @@ pub(super) fn draw(setting: Setting) -> Plate {
     }
 }
 
+/// What so many tiny mirrors send out near the plane of incidence, beside what they should add up to.
+///
+/// Directions are counted in bands of equal width, by their angle from the normal; all values are per
+/// steradian.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Facets {
+    /// The first and the last angle, degrees; negative on the light's side.
+    pub range: [f64; 2],
+    /// For each band, the facets by the light that each catches.
+    pub counted: Vec<f64>,
+    /// For each band, the facets counted alike.
+    pub alike: Vec<f64>,
+    /// `D(h)/(4 n·l)` from the first angle to the last, at equal distances, averaged over a band's width.
+    pub lobe: Vec<f64>,
+    /// The root mean square distance of `counted` from the lobe, in units of its peak.
+    pub error: f64,
+}
+
+/// Draws the first `count` facets of the figure's surface, under light that comes in at `theta` degrees.
+/// More facets begin with the same ones.
+#[must_use]
+pub fn facets(theta: f64, count: u32) -> Facets {
+    let experiment = Experiment::new(theta);
+    let Tally { weighted, plain } = experiment.tally(count, 0);
+    let step = (RANGE[1] - RANGE[0]) / f64::from(CURVE);
+    let lobe = (0..=CURVE).map(|i| experiment.smooth(RANGE[0] + step * f64::from(i))).collect();
+    let error = experiment.distance(&weighted);
+    Facets { range: RANGE, counted: weighted.to_vec(), alike: plain.to_vec(), lobe, error }
+}
+
+/// Pieces of the lobe's curve.
+const CURVE: u32 = 150;
+
 /// How many facets are drawn for each point of the error plot.
 const COUNTS: [u32; 4] = [100, 1_000, 10_000, 100_000];
 /// How many facets are drawn for the histogram.
@@ -209,6 +242,15 @@ fn convergence(drawing: &mut Drawing, errors: &[(u32, f64)]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn more_facets_come_nearer_to_the_lobe() {
+        let errors = [1, 100, 10_000, 1_000_000].map(|count| facets(THETA, count).error);
+        assert!(errors.is_sorted_by(|a, b| a > b), "{errors:?}");
+        let facets = facets(40.0, 1);
+        assert_eq!(facets.counted.iter().filter(|&&value| value > 0.0).count(), 1);
+        assert_eq!((facets.counted.len(), facets.lobe.len()), (BANDS, 151));
+    }
 
     #[test]
     fn weighted_facets_converge_to_the_lobe_as_one_over_root_n_and_plain_ones_do_not() {

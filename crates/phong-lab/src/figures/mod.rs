@@ -45,6 +45,7 @@ use drawing::Drawing;
 use phong_scene::Rgb;
 
 pub use index::page;
+pub use microfacets::{Facets, facets};
 pub(crate) use raster::{Lettering, lettering};
 
 /// A figure that can be drawn.

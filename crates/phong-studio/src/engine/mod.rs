@@ -14,9 +14,10 @@ mod sharing;
 
 use phong::render::Cancel;
 use phong::scene::{Limits, Source, schema_json};
+use phong_lab::figures::{self, Facets};
 use serde_json::Value;
 
-use crate::protocol::{MOST_EXPLAINED, Message, PixelKind, Reply, Request, VERSION};
+use crate::protocol::{MOST_EXPLAINED, MOST_FACETS, Message, PixelKind, Reply, Request, VERSION};
 use opened::Opened;
 use painting::Painting;
 
@@ -138,6 +139,7 @@ impl Engine {
                 say(emit, &Reply::Keys { schema });
                 Ok(())
             }
+            Request::Facets { id, theta, count } => facets(id, theta, count, emit),
         };
         if let Err(message) = done {
             say(emit, &error_reply(message));
@@ -277,6 +279,16 @@ impl Engine {
         emit(Message::Frame(crate::protocol::file_frame(&file.bytes)));
         Ok(())
     }
+}
+
+/// Draws tiny mirrors, and says what they send out.
+fn facets(id: u64, theta: f64, count: u32, emit: Emit<'_>) -> Result<(), String> {
+    if !(1..=MOST_FACETS).contains(&count) || !(5.0..=80.0).contains(&theta) {
+        return Err(format!("1 to {MOST_FACETS} facets are drawn, under 5 to 80 degrees"));
+    }
+    let Facets { range, counted, alike, lobe, error } = figures::facets(theta, count);
+    say(emit, &Reply::Facets { id, count, range, counted, alike, lobe, error });
+    Ok(())
 }
 
 fn error_reply(message: String) -> Reply {

@@ -299,3 +299,20 @@ fn shares_put_together_are_the_file_of_a_render_and_say_every_pass() {
         assert!(said.contains("another picture"), "{said}");
     }
 }
+
+#[test]
+fn facets_are_drawn_and_counted_or_refused() {
+    let mut talk = Talk::new();
+    let mut error = |count: u32| {
+        talk.ask(&json!({ "do": "facets", "id": 3, "theta": 55, "count": count }));
+        let said = talk.page.last("facets");
+        assert_eq!((&said["id"], &said["count"]), (&json!(3), &json!(count)));
+        assert_eq!(said["counted"].as_array().unwrap().len(), 24);
+        said["error"].as_f64().unwrap()
+    };
+    assert!(error(10_000) < 0.2 * error(10));
+    for (theta, count) in [(55, 0), (55, 1_000_001), (90, 1)] {
+        talk.ask(&json!({ "do": "facets", "id": 3, "theta": theta, "count": count }));
+        assert!(talk.page.last("error")["message"].as_str().unwrap().contains("80 degrees"));
+    }
+}
