@@ -116,6 +116,14 @@ class Material(Keys):
     ``emission_color``: Colour of the surface's own light.
     ``reflection``: Weight of the mirror ray. Default: 0.0.
     ``transmission``: Weight of the refracted ray. Default: 0.0.
+    ``opacity``: Share of the surface that is there; the rest shows what is behind, in a
+        straight line. Default: 1.0.
+    ``opacity_mode``: Whether the share is the same from everywhere, or grows towards the rim,
+        as in VMD and Raster3D: (½ + ½ cos(π (1 − opacity) N·E))². Default: "plain".
+    ``surfaces``: A ray shows the material only until it has passed so many see-through
+        surfaces; 1: the first surface alone.
+    ``shadow``: What a light loses behind it: all, or what is not let through in a straight
+        line: of `opacity`, and where this says `filtered` of `transmission` as well.
     ``ior``: Index of refraction of the inside relative to the outside. Default: 1.5.
     ``priority``: Of surfaces in one place the one of the highest priority is met first; of
         glasses that fill one place it alone is there. Default: 0.
@@ -161,6 +169,10 @@ class Material(Keys):
         emission_color: _Color | Texture | dict[str, Any] | None = None,
         reflection: _Color | Texture | dict[str, Any] | None = None,
         transmission: _Color | Texture | dict[str, Any] | None = None,
+        opacity: float | Texture | dict[str, Any] | None = None,
+        opacity_mode: Literal["plain", "angle"] | None = None,
+        surfaces: int | None = None,
+        shadow: Literal["full", "filtered"] | None = None,
         ior: float | None = None,
         priority: int | None = None,
         fresnel: bool | None = None,

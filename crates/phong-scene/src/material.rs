@@ -47,6 +47,10 @@
 //! | `emission_color` | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name; or `{ texture = .. }` | `color` | Colour of the surface's own light. |
 //! | `reflection` | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name; or `{ texture = .. }` | `0` | Weight of the mirror ray. |
 //! | `transmission` | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name; or `{ texture = .. }` | `0` | Weight of the refracted ray. |
+//! | `opacity` | a number from 0 to 1; or `{ texture = .. }` | `1` | Share of the surface that is there; the rest shows what is behind, in a straight line. |
+//! | `opacity_mode` | `plain` or `angle` | `"plain"` | Whether the share is the same from everywhere, or grows towards the rim, as in VMD and Raster3D: (½ + ½ cos(π (1 − opacity) N·E))². |
+//! | `surfaces` | a whole number from 1 to 1000000 | all | A ray shows the material only until it has passed so many see-through surfaces; 1: the first surface alone. |
+//! | `shadow` | `full` or `filtered` | full for glass, filtered for opacity | What a light loses behind it: all, or what is not let through in a straight line: of `opacity`, and where this says `filtered` of `transmission` as well. |
 //! | `ior` | a number above 0 up to 100 | `1.5` | Index of refraction of the inside relative to the outside. |
 //! | `priority` | a whole number from 0 to 1000000 | `0` | Of surfaces in one place the one of the highest priority is met first; of glasses that fill one place it alone is there. |
 //! | `fresnel` | `true` or `false` | true where `transmission` is not 0 | Whether the exact Fresnel factor F shares light between mirror (× F) and refraction (× (1 − F)). |
@@ -108,6 +112,14 @@ pub struct Material<N = Param<f32>, C = Param<Rgb>> {
     pub reflection: C,
     /// Weight of the refracted ray, linear colour ≥ 0. Default black.
     pub transmission: C,
+    /// Share of the surface that is there, from 0 to 1; the rest shows what is behind. Default 1.
+    pub opacity: N,
+    /// How that depends on the angle. Default plain.
+    pub opacity_mode: OpacityMode,
+    /// The material is seen only until a ray has passed so many see-through surfaces, ≥ 1; `None`: always.
+    pub surfaces: Option<u32>,
+    /// What a light loses behind it; `None`: all, but for what `opacity` lets through.
+    pub shadow: Option<ShadowRule>,
     /// Index of refraction of the inside relative to the outside, > 0. Default 1.5.
     pub ior: f32,
     /// Which of several surfaces in one place is met first: the one of the highest priority. And of
@@ -152,6 +164,10 @@ impl Default for ConstantMaterial {
             shininess: 32.0,
             reflection: Rgb::BLACK,
             transmission: Rgb::BLACK,
+            opacity: 1.0,
+            opacity_mode: OpacityMode::Plain,
+            surfaces: None,
+            shadow: None,
             ior: 1.5,
             priority: 0,
             fresnel: false,
@@ -182,12 +198,20 @@ impl Material {
     /// Indices of refraction.
     pub(crate) const IOR: Range = Range::above(0.0, 100.0);
 
+    /// Shares of a surface.
+    pub(crate) const OPACITY: Range = Range::closed(0.0, 1.0);
+
     /// The highest priority.
     pub const MOST_PRIORITY: u32 = 1_000_000;
 
     /// Whether it has light of its own, or may have where a texture says so.
     pub fn glows(&self) -> bool {
         self.k_e.constant().is_none_or(|k_e| k_e > 0.0)
+    }
+
+    /// Whether what is behind is seen through it in a straight line, or may be where a texture says so.
+    pub fn is_see_through(&self) -> bool {
+        self.opacity.constant().is_none_or(|opacity| opacity < 1.0)
     }
 
     /// What it is where textures have the values that `look_up` says.
@@ -266,6 +290,10 @@ impl<N: Copy, C: Copy> Material<N, C> {
             shininess: number("shininess", self.shininess),
             reflection: color("reflection", self.reflection),
             transmission: color("transmission", self.transmission),
+            opacity: number("opacity", self.opacity),
+            opacity_mode: self.opacity_mode,
+            surfaces: self.surfaces,
+            shadow: self.shadow,
             ior: self.ior,
             priority: self.priority,
             fresnel: self.fresnel,
@@ -389,6 +417,10 @@ words!(WardForm { "ward" = Ward, "gmd" = Gmd });
 words!(Tint { "light" = Light, "object" = Object, "metallic" = Metallic });
 
 words!(AmbientRule { "once" = Once, "per-light" = PerLight, "both" = Both });
+
+words!(OpacityMode { "plain" = Plain, "angle" = Angle });
+
+words!(ShadowRule { "full" = Full, "filtered" = Filtered });
 
 words!(Viewer { "local" = Local, "distant" = Distant });
 
@@ -525,6 +557,25 @@ pub enum AmbientRule {
     /// `k_a` times the material's ambient colour, times the ambient light and the lights' colours,
     /// attenuated, in one sum: as where the scene and every light have ambient light of their own.
     Both,
+}
+
+/// How the share of a surface that is there depends on the angle it is seen at.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum OpacityMode {
+    /// Not at all.
+    #[default]
+    Plain,
+    /// It grows from `(½ − ½ cos(π opacity))²`, seen from the front, to 1 at the rim: VMD, Raster3D.
+    Angle,
+}
+
+/// What a light loses behind a surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ShadowRule {
+    /// All.
+    Full,
+    /// What is not let through, in a straight line.
+    Filtered,
 }
 
 /// Where highlights are seen from.

@@ -50,6 +50,14 @@ pub struct LightSample {
     pub specular_color: Rgb,
 }
 
+impl LightSample {
+    /// The same of which things on the way left so much, channel by channel.
+    pub(crate) fn filtered(&self, left: Rgb) -> Self {
+        let (color, specular_color) = (self.color * left, self.specular_color * left);
+        Self { color, specular_color, ..*self }
+    }
+}
+
 /// How a light reaches a point, or eight: without colours.
 pub(crate) struct Reach<L, F> {
     /// To the light.

@@ -1,12 +1,16 @@
 //! A material ready for light: the reflectance, and the colours that go with it.
 
+use std::f32::consts::PI;
+
 use glam::Vec3;
 use phong_bvh::Lanes;
-use phong_scene::{self as scene, AmbientRule, ConstantMaterial, Model, Rgb, Tint, Viewer};
+use phong_scene::{
+    self as scene, AmbientRule, ConstantMaterial, Model, OpacityMode, Rgb, ShadowRule, Tint, Viewer,
+};
 
 use crate::light::LightSample;
-use crate::math::Dir3;
 use crate::math::lanes::splat3;
+use crate::math::{self, Dir3};
 use crate::reflectance::{
     BlinnPhong, Distribution, Falloff, Incident, Lambert, Microfacet, OrenNayar, OrenNayarForm,
     Phong, Reflectance, Switches, Ward, fresnel,
@@ -33,6 +37,13 @@ pub struct Material {
     pub reflection: Rgb,
     /// Weight of the refracted ray, before Fresnel.
     pub transmission: Rgb,
+    /// Share of the surface that is there, seen from the front in a mode that knows angles: what is behind
+    /// it counts the rest.
+    pub opacity: f32,
+    opacity_mode: OpacityMode,
+    /// How many see-through surfaces a ray may have passed and still meet it: fewer than this.
+    surfaces: u32,
+    shadow: Option<ShadowRule>,
     /// Index of refraction of the inside relative to the outside.
     pub ior: f32,
     /// Which of several surfaces or glasses in one place counts: that of the highest priority.
@@ -58,6 +69,10 @@ impl Material {
             distant_eye: (material.viewer == Viewer::Distant).then_some(viewer),
             reflection: material.reflection,
             transmission: material.transmission,
+            opacity: material.opacity,
+            opacity_mode: material.opacity_mode,
+            surfaces: material.surfaces.unwrap_or(u32::MAX),
+            shadow: material.shadow,
             ior: material.ior,
             priority: material.priority,
             fresnel: material.fresnel,
@@ -101,6 +116,40 @@ impl Material {
     /// Whether mirror or glass rays go on from it.
     pub fn bounces(&self) -> bool {
         !(self.reflection.is_black() && self.transmission.is_black())
+    }
+
+    /// Whether what is behind is seen through it in a straight line.
+    #[inline]
+    pub fn is_see_through(&self) -> bool {
+        self.opacity < 1.0
+    }
+
+    /// The share of the surface that is there, of one or of eight that are seen at these cosines by rays that
+    /// have `passed` so many see-through surfaces.
+    #[inline(always)]
+    pub(crate) fn cover<F: Lanes<Scalar = f32>>(&self, n_dot_e: F, passed: u32) -> F {
+        let opacity = self.opacity;
+        if passed >= self.surfaces && self.is_see_through() {
+            return n_dot_e.splat(0.0);
+        }
+        match self.opacity_mode {
+            OpacityMode::Plain => n_dot_e.splat(opacity),
+            OpacityMode::Angle => n_dot_e.map(|cos| {
+                let root = 0.5 + 0.5 * math::cos(PI * (1.0 - opacity) * cos.clamp(0.0, 1.0));
+                root * root
+            }),
+        }
+    }
+
+    /// What is left of a light that goes through it in a straight line, at this cosine.
+    pub(crate) fn passes(&self, cos: f32) -> Rgb {
+        let cover = self.cover(cos, 0);
+        let beside = Rgb::grey(1.0 - cover);
+        match self.shadow {
+            None => beside,
+            Some(ShadowRule::Full) => Rgb::BLACK,
+            Some(ShadowRule::Filtered) => beside + cover * self.transmission,
+        }
     }
 
     /// Whether each light adds to the ambient term.

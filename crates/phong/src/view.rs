@@ -10,7 +10,7 @@ mod varied;
 use std::sync::Arc;
 
 use phong_bvh::{Coordinates, Hit, Ray, Surface, World};
-use phong_scene::{Background, Diagnostic, Rgb, Scene};
+use phong_scene::{Background, Diagnostic, Rgb, Scene, ShadowRule};
 use thiserror::Error;
 
 use crate::camera::Camera;
@@ -50,6 +50,10 @@ pub struct View {
     occlusion: Option<Occlusion>,
     /// Whether rays go on from any material.
     has_bounces: bool,
+    /// Whether any material is seen through in a straight line.
+    has_see_through: bool,
+    /// Whether light goes through any material in a straight line.
+    has_filters: bool,
     /// Whether any light has an extent.
     has_soft_lights: bool,
     /// Whether any material takes ambient light from each light.
@@ -116,10 +120,17 @@ impl View {
         }
         let bounces =
             |m: &phong_scene::Material| !(m.reflection.is_black() && m.transmission.is_black());
+        let filters = |m: &phong_scene::Material| match m.shadow {
+            None => m.is_see_through(),
+            Some(ShadowRule::Full) => false,
+            Some(ShadowRule::Filtered) => m.is_see_through() || !m.transmission.is_black(),
+        };
         Ok(Self {
             coincidences: Coincidences::of(&geometry, &materials),
             occlusion: look.ambient_occlusion.map(|o| Occlusion::new(&o, geometry.world())),
             has_bounces: look.materials.iter().any(bounces),
+            has_see_through: look.materials.iter().any(phong_scene::Material::is_see_through),
+            has_filters: look.materials.iter().any(filters),
             has_soft_lights: lights.iter().any(|light| light.soft),
             has_ambient_per_light: materials.iter().any(Material::takes_ambient_per_light),
             textures: look.textures.iter().map(Texture::new).collect(),
@@ -187,6 +198,18 @@ impl View {
     /// Whether mirror or glass rays go on from any of the materials.
     pub fn has_bounces(&self) -> bool {
         self.has_bounces
+    }
+
+    /// Whether what is behind any of the materials is seen through it in a straight line.
+    #[inline]
+    pub fn has_see_through(&self) -> bool {
+        self.has_see_through
+    }
+
+    /// Whether light goes through any of the materials in a straight line.
+    #[inline]
+    pub(crate) fn has_filters(&self) -> bool {
+        self.has_filters
     }
 
     /// Where rays need more than the closest hit; `None`: nowhere.

@@ -15,6 +15,8 @@ pub enum Branch {
     Reflection,
     /// The refracted ray.
     Transmission,
+    /// The ray that goes straight on, beside the share of a surface that is there.
+    Through,
 }
 
 impl Branch {
@@ -22,7 +24,7 @@ impl Branch {
     pub const fn term(self) -> Term {
         match self {
             Self::Reflection => Term::Reflection,
-            Self::Transmission => Term::Transmission,
+            Self::Transmission | Self::Through => Term::Transmission,
         }
     }
 }
@@ -69,6 +71,9 @@ pub struct LightContribution {
     pub lifted: bool,
     /// Whether it is seen: above the horizon and nothing between.
     pub visible: bool,
+    /// What is left of its light on the way, channel by channel: black if it is not seen, less than white
+    /// behind what is see-through.
+    pub visibility: Rgb,
     /// What it adds.
     pub terms: Terms,
 }
@@ -85,6 +90,9 @@ pub trait Witness {
     fn missed(&mut self, ray: &Ray, background: Rgb);
     /// A ray met a surface, with these terms, that belong to no light and to no ray that goes on.
     fn met(&mut self, ray: &Ray, at: &SurfaceInteraction, terms: Terms);
+    /// This share of the surface just met is there; not told in scenes where nothing is see-through. What
+    /// was told of its terms, and what lights add, counts that much.
+    fn covered(&mut self, _share: f32) {}
     /// This share of the ambient light finds its way to the surface just met; not told in scenes that do
     /// not ask. What was told of it, and what lights add to its ambient term, counts that much.
     fn opened(&mut self, _share: f32) {}

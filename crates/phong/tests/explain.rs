@@ -66,7 +66,7 @@ fn parts_add_up(told: &Explanation, file: &str) {
         let Some(ray) = &sample.ray else { continue };
         assert_eq!(ray.terms(), sample.terms, "{file}: {:?}", told.pixel);
         let End::Surface(surface) = &ray.end else { continue };
-        let emission = surface.material.k_e * surface.c_e();
+        let emission = surface.material.k_e * surface.c_e() * surface.cover;
         let mut sum = Terms { ambient: surface.ambient, emission, ..Terms::default() };
         for lit in &surface.lights {
             sum.ambient += lit.ambient;
@@ -83,6 +83,9 @@ fn parts_add_up(told: &Explanation, file: &str) {
                 assert_eq!(brought, onward.light);
                 *term = onward.weight * brought;
             }
+        }
+        if let Some(through) = &surface.through {
+            sum.transmission += through.weight * through.light;
         }
         assert_eq!(sum, sample.terms, "{file}: {:?}", told.pixel);
     }

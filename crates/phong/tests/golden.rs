@@ -33,7 +33,7 @@ golden! {
         one_pixel seed transparent transparent_mirror;
     lights: attenuation below_horizon colored distant enclosed point shadow shadow_off
         shadow_touching specular_color spot spot_hard;
-    materials: blinn_phong cook_torrance default ggx lambert normalize oren_nayar per_light phong
+    materials: blinn_phong cook_torrance default ggx lambert normalize opacity oren_nayar per_light phong
         times_cosine tint ward;
     shapes: box_corner coincident cone cone_frustum cylinder cylinder_open cylinders cylinders_flat
         cylinders_open disc ellipsoid mesh_crease mesh_flat

@@ -245,7 +245,7 @@ impl Witness for Listener<'_> {
     fn left(&mut self, branch: Branch, light: Rgb) {
         let Some(weight) = self.weights.pop() else { return };
         if self.weights.is_empty() {
-            self.point.terms[branch.term()] = weight * light;
+            self.point.terms[branch.term()] += weight * light;
         }
     }
 

@@ -157,7 +157,9 @@ impl Shared<'_> {
         if let Some(element) = s.element {
             out["el"] = json!(element + 1);
         }
-        for (key, onward) in [("refl", &s.reflection), ("trans", &s.transmission)] {
+        for (key, onward) in
+            [("refl", &s.reflection), ("trans", &s.transmission), ("through", &s.through)]
+        {
             if let Some(onward) = onward {
                 out[key] = self.onward(onward, weight * onward.weight.max_channel());
             }
@@ -232,12 +234,12 @@ fn light(s: &Surface, lit: &Lit) -> Value {
         if let Some(power) = product::power(s, lit) {
             put("pw", number(power));
         }
-        // Of the models that are π f (N·L), the page knows no more.
+        // Of the models that are π f (N·L), the page knows no more, and of opacity nothing.
         let model = s.material.model;
-        if !model.is_lambertian() {
+        if !model.is_lambertian() || s.cover < 1.0 {
             put("dp", written(&product::diffuse(s, lit)));
         }
-        if !model.is_power()
+        if (!model.is_power() || s.cover < 1.0)
             && let Some(term) = product::specular(s, lit)
         {
             put("sp", written(&term));

@@ -81,6 +81,10 @@ fn ray_into(out: &mut Map<String, Value>, told: &RayTold) {
             put("lights", s.lights.iter().map(|lit| light(s, lit)).collect());
             put("reflection", s.reflection.as_ref().map_or(Value::Null, onward));
             put("transmission", s.transmission.as_ref().map_or(Value::Null, onward));
+            if s.cover < 1.0 {
+                put("opacity", number(s.cover));
+                put("through", s.through.as_ref().map_or(Value::Null, onward));
+            }
         }
     }
 }
@@ -150,6 +154,7 @@ fn light(s: &Surface, lit: &Lit) -> Value {
         "r_dot_e": number(lit.r_dot_e),
         "n_dot_h": number(lit.n_dot_h),
         "visible": lit.visible,
+        "visibility": rgb(lit.visibility),
         "lifted": lit.lifted.map_or(Value::Null, |start| json!(start.to_array())),
         "why_not": hidden(lit),
         "blocker": lit.blocker.as_ref().map_or(Value::Null, blocker),

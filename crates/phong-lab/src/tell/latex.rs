@@ -94,7 +94,11 @@ impl Document {
         for lit in &s.lights {
             self.light(s, lit);
         }
-        let branches = [("Reflection", &s.reflection), ("Transmission", &s.transmission)];
+        let branches = [
+            ("Reflection", &s.reflection),
+            ("Transmission", &s.transmission),
+            ("Through", &s.through),
+        ];
         for (name, onward) in branches {
             if let Some(onward) = onward {
                 self.onward(name, onward);

@@ -58,14 +58,21 @@ pub(super) fn own_terms(s: &Surface) -> Vec<(Term, Product)> {
     let mut terms = Vec::new();
     if m.ambient_rule != AmbientRule::PerLight {
         let mut factors = vec![one("k_a", "k_a", m.k_a), color("C_a", "C_a", s.c_a)];
+        factors.extend(cover(s));
         factors.extend(openness(s));
         terms.push((Term::Ambient, Product { factors, value: s.ambient }));
     }
     if m.k_e > 0.0 {
-        let factors = vec![one("k_e", "k_e", m.k_e), color("C_e", "C_e", s.c_e())];
+        let mut factors = vec![one("k_e", "k_e", m.k_e), color("C_e", "C_e", s.c_e())];
+        factors.extend(cover(s));
         terms.push((Term::Emission, Product { factors, value: s.terms.emission }));
     }
     terms
+}
+
+/// The share of the surface that is there, where it is see-through.
+fn cover(s: &Surface) -> Option<Factor> {
+    (s.cover < 1.0).then(|| one("× opacity", r"\text{opacity}", s.cover))
 }
 
 /// The share of the ambient light that finds its way here, in scenes that ask.
@@ -83,6 +90,7 @@ pub(super) fn ambient_of_light(s: &Surface, lit: &Lit) -> Option<Product> {
     };
     let light = color("× light", r"\text{light}", lit.color);
     let mut factors = vec![one("k_a", "k_a", m.k_a), surface, light];
+    factors.extend(cover(s));
     factors.extend(openness(s));
     Some(Product { factors, value: lit.ambient })
 }
@@ -96,6 +104,7 @@ pub(super) fn diffuse(s: &Surface, lit: &Lit) -> Product {
     }
     factors.push(one("(N·L)", r"(N \cdot L)", lit.n_dot_l));
     factors.push(color("C_d", "C_d", lit.c_d));
+    factors.extend(cover(s));
     Product { factors, value: lit.diffuse }
 }
 
@@ -120,6 +129,7 @@ pub(super) fn specular(s: &Surface, lit: &Lit) -> Option<Product> {
         factors.push(one("(N·L)", r"(N \cdot L)", lit.n_dot_l));
         factors.push(c_s);
     }
+    factors.extend(cover(s));
     Some(Product { factors, value: lit.specular })
 }
 

@@ -9,7 +9,7 @@ use phong::explain::{
 };
 use phong::terms::Terms;
 use phong::witness::CutReason;
-use phong_scene::{AmbientRule, ConstantMaterial, Model, TextureSpace, Viewer};
+use phong_scene::{AmbientRule, ConstantMaterial, Model, Rgb, TextureSpace, Viewer};
 
 use super::Telling;
 use super::numbers::{Numbers, columns};
@@ -179,7 +179,11 @@ impl Page {
             self.blank();
             self.light(s, light);
         }
-        for (name, onward) in [("reflection", &s.reflection), ("transmission", &s.transmission)] {
+        for (name, onward) in [
+            ("reflection", &s.reflection),
+            ("transmission", &s.transmission),
+            ("through", &s.through),
+        ] {
             if let Some(onward) = onward {
                 self.blank();
                 self.onward(name, onward);
@@ -209,7 +213,14 @@ impl Page {
             self.line(format_args!("{why}: diffuse and specular are 0"));
         } else {
             let (light, color) = (self.numbers.color(lit.color), self.numbers.color(s.color));
-            self.line(format_args!("C_d      = light × colour = {light} × {color}"));
+            if lit.visibility == Rgb::WHITE {
+                self.line(format_args!("C_d      = light × colour = {light} × {color}"));
+            } else {
+                let left = self.numbers.color(lit.visibility);
+                self.line(format_args!(
+                    "C_d      = light × visibility × colour = {light} × {left} × {color}"
+                ));
+            }
             self.product("diffuse", s, &product::diffuse(s, lit));
             if let Some(specular) = product::specular(s, lit) {
                 self.product("specular", s, &specular);

@@ -5,7 +5,8 @@ use super::value::{Stored, Value, degrees};
 use super::{Default, Key, Kind, Table};
 use crate::limits::Range;
 use crate::material::{
-    AmbientRule, Dialect, Distribution, Material, Model, Shadowing, Tint, Viewer, WardForm,
+    AmbientRule, Dialect, Distribution, Material, Model, OpacityMode, ShadowRule, Shadowing, Tint,
+    Viewer, WardForm,
 };
 use crate::wording::Word;
 
@@ -202,6 +203,38 @@ pub(crate) static MATERIAL: Table = Table {
         Key::new("transmission", Kind::Color, Default::Number(0.0), "Weight of the refracted ray.")
             .of(field!(Material.transmission))
             .varies(),
+        Key::new(
+            "opacity",
+            Kind::Number(Material::OPACITY),
+            Default::Number(1.0),
+            "Share of the surface that is there; the rest shows what is behind, in a straight line.",
+        )
+        .of(field!(Material.opacity))
+        .varies(),
+        Key::new(
+            "opacity_mode",
+            Kind::Word(OpacityMode::WORDS),
+            Default::Word("plain"),
+            "Whether the share is the same from everywhere, or grows towards the rim, as in VMD \
+             and Raster3D: (½ + ½ cos(π (1 − opacity) N·E))².",
+        )
+        .of(field!(Material.opacity_mode)),
+        Key::new(
+            "surfaces",
+            Kind::Integer(1, 1_000_000),
+            Default::Said("all"),
+            "A ray shows the material only until it has passed so many see-through surfaces; 1: \
+             the first surface alone.",
+        )
+        .of(field!(Material.surfaces)),
+        Key::new(
+            "shadow",
+            Kind::Word(ShadowRule::WORDS),
+            Default::Said("full for glass, filtered for opacity"),
+            "What a light loses behind it: all, or what is not let through in a straight line: of \
+             `opacity`, and where this says `filtered` of `transmission` as well.",
+        )
+        .of(field!(Material.shadow)),
         Key::new(
             "ior",
             Kind::Number(Material::IOR),

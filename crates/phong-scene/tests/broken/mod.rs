@@ -193,6 +193,7 @@ prop_compose! {
         ConstantMaterial {
             color, ambient_color, k_a, k_d, k_s, shininess, ior, reflection, model,
             transmission: f0,
+            opacity: k_s,
             ..ConstantMaterial::default()
         }
     }

@@ -47,6 +47,7 @@ cases! {
     parameters_vary_by_textures
     points_are_spheres_of_the_radius_given
     shapes_are_scaled_then_turned_then_moved
+    surfaces_may_be_see_through
     the_scene_of_the_interface
     what_is_not_written_has_a_default
 }
@@ -97,6 +98,7 @@ cases! {
     nan_and_infinity_are_wrong_everywhere
     numbers_that_are_bytes_or_radians_are_doubted
     one_table_and_several_are_not_the_same
+    opacity_is_a_share
     selections_and_columns_are_told_at_their_place
     shapes_that_are_none_are_told
     textures_that_are_not_there_or_do_not_fit

@@ -5,8 +5,8 @@ use phong_scene::{
     AmbientOcclusion, AmbientRule, Background, Camera, CameraKind, Caps, Channel,
     ConstantMaterial as Material, Cylinders, Dialect, Distribution, FilterKind, Fresnel, Group,
     GroupId, Image, Light, LightKind, MaterialId, Mesh, Model, NO_INDEX, Object, OcclusionDistance,
-    Place, Points, Rgb, Scene, Shadowing, Shape, Texture, TextureId, TextureKind, TextureRef,
-    TextureSpace, Tint, Viewer, WardForm,
+    OpacityMode, Place, Points, Rgb, Scene, ShadowRule, Shadowing, Shape, Texture, TextureId,
+    TextureKind, TextureRef, TextureSpace, Tint, Viewer, WardForm,
 };
 use proptest::prelude::*;
 
@@ -305,6 +305,10 @@ impl Make {
             shininess,
             reflection: if self.flag() { Rgb::BLACK } else { self.color() },
             transmission,
+            opacity: self.one(&[1.0, 1.0, 0.25]),
+            opacity_mode: self.one(&[OpacityMode::Plain, OpacityMode::Angle]),
+            surfaces: self.one(&[None, Some(1), Some(12)]),
+            shadow: self.one(&[None, Some(ShadowRule::Full), Some(ShadowRule::Filtered)]),
             ior: self.one(&[1.5, 1.0, 0.666_666_7]),
             priority: self.one(&[0, 0, 7]),
             fresnel: self.flag(),

@@ -59,7 +59,11 @@ impl Lines<'_> {
 
     /// The rays that go on from a surface, to where they meet another.
     fn onward(&mut self, surface: &Surface, bounces: usize) {
-        for (name, onward) in [("mirror", &surface.reflection), ("glass", &surface.transmission)] {
+        for (name, onward) in [
+            ("mirror", &surface.reflection),
+            ("glass", &surface.transmission),
+            ("glass", &surface.through),
+        ] {
             let ray = onward.as_ref().and_then(|onward| onward.ray.as_ref());
             let Some(ray) = ray.filter(|_| bounces > 0) else { continue };
             match &ray.end {

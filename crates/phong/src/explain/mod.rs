@@ -113,6 +113,9 @@ pub struct Surface {
     pub color: Rgb,
     /// `C_a`: the ambient light times the material's ambient colour.
     pub c_a: Rgb,
+    /// The share of the surface that is there: a factor of its terms, mirror and refraction; 1 unless it is
+    /// see-through.
+    pub cover: f32,
     /// How much of the ambient light finds its way here; `None`: nothing takes it away.
     pub openness: Option<Openness>,
     /// The ambient term that belongs to no light.
@@ -123,6 +126,8 @@ pub struct Surface {
     pub reflection: Option<Onward>,
     /// The refracted ray.
     pub transmission: Option<Onward>,
+    /// The ray that goes straight on, where the surface is see-through.
+    pub through: Option<Onward>,
     /// All terms here, summed in the integrator's order.
     pub terms: Terms,
 }
@@ -192,6 +197,9 @@ pub struct Lit {
     pub lifted: Option<DVec3>,
     /// Whether it is seen.
     pub visible: bool,
+    /// What is left of its light on the way, channel by channel: black if it is not seen, less than white
+    /// behind what is see-through.
+    pub visibility: Rgb,
     /// The nearest thing between, if there is one.
     pub blocker: Option<Blocker>,
     /// What white light from there would add to the diffuse and specular terms: `C_{m,d}` and

@@ -60,8 +60,9 @@ impl<'a> Recorder<'a> {
     fn goes_on(&mut self, branch: Branch, onward: Onward) {
         let Some(surface) = self.surface() else { return };
         let brought = onward.weight * onward.light;
-        surface.terms[branch.term()] = brought;
+        surface.terms[branch.term()] += brought;
         match branch {
+            Branch::Through => surface.through = Some(onward),
             Branch::Reflection => surface.reflection = Some(onward),
             Branch::Transmission => surface.transmission = Some(onward),
         }
@@ -114,15 +115,23 @@ impl Witness for Recorder<'_> {
             eta: at.eta,
             color: at.color,
             c_a,
+            cover: 1.0,
             openness: None,
             ambient: terms.ambient,
             lights: Vec::with_capacity(scene.lights().len()),
             reflection: None,
             transmission: None,
+            through: None,
             terms,
         };
         let met = (*at, scene.material_at(at.material, &point));
         self.tell(ray, Some(met), End::Surface(Box::new(surface)));
+    }
+
+    fn covered(&mut self, share: f32) {
+        if let Some(surface) = self.surface() {
+            surface.cover = share;
+        }
     }
 
     fn opened(&mut self, share: f32) {
@@ -144,13 +153,16 @@ impl Witness for Recorder<'_> {
         let e = material.eye(at.e);
         let r = l.map(|l| at.n.mirror(l));
         let h = l.and_then(|l| l.halfway(e));
+        let cover = self.surface().map_or(1.0, |surface| surface.cover);
         let open = self.surface().and_then(|surface| surface.openness);
         let open = open.map_or(1.0, |open| open.share);
         let ambient = light.sample.map_or(Rgb::BLACK, |sample| {
-            material.ambient_of_light(at.color, scene.ambient(), &sample) * open
+            material.ambient_of_light(at.color, scene.ambient(), &sample) * cover * open
         });
-        let blocker =
-            light.shadow.filter(|_| !light.visible).and_then(|shadow| self.blocker(&shadow));
+        let blocker = light
+            .shadow
+            .filter(|_| light.visibility != Rgb::WHITE)
+            .and_then(|shadow| self.blocker(&shadow));
         let tangent = self.surface().map(|surface| surface.tangent);
         let white = match (l, tangent) {
             (Some(l), Some(tangent)) if light.visible => {
@@ -187,6 +199,7 @@ impl Witness for Recorder<'_> {
             tested: light.shadow.is_some(),
             lifted: light.shadow.filter(|_| light.lifted).map(|shadow| shadow.origin),
             visible: light.visible,
+            visibility: light.visibility,
             blocker,
             white,
             ambient,

@@ -88,8 +88,10 @@ impl Radiance8 {
     pub(super) fn see_through(&mut self, lane: usize, weight: Rgb, (from, of): (&Self, usize)) {
         let share = from.sees_through(of) * (weight.r + weight.g + weight.b) / 3.0;
         if share > 0.0 {
+            // Glass of which a part is not there lets through two rays.
+            let before = if self.clear >> lane & 1 == 0 { 0.0 } else { self.seen_through[lane] };
             self.clear |= 1 << lane;
-            self.seen_through[lane] = share.min(1.0);
+            self.seen_through[lane] = (before + share).min(1.0);
         }
     }
 

@@ -5,12 +5,14 @@ use glam::{DVec3, Vec3};
 use phong_bvh::{Hits8, Kernel, Ray, Rays8, Surfaces8, lanes, offset_origin};
 use phong_scene::{Background, Rgb};
 
-use super::Integrator;
 use super::bundle::Radiance8;
 use super::crossing::{Crossings, Departure};
+use super::{Integrator, Paths};
 use crate::interaction::SurfaceInteraction;
 use crate::material::Material;
-use crate::math::lanes::{Lanes3, add, direction, dot, get, load3, select3, set, splat3, store3};
+use crate::math::lanes::{
+    Lanes3, add, direction, dot, get, load3, scale, select3, set, splat3, store3,
+};
 use crate::terms::{Term, TermSet};
 use crate::view::{Coincidences, MadeMaterial, Shading8, View};
 use crate::witness::Branch;
@@ -29,17 +31,20 @@ pub(super) struct Interactions {
     /// The index of refraction of the far side relative to the near one, eight for eight rays; NaN: the
     /// material's own. Empty: that of all.
     pub(super) etas: Vec<[f32; 8]>,
+    /// The share of each surface that is there, eight for eight rays. Empty: all of all.
+    pub(super) covers: Vec<[f32; 8]>,
 }
 
 impl Interactions {
     /// Intersects rays with the scene, and begins their radiance with the background and the terms that
-    /// need no light. `height` gives the place in a gradient background, 0 to 1, of a ray that hits
+    /// need no light. `passed` is how many see-through surfaces are behind the rays. `height` gives the place in a gradient background, 0 to 1, of a ray that hits
     /// nothing.
     pub(super) fn intersect(
         &mut self,
         integrator: &Integrator<'_>,
         rays: &[Rays8],
-        departures: &[Departure],
+        paths: &Paths,
+        passed: u32,
         height: &dyn Fn(usize, usize) -> f32,
         out: &mut Vec<Radiance8>,
     ) {
@@ -48,12 +53,16 @@ impl Interactions {
         self.surfaces.resize(rays.len(), Surfaces8::default());
         self.shading.resize(rays.len(), Shading8::NONE);
         self.made.clear();
+        self.covers.clear();
+        if scene.has_see_through() {
+            self.covers.resize(rays.len(), [1.0; 8]);
+        }
         out.resize(rays.len(), Radiance8::NONE);
         scene.world().intersect_eights(rays, &mut self.hits);
         self.etas.clear();
         match scene.coincidences() {
             None => scene.world().surface_eights(rays, &self.hits, &mut self.surfaces),
-            Some(coincidences) => self.settle(scene, coincidences, rays, departures),
+            Some(coincidences) => self.settle(scene, coincidences, rays, &paths.departures),
         }
         scene.world().run(BeginRadiance {
             scene,
@@ -61,6 +70,7 @@ impl Interactions {
             height,
             rays,
             interactions: self,
+            passed,
             out,
         });
     }
@@ -90,7 +100,8 @@ impl Interactions {
     pub(super) fn depart(&self, branch: Branch, i: usize, lane: usize, ray: &mut Ray) -> Departure {
         let Some(crossing) = self.crossings.of(i, lane) else { return Departure::default() };
         match branch {
-            Branch::Reflection => crossing.reflected(),
+            // A ray that goes straight on is still in what it was in.
+            Branch::Reflection | Branch::Through => crossing.reflected(),
             Branch::Transmission => {
                 let (departure, starts_before) = crossing.refracted();
                 if starts_before {
@@ -163,6 +174,8 @@ struct BeginRadiance<'a> {
     height: &'a dyn Fn(usize, usize) -> f32,
     rays: &'a [Rays8],
     interactions: &'a mut Interactions,
+    /// How many see-through surfaces are behind the rays.
+    passed: u32,
     out: &'a mut [Radiance8],
 }
 
@@ -173,8 +186,8 @@ impl Kernel for BeginRadiance<'_> {
     fn run<S: Simd>(self, simd: S) {
         /// What lights add to in any case, and the ambient term.
         const LOCAL: TermSet = TermSet::of(&[Term::Ambient, Term::Diffuse, Term::Specular]);
-        let Self { scene, lift, height, rays, interactions, out } = self;
-        let Interactions { hits, surfaces, shading, made, .. } = interactions;
+        let Self { scene, lift, height, rays, interactions, passed, out } = self;
+        let Interactions { hits, surfaces, shading, made, covers, .. } = interactions;
         let eights = rays.iter().zip(hits).zip(surfaces).zip(shading).zip(out);
         for (i, ((((rays, hits), surface), shading), out)) in eights.enumerate() {
             let met = hits.met;
@@ -216,11 +229,20 @@ impl Kernel for BeginRadiance<'_> {
                 let material = material(scene, made, number);
                 let color = load3(simd, &shading.color);
                 let same = mask32x8::from_bitmask(simd, same.into());
-                let own = material.ambient_of(color, scene.ambient());
+                let mut cover = None;
+                if let (Some(covers), true) = (covers.get_mut(i), material.is_see_through()) {
+                    let n_dot_e = dot(load3(simd, &shading.n), e);
+                    let all = f32x8::load_array_ref(simd, covers);
+                    let own = same.select(material.cover(n_dot_e, passed), all);
+                    *covers = own.into();
+                    cover = Some(own);
+                }
+                let there = |color| cover.map_or(color, |cover| scale(cover, color));
+                let own = there(material.ambient_of(color, scene.ambient()));
                 add_in(simd, &mut out.terms[Term::Ambient], same, own);
                 if material.glows() {
                     out.brought = out.brought.with(Term::Emission);
-                    let own = material.emission_of(color);
+                    let own = there(material.emission_of(color));
                     add_in(simd, &mut out.terms[Term::Emission], same, own);
                 }
             }

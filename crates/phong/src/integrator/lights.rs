@@ -1,7 +1,7 @@
 //! What lights add to the surfaces that rays hit, eight at a time.
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
-use phong_bvh::{Hits8, Kernel, Rays8, lanes};
+use phong_bvh::{Hit, Hits8, Kernel, Rays8, lanes};
 use phong_scene::Rgb;
 
 use super::Integrator;
@@ -11,7 +11,7 @@ use super::openness::Openness;
 use super::shadow_rays::{Starts, aim};
 use crate::light::{Light, LightSample, Reach};
 use crate::math::Dir3;
-use crate::math::lanes::{Lanes3, direction, dot, get, load3, scale, store3};
+use crate::math::lanes::{Lanes3, direction, dot, get, load3, scale, set, store3};
 use crate::sampling::{Samplers8, Use};
 use crate::terms::{Term, Terms};
 use crate::view::Fixture;
@@ -28,6 +28,9 @@ pub(super) struct LightSamples {
     blocked: Vec<u32>,
     /// What they hit, where that matters.
     hits: Vec<Hits8>,
+    /// What is left of the light on its way, channel by channel; empty where things take all of it or
+    /// nothing.
+    left: Vec<Lanes3>,
 }
 
 /// What one light sends to eight surfaces.
@@ -48,6 +51,11 @@ struct LightSample8 {
 }
 
 impl LightSamples {
+    /// What is left of the light on its way to a surface that it is seen from.
+    fn left_of(&self, i: usize, lane: usize) -> Rgb {
+        self.left.get(i).map_or(Rgb::WHITE, |left| Rgb::from(get(left, lane)))
+    }
+
     /// Forgets where the surfaces of another bundle are.
     pub(super) fn begin(&mut self) {
         self.started = false;
@@ -78,7 +86,8 @@ impl Integrator<'_> {
         to: &mut LightSamples,
     ) -> u64 {
         let light = &self.scene.lights()[number];
-        let LightSamples { samples, shadow_rays, started, blocked, hits } = to;
+        let LightSamples { samples, shadow_rays, started, blocked, hits, left } = to;
+        left.clear();
         samples.resize(rays.len(), LightSample8::NONE);
         shadow_rays.resize(rays.len(), Rays8::NONE);
         let casts = self.shadows && light.shadows;
@@ -98,20 +107,37 @@ impl Integrator<'_> {
             samples,
             shadow_rays,
         });
+        if self.scene.has_filters() {
+            left.resize(rays.len(), [[1.0; 8]; 3]);
+        }
         if casts && fixture.has_bodies() {
             hits.resize(rays.len(), Hits8::NONE);
             bvh.intersect_eights(shadow_rays, hits);
-            for (samples, hits) in samples.iter_mut().zip(hits) {
+            blocked.resize(rays.len(), 0);
+            for ((samples, hits), blocked) in samples.iter_mut().zip(hits).zip(&mut *blocked) {
                 // What is seen first may be the luminous body that the light is in.
                 let blocks = |&lane: &usize| !fixture.is_body(&hits.get(lane));
-                let blocked = lanes(hits.met).filter(blocks).fold(0, |all, lane| all | 1 << lane);
-                samples.visible &= !blocked;
+                *blocked = lanes(hits.met).filter(blocks).fold(0, |all, lane| all | 1 << lane);
+                samples.visible &= !*blocked;
             }
         } else if casts {
             blocked.resize(rays.len(), 0);
             bvh.occluded_eights(shadow_rays, blocked);
-            for (samples, blocked) in samples.iter_mut().zip(blocked) {
+            for (samples, blocked) in samples.iter_mut().zip(&*blocked) {
                 samples.visible &= !*blocked;
+            }
+        }
+        if casts {
+            for (i, left) in left.iter_mut().enumerate() {
+                let rays = &shadow_rays[i];
+                for lane in lanes(rays.there & blocked[i]) {
+                    let counts = |hit: &Hit| !fixture.is_body(hit);
+                    let passes = self.left_of_light(&rays.get(lane), counts);
+                    if !passes.is_black() {
+                        set(left, lane, passes.to_array());
+                        samples[i].visible |= 1 << lane;
+                    }
+                }
             }
         }
         count
@@ -146,13 +172,16 @@ impl Integrator<'_> {
                 let at = interactions.at(rays, i, lane, self.scene.materials().len());
                 let has = |mask: u32| mask >> lane & 1 != 0;
                 let sample = samples.get(light, lane);
+                let left = from.left_of(i, lane);
                 let Terms { diffuse, specular, .. } = alone[i].terms.get(lane);
                 let of = interactions.shading[i].material[lane] as usize;
                 let material = material(self.scene, &interactions.made, of);
                 witness.lit(&LightContribution {
                     light: number,
                     sample,
-                    incident: sample.map(|sample| material.incident(at.n, at.color, &sample)),
+                    incident: sample
+                        .map(|sample| material.incident(at.n, at.color, &sample.filtered(left))),
+                    visibility: if has(samples.visible) { left } else { Rgb::BLACK },
                     above: has(samples.above),
                     shadow: has(shadow_rays.there).then(|| shadow_rays.get(lane)),
                     lifted: has(shadow_rays.there & interactions.shading[i].smooth),
@@ -183,8 +212,9 @@ impl Integrator<'_> {
                 {
                     let color = Rgb::from(get(&shading.color, lane));
                     let more = material.ambient_of_light(color, self.scene.ambient(), &sample);
+                    let cover = interactions.covers.get(i).map_or(1.0, |covers| covers[lane]);
                     let share = openness.share(i, lane).unwrap_or(1.0);
-                    out.terms.add(Term::Ambient, lane, more * share);
+                    out.terms.add(Term::Ambient, lane, more * cover * share);
                 }
             }
         }
@@ -278,7 +308,7 @@ impl Kernel for Shade<'_> {
                     let color = load3(simd, &shading.color);
                     let share = f32x8::load_array(simd, samples.share);
                     let [diffuse_color, specular_color] = light.colors();
-                    let arriving = [
+                    let mut arriving = [
                         [share * diffuse_color.r, share * diffuse_color.g, share * diffuse_color.b],
                         [
                             share * specular_color.r,
@@ -286,10 +316,21 @@ impl Kernel for Shade<'_> {
                             share * specular_color.b,
                         ],
                     ];
+                    if let Some(left) = from.left.get(i) {
+                        let left = load3(simd, left);
+                        for [r, g, b] in &mut arriving {
+                            (*r, *g, *b) = (*r * left[0], *g * left[1], *b * left[2]);
+                        }
+                    }
                     let [c_d, c_s] = material.tint(dot(n, l), color, arriving);
                     let same = mask32x8::from_bitmask(simd, same.into());
-                    add_in(simd, &mut out.terms[Term::Diffuse], same, scale(diffuse, c_d));
-                    add_in(simd, &mut out.terms[Term::Specular], same, scale(specular, c_s));
+                    let (mut diffuse, mut specular) = (scale(diffuse, c_d), scale(specular, c_s));
+                    if let Some(covers) = interactions.covers.get(i) {
+                        let cover = f32x8::load_array_ref(simd, covers);
+                        (diffuse, specular) = (scale(cover, diffuse), scale(cover, specular));
+                    }
+                    add_in(simd, &mut out.terms[Term::Diffuse], same, diffuse);
+                    add_in(simd, &mut out.terms[Term::Specular], same, specular);
                     continue;
                 }
                 for lane in lanes(same) {
@@ -302,9 +343,11 @@ impl Kernel for Shade<'_> {
                     } else {
                         Dir3::X
                     };
+                    let sample = sample.filtered(from.left_of(i, lane));
                     let terms = material.shade_light(n, tangent, e, color, &sample);
-                    out.terms.add(Term::Diffuse, lane, terms.diffuse);
-                    out.terms.add(Term::Specular, lane, terms.specular);
+                    let cover = interactions.covers.get(i).map_or(1.0, |covers| covers[lane]);
+                    out.terms.add(Term::Diffuse, lane, terms.diffuse * cover);
+                    out.terms.add(Term::Specular, lane, terms.specular * cover);
                 }
             }
         }

@@ -9,6 +9,7 @@
 
 mod bundle;
 mod crossing;
+mod filtered;
 mod interactions;
 mod lights;
 mod openness;
@@ -86,6 +87,35 @@ struct Paths {
     departures: Vec<Departure>,
 }
 
+/// How far rays are followed.
+#[derive(Clone, Copy, Debug)]
+struct Steps {
+    /// How many mirror and glass bounces more are allowed.
+    bounces: u32,
+    /// How many see-through surfaces they have passed in a straight line.
+    passed: u32,
+}
+
+impl Steps {
+    /// The most see-through surfaces that are passed; beyond them a ray brings black.
+    const MOST_PASSED: u32 = 100;
+
+    fn are_over(self, branch: Branch) -> bool {
+        match branch {
+            Branch::Reflection | Branch::Transmission => self.bounces == 0,
+            Branch::Through => self.passed >= Self::MOST_PASSED,
+        }
+    }
+
+    /// Those of rays that went on this way.
+    fn after(self, branch: Branch) -> Self {
+        match branch {
+            Branch::Reflection | Branch::Transmission => Self { bounces: self.bounces - 1, ..self },
+            Branch::Through => Self { passed: self.passed + 1, ..self },
+        }
+    }
+}
+
 /// The ray that a mirror or refracted ray came from.
 struct Parent {
     /// The number of its eight, and its lane.
@@ -147,7 +177,7 @@ impl Integrator<'_> {
             &bundle.samplers,
             &height,
             &Paths::default(),
-            self.depth,
+            Steps { bounces: self.depth, passed: 0 },
             scratch,
             counts,
             witness,
@@ -156,7 +186,7 @@ impl Integrator<'_> {
     }
 
     /// Traces a bundle. `height` gives the place in a gradient background, 0 to 1, of a ray that hits
-    /// nothing. `paths` are what the rays have behind them. `bounces` is how many more are allowed. The results are in `scratch.out`.
+    /// nothing. `paths` are what the rays have behind them. The results are in `scratch.out`.
     #[expect(clippy::too_many_arguments, reason = "the state of the recursion")]
     fn trace_bundle<W: Witness>(
         &self,
@@ -164,7 +194,7 @@ impl Integrator<'_> {
         samplers: &[Samplers8],
         height: &dyn Fn(usize, usize) -> f32,
         paths: &Paths,
-        bounces: u32,
+        steps: Steps,
         scratch: &mut ScratchBuffer,
         counts: &mut RayCounts,
         witness: &mut W,
@@ -174,7 +204,7 @@ impl Integrator<'_> {
             out.resize(rays.len(), Radiance8::NONE);
             return;
         }
-        interactions.intersect(self, rays, &paths.departures, height, out);
+        interactions.intersect(self, rays, paths, steps.passed, height, out);
         openness.begin();
         if let Some(occlusion) = self.scene.occlusion() {
             counts.shadow += self.look_around(occlusion, interactions, samplers, openness);
@@ -191,6 +221,9 @@ impl Integrator<'_> {
                             &interactions.at(rays, i, lane, self.scene.materials().len()),
                             terms,
                         );
+                        if let Some(covers) = interactions.covers.get(i) {
+                            witness.covered(covers[lane]);
+                        }
                         if let Some(share) = openness.share(i, lane) {
                             witness.opened(share);
                         }
@@ -213,13 +246,17 @@ impl Integrator<'_> {
             }
             self.shade(light, rays, interactions, lights, out);
         }
-        if !self.scene.has_bounces() {
-            return;
-        }
         let is_transparent = self.scene.background() == Background::Transparent;
-        for branch in [Branch::Reflection, Branch::Transmission] {
+        for branch in [Branch::Reflection, Branch::Transmission, Branch::Through] {
+            let is_asked_for = match branch {
+                Branch::Reflection | Branch::Transmission => self.scene.has_bounces(),
+                Branch::Through => self.scene.has_see_through(),
+            };
+            if !is_asked_for {
+                continue;
+            }
             let (secondary, scratch) = &mut **deeper.get_or_insert_default();
-            self.scatter(branch, rays, interactions, samplers, paths, bounces, secondary, witness);
+            self.scatter(branch, rays, interactions, samplers, paths, steps, secondary, witness);
             if secondary.from.is_empty() {
                 continue;
             }
@@ -228,15 +265,23 @@ impl Integrator<'_> {
             }
             counts.secondary += secondary.from.len() as u64;
             let up = self.scene.camera().up();
-            let height =
-                |i: usize, lane: usize| 0.5 - 0.5 * secondary.rays[i].get(lane).dir.dot(up);
+            let height = |i: usize, lane: usize| match branch {
+                Branch::Reflection | Branch::Transmission => {
+                    0.5 - 0.5 * secondary.rays[i].get(lane).dir.dot(up)
+                }
+                // It is where the ray was going anyway.
+                Branch::Through => {
+                    let (i, lane) = secondary.from[8 * i + lane].ray;
+                    height(i, lane)
+                }
+            };
             let SecondaryRays { rays, samplers, from, paths, .. } = &*secondary;
             self.trace_bundle(
                 rays,
                 samplers,
                 &height,
                 paths,
-                bounces - 1,
+                steps.after(branch),
                 scratch,
                 counts,
                 witness,
@@ -245,9 +290,12 @@ impl Integrator<'_> {
                 let light = scratch.out[k / 8].terms.get(k % 8).total();
                 witness.left(branch, light);
                 let term = branch.term();
-                set(&mut out[i].terms[term], lane, (weight * light).to_array());
+                match branch {
+                    Branch::Through => out[i].terms.add(term, lane, weight * light),
+                    _ => set(&mut out[i].terms[term], lane, (weight * light).to_array()),
+                }
                 out[i].brought = out[i].brought.with(term);
-                if branch == Branch::Transmission && is_transparent {
+                if branch != Branch::Reflection && is_transparent {
                     out[i].see_through(lane, weight, (&scratch.out[k / 8], k % 8));
                 }
             }
@@ -267,7 +315,7 @@ impl Integrator<'_> {
         interactions: &Interactions,
         samplers: &[Samplers8],
         paths: &Paths,
-        bounces: u32,
+        steps: Steps,
         secondary: &mut SecondaryRays,
         witness: &mut W,
     ) {
@@ -281,7 +329,7 @@ impl Integrator<'_> {
                 let (weight, fresnel) = scattered.weight(lane);
                 let so_far = paths.weights.get(8 * i + lane).copied().unwrap_or(Rgb::WHITE);
                 let path_weight = so_far * weight;
-                let reason = if bounces == 0 {
+                let reason = if steps.are_over(branch) {
                     Some(CutReason::Depth)
                 } else if path_weight.max_channel() < self.min_weight {
                     Some(CutReason::Weight(self.min_weight))

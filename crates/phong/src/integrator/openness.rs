@@ -6,6 +6,7 @@
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 use phong_bvh::{Kernel, Rays8, lanes};
+use phong_scene::Rgb;
 
 use super::Integrator;
 use super::bundle::Radiance8;
@@ -81,6 +82,12 @@ impl Integrator<'_> {
             for ((shares, rays), blocked) in shares.iter_mut().zip(&*rays).zip(&*blocked) {
                 for lane in lanes(rays.there & !blocked) {
                     shares[lane] += 1.0;
+                }
+                if self.scene.has_filters() {
+                    for lane in lanes(rays.there & blocked) {
+                        let Rgb { r, g, b } = self.left_of_light(&rays.get(lane), |_| true);
+                        shares[lane] += (r + g + b) / 3.0;
+                    }
                 }
             }
         }

@@ -74,7 +74,11 @@ impl Kernel for Scatter<'_> {
                 let lanes = if left == interactions.hits[i].met { 0xff } else { same };
                 left &= !same;
                 let material = material(scene, &interactions.made, number);
-                if !material.bounces() {
+                let cover = interactions.covers.get(i).filter(|_| material.is_see_through());
+                let cover = cover.map(|covers| f32x8::load_array_ref(simd, covers));
+                if branch == Branch::Through && cover.is_none()
+                    || branch != Branch::Through && !material.bounces()
+                {
                     continue;
                 }
                 let at = Side::new(
@@ -90,6 +94,11 @@ impl Kernel for Scatter<'_> {
                 let (dir, weight, share) = match branch {
                     Branch::Reflection => at.mirrored(material),
                     Branch::Transmission => at.refracted(material),
+                    Branch::Through => at.straight_on(cover),
+                };
+                let weight = match cover {
+                    Some(cover) if branch != Branch::Through => scale(cover, weight),
+                    _ => weight,
                 };
                 let zero = weight[0].splat(0.0);
                 let black =
@@ -170,6 +179,14 @@ impl<F: Lanes<Scalar = f32>> Side<F> {
         // Under total reflection the mirror ray has the refracted one's weight as well.
         let both = splat3(eta, (material.reflection + material.transmission).to_array());
         (dir, select3(self.refract().1, weight, both), not_asked)
+    }
+
+    /// The ray that goes straight on, beside the share of the surface that is there.
+    #[inline(always)]
+    fn straight_on(&self, cover: Option<F>) -> Scattered<F> {
+        let one = self.eta.splat(1.0);
+        let rest = one - cover.unwrap_or(one);
+        (neg(self.e), [rest; 3], one.splat(f32::NAN))
     }
 
     /// The refracted ray; without weight under total internal reflection.

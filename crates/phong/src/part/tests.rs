@@ -1,4 +1,4 @@
-use phong_scene::{Image, Rgb, Scene};
+use phong_scene::{Image, Scene};
 
 use super::*;
 use crate::aov::Aov;

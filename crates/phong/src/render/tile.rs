@@ -302,6 +302,8 @@ struct Reached {
     lights: u32,
     /// The share of the ambient light, where that is asked for.
     openness: Option<f32>,
+    /// How many rays lie between the surface and the one being told of.
+    beyond: u32,
 }
 
 impl Reached {
@@ -315,14 +317,22 @@ impl Witness for Reached {
     fn missed(&mut self, _: &phong_bvh::Ray, _: Rgb) {}
     fn met(&mut self, _: &phong_bvh::Ray, _: &crate::interaction::SurfaceInteraction, _: Terms) {}
     fn opened(&mut self, share: f32) {
-        self.openness = Some(share);
+        if self.beyond == 0 {
+            self.openness = Some(share);
+        }
     }
     fn lit(&mut self, light: &LightContribution) {
-        self.lights += 1;
-        self.seen += u32::from(light.visible);
+        if self.beyond == 0 {
+            self.lights += 1;
+            self.seen += u32::from(light.visible);
+        }
     }
-    fn entered(&mut self, _: Branch, _: Rgb, _: Option<f32>, _: &phong_bvh::Ray) {}
-    fn left(&mut self, _: Branch, _: Rgb) {}
+    fn entered(&mut self, _: Branch, _: Rgb, _: Option<f32>, _: &phong_bvh::Ray) {
+        self.beyond += 1;
+    }
+    fn left(&mut self, _: Branch, _: Rgb) {
+        self.beyond -= 1;
+    }
     fn cut(&mut self, _: Branch, _: &Cut) {}
 }
 
