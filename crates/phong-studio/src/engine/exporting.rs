@@ -6,6 +6,9 @@ use phong::film::LayerKind;
 use phong::finish::{Finishing, finish};
 use phong::image::{Content, Encoding, Format, write};
 use phong::part::fingerprint;
+use phong::render::{Cancel, render};
+use phong::terms::TermSet;
+use phong_lab::tell::html;
 
 use super::opened::Opened;
 use super::painting::Painting;
@@ -16,6 +19,34 @@ use crate::protocol::FileKind;
 pub(super) struct Exported {
     pub(super) name: String,
     pub(super) bytes: Vec<u8>,
+}
+
+/// The most rays that are traced for a page of explanations: more would keep its reader waiting.
+const MOST_RAYS: u64 = 300_000;
+
+/// Every pixel explained, as `phong explain --html` has it, with as many samples as are soon told.
+fn explained(title: &str, painting: &Painting) -> Result<String, String> {
+    let [width, height] = painting.options().size();
+    let pixels = u64::from(width) * u64::from(height);
+    let most = html::MAX_PIXELS;
+    if pixels > u64::from(most) {
+        return Err(format!(
+            "a page explains at most {most} pixels, and there are {width} × {height}: make \
+             `image.size` smaller"
+        ));
+    }
+    let samples = u64::from(painting.options().samples()).min(MOST_RAYS / pixels).max(1) as u32;
+    let options = painting.options().clone().with_samples(samples);
+    let options = options.map_err(|error| error.to_string())?.with_terms(TermSet::NONE);
+    let cancel = Cancel::new();
+    let film = render(painting.view(), &options, &|_| {}, &cancel).film;
+    let mut png = Cursor::new(Vec::new());
+    let content = Content::Layer(LayerKind::Picture);
+    let finished = finish(&film, &Finishing::default());
+    write(&finished, content, Format::Png, &Encoding::default(), &mut png)
+        .map_err(|error| error.to_string())?;
+    html::page(painting.view(), &options, title, &png.into_inner(), &|_| {}, &cancel)
+        .map_err(|error| error.to_string())
 }
 
 /// What is open as a file.
@@ -30,6 +61,15 @@ pub(super) fn file(
         FileKind::Toml => {
             let text = opened.text().ok_or("a bare model has no text")?;
             return Ok(Exported { name: format!("{stem}.toml"), bytes: text.as_bytes().to_vec() });
+        }
+        FileKind::Python => {
+            let bytes = opened.python()?.into_bytes();
+            return Ok(Exported { name: format!("{stem}.py"), bytes });
+        }
+        FileKind::Html => {
+            let painting = painting.ok_or("there is no picture")?;
+            let bytes = explained(opened.path(), painting)?.into_bytes();
+            return Ok(Exported { name: format!("{stem}.html"), bytes });
         }
         FileKind::Png => (Format::Png, Content::Layer(LayerKind::Picture), "png"),
         FileKind::Exr => (Format::Exr, Content::Film, "exr"),

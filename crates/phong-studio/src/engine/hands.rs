@@ -7,7 +7,7 @@ use phong::scene::CameraKind;
 use serde_json::json;
 
 use super::look::laid_over;
-use super::opened::Opened;
+use super::opened::{Files, Opened};
 
 /// How near to looking straight up or down the eye may be turned, degrees.
 const POLE: f64 = 2.0;
@@ -17,14 +17,14 @@ impl Opened {
         Ok(laid_over(self.base()?, self.set())?.0.camera)
     }
 
-    fn place(&mut self, eye: DVec3, look_at: DVec3) -> Result<(), String> {
+    fn place(&mut self, eye: DVec3, look_at: DVec3, files: Files<'_>) -> Result<(), String> {
         let list = |v: DVec3| json!(v.to_array());
         let values = [("camera.eye", list(eye)), ("camera.look_at", list(look_at))];
-        self.lay(values.into_iter().map(|(path, value)| (path.to_owned(), value)).collect())
+        self.lay(values.into_iter().map(|(path, value)| (path.to_owned(), value)).collect(), files)
     }
 
     /// Turns the eye about the point that is looked at; a camera that looks around turns about itself.
-    pub(super) fn turn(&mut self, by: [f64; 2]) -> Result<(), String> {
+    pub(super) fn turn(&mut self, by: [f64; 2], files: Files<'_>) -> Result<(), String> {
         let [right, down] = finite(by)?;
         let camera = self.camera()?;
         let around = matches!(camera.kind, CameraKind::Fisheye { .. } | CameraKind::Panorama);
@@ -40,14 +40,14 @@ impl Opened {
         let tilt = rotation(side, wanted - height);
         let offset = rotation(up, -right * half_turn) * (tilt * offset);
         if around {
-            self.place(center, center + offset)
+            self.place(center, center + offset, files)
         } else {
-            self.place(center + offset, center)
+            self.place(center + offset, center, files)
         }
     }
 
     /// Moves the eye and `look_at` across the view, so that the scene follows the pointer.
-    pub(super) fn shift(&mut self, by: [f64; 2]) -> Result<(), String> {
+    pub(super) fn shift(&mut self, by: [f64; 2], files: Files<'_>) -> Result<(), String> {
         let [right, down] = finite(by)?;
         let camera = self.camera()?;
         let ready = Camera::new(&camera);
@@ -62,20 +62,20 @@ impl Opened {
             _ => 1.0 / (camera.look_at - camera.eye).length(),
         };
         let way = (y * down - x * right) / unit;
-        self.place(camera.eye + way, camera.look_at + way)
+        self.place(camera.eye + way, camera.look_at + way, files)
     }
 
     /// Brings the eye nearer or further away.
-    pub(super) fn zoom(&mut self, by: f64) -> Result<(), String> {
+    pub(super) fn zoom(&mut self, by: f64, files: Files<'_>) -> Result<(), String> {
         if !(by.is_finite() && by > 0.0) {
             return Err("a zoom is by a number above 0".to_owned());
         }
         let camera = self.camera()?;
         if let CameraKind::Orthographic { height } = camera.kind {
             let set = [("camera.height".to_owned(), json!(height * by))];
-            return self.lay(set.into_iter().collect());
+            return self.lay(set.into_iter().collect(), files);
         }
-        self.place(camera.look_at + (camera.eye - camera.look_at) * by, camera.look_at)
+        self.place(camera.look_at + (camera.eye - camera.look_at) * by, camera.look_at, files)
     }
 }
 

@@ -8,6 +8,7 @@
 use std::sync::Arc;
 
 use phong::geometry::Geometry;
+use phong::glam::DVec3;
 use phong::image::srgb_level;
 use phong::scene::{
     Change, Diagnostic, ExportOptions, Limits, Memory, Param, Rgb, Scene, SceneError, read_changed,
@@ -23,6 +24,10 @@ pub(super) struct Base {
     pub(super) geometry: Arc<Geometry>,
     /// All but the objects as a text of its own, which values are laid over.
     pub(super) look: String,
+    /// What was laid over the objects when they were read.
+    pub(super) laid: Map<String, Value>,
+    /// The objects' middles; empty where there are too many to take hold of.
+    pub(super) middles: Vec<DVec3>,
 }
 
 /// What the text of a look is called where something is said about it.
@@ -32,13 +37,39 @@ const NAME: &str = "scene.toml";
 const PARTS: [&str; 7] =
     ["image", "camera", "ambient", "ambient_occlusion", "light", "materials", "textures"];
 
+/// Objects, by the first word of their keys. What is laid over them is more work: the text is read
+/// with it.
+const OBJECTS: [&str; 13] = [
+    "sphere",
+    "plane",
+    "triangle",
+    "disc",
+    "box",
+    "cylinder",
+    "cone",
+    "torus",
+    "mesh",
+    "points",
+    "cylinders",
+    "molecule",
+    "instance",
+];
+
 /// Whether a key is one of the look.
+pub(super) fn is_of_look(path: &str) -> bool {
+    PARTS.contains(&path.split('.').next().unwrap_or_default())
+}
+
+/// Whether a key is one that values are laid over.
 pub(super) fn allowed(path: &str) -> Result<(), String> {
     let first = path.split('.').next().unwrap_or_default();
-    if PARTS.contains(&first) {
+    if is_of_look(path) || OBJECTS.contains(&first) {
         return Ok(());
     }
-    Err(format!("`{path}` is changed in the text; over it are laid keys of {}", PARTS.join(", ")))
+    let parts = PARTS.join(", ");
+    Err(format!(
+        "`{path}` is changed in the text; over it are laid keys of {parts}, and of objects"
+    ))
 }
 
 /// All of a scene but its objects, as text.
@@ -75,14 +106,13 @@ pub(super) fn text(scene: &Scene) -> Result<String, String> {
 
 /// The scene, without its objects, with these values laid over it; and all its values by their keys.
 pub(super) fn laid_over(base: &Base, set: &Map<String, Value>) -> Result<(Scene, Value), String> {
+    let of_look = set.iter().filter(|(path, _)| is_of_look(path));
+    let of_look = of_look.map(|(path, value)| (path.clone(), value.clone())).collect();
     let changes: Result<Vec<Change>, String> =
-        changes(set).map(|words| Change::parse(&words)).collect();
+        changes(&of_look).map(|words| Change::parse(&words)).collect();
     let files = Memory::new().with(NAME, base.look.as_bytes());
     let reading = read_changed(NAME, None, &files, &small(), &changes?);
-    let mut scene = reading.into_scene().map_err(|SceneError(said)| {
-        let error = said.iter().find(|diagnostic| diagnostic.is_error());
-        error.map_or_else(String::new, in_short)
-    })?;
+    let mut scene = reading.into_scene().map_err(|error| first_error(&error))?;
     let (lights, materials) = (&base.scene.lights, &base.scene.materials);
     if (scene.lights.len(), scene.materials.len()) != (lights.len(), materials.len()) {
         return Err("lights and materials are added in the text".to_owned());
@@ -101,7 +131,13 @@ pub(super) fn laid_over(base: &Base, set: &Map<String, Value>) -> Result<(Scene,
     Ok((scene, values))
 }
 
-fn in_short(diagnostic: &Diagnostic) -> String {
+/// What the first error of a reading says.
+pub(super) fn first_error(SceneError(said): &SceneError) -> String {
+    let error = said.iter().find(|diagnostic| diagnostic.is_error());
+    error.map_or_else(String::new, in_short)
+}
+
+pub(super) fn in_short(diagnostic: &Diagnostic) -> String {
     match &diagnostic.help {
         Some(help) => format!("{} ({help})", diagnostic.message),
         None => diagnostic.message.clone(),

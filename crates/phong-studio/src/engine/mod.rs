@@ -5,20 +5,29 @@
 //! changes the picture takes the place of the one under way.
 
 mod exporting;
+mod handles;
 mod hands;
 mod lines;
+mod lobe;
 mod look;
 mod opened;
 mod painting;
+mod recipe;
 mod sharing;
+mod teaching;
+mod writing;
 
+use phong::explain::Explanation;
 use phong::render::Cancel;
-use phong::scene::{Limits, Source, schema_json};
+use phong::scene::{Format, Limits, Source, closest, schema_json};
+use phong::terms::{Term, TermSet};
+use phong::view::View;
 use phong_lab::figures::{self, Facets};
-use serde_json::Value;
+use phong_lab::grade::Planted;
+use serde_json::{Map, Value};
 
 use crate::protocol::{MOST_EXPLAINED, MOST_FACETS, Message, PixelKind, Reply, Request, VERSION};
-use opened::Opened;
+use opened::{Files, Opened, Shown};
 use painting::Painting;
 
 /// A scene to begin with.
@@ -26,6 +35,9 @@ pub const EXAMPLE: &str = include_str!("two-balls.toml");
 
 /// The name of [`EXAMPLE`].
 pub const EXAMPLE_NAME: &str = "two-balls.toml";
+
+/// What is said where a request needs a scene.
+const NOTHING: &str = "nothing is open";
 
 /// What an engine may use.
 #[derive(Clone, Debug)]
@@ -66,6 +78,10 @@ pub struct Engine {
     painting: Option<Painting>,
     /// Whether drawing was stopped by request.
     stopped: bool,
+    /// The terms that are left out of what is drawn.
+    off: TermSet,
+    /// What is shown with a mistake in it.
+    planted: Option<Planted>,
 }
 
 impl Engine {
@@ -81,6 +97,8 @@ impl Engine {
             picture: 0,
             painting: None,
             stopped: false,
+            off: TermSet::NONE,
+            planted: None,
         }
     }
 
@@ -114,23 +132,33 @@ impl Engine {
     pub fn answer(&mut self, request: Request, emit: Emit<'_>) {
         let done = match request {
             Request::Open { path } => self.open(&path, emit),
-            Request::Edit { text } => self.edit(text, emit),
-            Request::Look { set } => self.changed(emit, |opened| opened.lay(set)),
+            Request::Edit { text, set } => self.edit(text, set, emit),
+            Request::Write { set } => self.write(&set, emit),
+            Request::Look { set } => self.changed(emit, |opened, files| opened.lay(set, files)),
             Request::Reset => self.changed(emit, Opened::reset),
-            Request::Turn { by } => self.changed(emit, |opened| opened.turn(by)),
-            Request::Move { by } => self.changed(emit, |opened| opened.shift(by)),
-            Request::Zoom { by } => self.changed(emit, |opened| opened.zoom(by)),
+            Request::Turn { by } => self.changed(emit, |opened, files| opened.turn(by, files)),
+            Request::Move { by } => self.changed(emit, |opened, files| opened.shift(by, files)),
+            Request::Zoom { by } => self.changed(emit, |opened, files| opened.zoom(by, files)),
+            Request::Drag { path, from, to, keep } => self.drag(&path, [from, to], keep, emit),
+            Request::Terms { off } => self.leave_out(&off, emit),
             Request::Pixels { kind } => {
                 self.pixels = kind;
                 Ok(())
             }
-            Request::Explain { id, pixel, samples } => self.explain(id, pixel, samples, emit),
+            Request::Explain { id, pixel, samples, set } => {
+                self.explain(id, pixel, samples, &set, emit)
+            }
+            Request::Lobe { id, pixel, light, set } => self.lobe(id, pixel, light, &set, emit),
+            Request::Mistake { seed } => self.mistake(seed, emit),
+            Request::Guess { cause } => self.guess(cause, emit),
+            Request::Grade { name, bytes } => self.grade(name, &bytes, emit),
             Request::Cancel => {
                 self.stopped = true;
                 Ok(())
             }
             Request::Resume => {
                 self.stopped = false;
+                self.planted = None;
                 Ok(())
             }
             Request::Export { format } => self.export(format, emit),
@@ -186,31 +214,109 @@ impl Engine {
     }
 
     fn open(&mut self, path: &str, emit: Emit<'_>) -> Result<(), String> {
-        let (opened, text) = Opened::of_file(path, &*self.source, &self.bounds)?;
+        if let Some(sheet) = self.sheet(path)? {
+            say(emit, &sheet);
+            return Ok(());
+        }
+        let (opened, text) = Opened::of_file(path, self.files())?;
         say(emit, &Reply::Scene { path: path.to_owned(), text });
         self.painting = None;
         self.opened = Some(opened);
         self.begin(emit)
     }
 
-    fn edit(&mut self, text: String, emit: Emit<'_>) -> Result<(), String> {
+    /// What is at this path, if it is a class sheet.
+    fn sheet(&self, path: &str) -> Result<Option<Reply>, String> {
+        if Format::of_path(path) != Some(Format::Toml) {
+            return Ok(None);
+        }
+        teaching::sheet(path, &opened::text_of(path, self.files())?)
+    }
+
+    fn files(&self) -> Files<'_> {
+        Files { source: &*self.source, bounds: &self.bounds }
+    }
+
+    fn edit(
+        &mut self,
+        text: String,
+        set: Option<Map<String, Value>>,
+        emit: Emit<'_>,
+    ) -> Result<(), String> {
         if text.len() as u64 > Bounds::TEXT {
             return Err(format!("a text of more than {} bytes", Bounds::TEXT));
         }
-        let opened = self.opened.as_mut().ok_or("nothing is open")?;
-        opened.edit(text, &*self.source, &self.bounds)?;
+        let files = Files { source: &*self.source, bounds: &self.bounds };
+        self.opened.as_mut().ok_or(NOTHING)?.edit(text, set, files)?;
         self.begin(emit)
+    }
+
+    fn write(&mut self, set: &Map<String, Value>, emit: Emit<'_>) -> Result<(), String> {
+        let files = Files { source: &*self.source, bounds: &self.bounds };
+        let opened = self.opened.as_mut().ok_or(NOTHING)?;
+        let before = opened.clone();
+        let mut done = opened.write(set, files);
+        if done.is_ok() {
+            done = self.ready().map(drop);
+        }
+        if let Err(message) = done {
+            self.opened = Some(before);
+            // What the text has no place for is laid over it, where that can be.
+            let _ = self.changed(emit, |opened, files| opened.lay(set.clone(), files));
+            return Err(message);
+        }
+        let opened = self.opened.as_ref().ok_or(NOTHING)?;
+        let text = opened.text().unwrap_or_default().to_owned();
+        say(emit, &Reply::Text { text });
+        self.begin(emit)
+    }
+
+    fn drag(
+        &mut self,
+        path: &str,
+        way: [[f64; 2]; 2],
+        keep: bool,
+        emit: Emit<'_>,
+    ) -> Result<(), String> {
+        if !keep {
+            return self.changed(emit, |opened, files| opened.drag(path, way, files));
+        }
+        let files = Files { source: &*self.source, bounds: &self.bounds };
+        let opened = self.opened.as_mut().ok_or(NOTHING)?;
+        let before = opened.before();
+        if let Err(message) = opened.drag(path, way, files) {
+            opened.put_back(before);
+            return Err(message);
+        }
+        let keys = opened.let_go();
+        self.write(&keys, emit)
+    }
+
+    fn leave_out(&mut self, names: &[String], emit: Emit<'_>) -> Result<(), String> {
+        let mut off = TermSet::NONE;
+        for name in names {
+            let term = Term::from_name(name).ok_or_else(|| {
+                let known = closest(name, Term::ALL.map(Term::name).into_iter());
+                let known =
+                    known.map_or_else(String::new, |name| format!(" (did you mean `{name}`?)"));
+                format!("there is no term `{name}`{known}")
+            })?;
+            off = off.with(term);
+        }
+        let before = std::mem::replace(&mut self.off, off);
+        self.paint(emit).inspect_err(|_| self.off = before)
     }
 
     /// Changes what is laid over the scene, and draws that; where it cannot be, all is as it was.
     fn changed(
         &mut self,
         emit: Emit<'_>,
-        change: impl FnOnce(&mut Opened) -> Result<(), String>,
+        change: impl FnOnce(&mut Opened, Files<'_>) -> Result<(), String>,
     ) -> Result<(), String> {
-        let opened = self.opened.as_mut().ok_or("nothing is open")?;
-        let before = opened.set().clone();
-        change(opened)?;
+        let files = Files { source: &*self.source, bounds: &self.bounds };
+        let opened = self.opened.as_mut().ok_or(NOTHING)?;
+        let before = opened.before();
+        change(opened, files)?;
         let painted = self.paint(emit);
         if let (Err(_), Some(opened)) = (&painted, &mut self.opened) {
             opened.put_back(before);
@@ -220,21 +326,28 @@ impl Engine {
 
     /// Says what was read, and begins the picture of it if there is one.
     fn begin(&mut self, emit: Emit<'_>) -> Result<(), String> {
-        let opened = self.opened.as_ref().ok_or("nothing is open")?;
+        let opened = self.opened.as_ref().ok_or(NOTHING)?;
         let (ok, diagnostics) = opened.diagnostics();
         say(emit, &Reply::Checked { ok, diagnostics });
         if ok { self.paint(emit) } else { Ok(()) }
     }
 
+    /// The next picture, of what is open now.
+    fn ready(&self) -> Result<(u32, Painting, Shown), String> {
+        let shown = self.opened.as_ref().ok_or(NOTHING)?.shown()?;
+        let picture = self.picture.wrapping_add(1);
+        let (bytes, share, view) = (self.bounds.bytes, self.share, shown.view.clone());
+        let painting = Painting::new(picture, view, &shown.image, self.off, bytes, share)?;
+        Ok((picture, painting, shown))
+    }
+
     /// Begins the picture of what is open now.
     fn paint(&mut self, emit: Emit<'_>) -> Result<(), String> {
-        let opened = self.opened.as_ref().ok_or("nothing is open")?;
-        let shown = opened.shown()?;
-        let picture = self.picture.wrapping_add(1);
-        let (bytes, share) = (self.bounds.bytes, self.share);
-        let painting = Painting::new(picture, shown.view, &shown.image, bytes, share)?;
+        let (picture, painting, shown) = self.ready()?;
+        let opened = self.opened.as_ref().ok_or(NOTHING)?;
         self.picture = picture;
         self.stopped = false;
+        self.planted = None;
         self.painting = Some(painting);
         say(
             emit,
@@ -246,6 +359,9 @@ impl Engine {
                 wells: shown.wells,
                 set: opened.set().clone(),
                 command: opened.command(),
+                handles: shown.handles,
+                terms: shown.terms.iter().map(Term::name).collect(),
+                off: self.off.iter().map(Term::name).collect(),
             },
         );
         Ok(())
@@ -256,24 +372,56 @@ impl Engine {
         id: u64,
         pixel: [u32; 2],
         samples: u32,
+        set: &Map<String, Value>,
         emit: Emit<'_>,
     ) -> Result<(), String> {
+        let (told, view, picture) = self.told(pixel, samples, set)?;
+        let lines = lines::of(&told, &view);
+        let told = phong_lab::tell::json(&told);
+        let planted = self.planted.as_ref();
+        let drawn = planted.and_then(|planted| teaching::drawn(planted, pixel));
+        say(emit, &Reply::Explanation { id, picture, told, drawn, lines });
+        Ok(())
+    }
+
+    fn lobe(
+        &self,
+        id: u64,
+        pixel: [u32; 2],
+        light: usize,
+        set: &Map<String, Value>,
+        emit: Emit<'_>,
+    ) -> Result<(), String> {
+        let (told, view, _) = self.told(pixel, 1, set)?;
+        say(emit, &lobe::of(id, &told, light, &view)?);
+        Ok(())
+    }
+
+    /// A pixel of the picture under way explained, with values laid over the scene for it alone.
+    fn told(
+        &self,
+        pixel: [u32; 2],
+        samples: u32,
+        set: &Map<String, Value>,
+    ) -> Result<(Explanation, View, u32), String> {
         let painting = self.painting.as_ref().ok_or("there is no picture")?;
         if !(1..=MOST_EXPLAINED).contains(&samples) {
             return Err(format!("{samples} samples: 1 to {MOST_EXPLAINED} are told"));
         }
         let options = painting.options().clone().with_samples(samples);
         let options = options.map_err(|error| error.to_string())?;
-        let told = phong::explain::explain(painting.view(), &options, pixel);
+        let view = if set.is_empty() {
+            painting.view().clone()
+        } else {
+            self.opened.as_ref().ok_or(NOTHING)?.view_with(set)?
+        };
+        let told = phong::explain::explain(&view, &options, pixel);
         let told = told.map_err(|outside| outside.to_string())?;
-        let lines = lines::of(&told, painting.view());
-        let told = phong_lab::tell::json(&told);
-        say(emit, &Reply::Explanation { id, picture: painting.number(), told, lines });
-        Ok(())
+        Ok((told, view, painting.number()))
     }
 
     fn export(&self, format: crate::protocol::FileKind, emit: Emit<'_>) -> Result<(), String> {
-        let opened = self.opened.as_ref().ok_or("nothing is open")?;
+        let opened = self.opened.as_ref().ok_or(NOTHING)?;
         let file = exporting::file(format, opened, self.painting.as_ref())?;
         say(emit, &Reply::File { name: file.name, bytes: file.bytes.len() });
         emit(Message::Frame(crate::protocol::file_frame(&file.bytes)));

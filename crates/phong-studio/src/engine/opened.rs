@@ -5,26 +5,50 @@ use std::sync::Arc;
 
 use phong::geometry::{Geometry, GeometryOptions};
 use phong::look::Look;
-use phong::scene::{Blob, Diagnostic, Format, Image, Memory, Scene, Source, read, trouble};
+use phong::scene::{
+    Blob, Change, Diagnostic, Format, Image, Memory, Reading, Scene, Shape, Source, read_changed,
+    trouble,
+};
+use phong::terms::TermSet;
 use phong::view::View;
 use phong_lab::tell;
 use serde_json::{Map, Value};
 
 use super::Bounds;
+use super::handles::{self, Grab, Spot};
 use super::look::{self, Base};
+use super::writing::written;
+use crate::protocol::Handle;
 
 /// A scene or a model.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Opened {
-    path: String,
+    pub(super) path: String,
     /// `None`: a bare model has no text.
-    text: Option<String>,
+    pub(super) text: Option<String>,
+    /// The text that its file had.
+    pub(super) as_read: Option<String>,
     diagnostics: Vec<Diagnostic>,
     /// Whether the text as it is now could be read.
     is_sound: bool,
     /// The last that could be read.
-    base: Option<Base>,
+    base: Option<Arc<Base>>,
     /// What is laid over it, by the paths of keys.
+    pub(super) set: Map<String, Value>,
+    /// The handle that is held.
+    grab: Option<Grab>,
+}
+
+/// What reading needs besides a text.
+#[derive(Clone, Copy)]
+pub(super) struct Files<'a> {
+    pub(super) source: &'a dyn Source,
+    pub(super) bounds: &'a Bounds,
+}
+
+/// What is laid over a scene, to be put back.
+pub(super) struct Before {
+    base: Option<Arc<Base>>,
     set: Map<String, Value>,
 }
 
@@ -37,23 +61,25 @@ pub(super) struct Shown {
     pub(super) values: Value,
     /// Its colours, as `#rrggbb`.
     pub(super) wells: Map<String, Value>,
+    pub(super) handles: Vec<Handle>,
+    /// The terms that it can have.
+    pub(super) terms: TermSet,
 }
 
 impl Opened {
     /// Reads a file; with it goes its text.
-    pub(super) fn of_file(
-        path: &str,
-        source: &dyn Source,
-        bounds: &Bounds,
-    ) -> Result<(Self, Option<String>), String> {
+    pub(super) fn of_file(path: &str, files: Files<'_>) -> Result<(Self, Option<String>), String> {
         let text = match Format::of_path(path) {
-            Some(Format::Toml) => Some(text_of(path, source, bounds)?),
+            Some(Format::Toml) => Some(text_of(path, files)?),
             _ => None,
         };
         let (diagnostics, is_sound) = (Vec::new(), false);
         let (path, set) = (path.to_owned(), Map::new());
-        let mut opened = Self { path, text: text.clone(), diagnostics, is_sound, base: None, set };
-        opened.read(source, bounds)?;
+        let (base, grab) = (None, None);
+        let as_read = text.clone();
+        let mut opened =
+            Self { path, text: text.clone(), as_read, diagnostics, is_sound, base, set, grab };
+        opened.read(files)?;
         match opened.diagnostics.iter().find(|diagnostic| diagnostic.is_error()) {
             // A text can be mended in the page; a model cannot.
             Some(error) if text.is_none() => Err(error.message.clone()),
@@ -61,43 +87,146 @@ impl Opened {
         }
     }
 
-    /// Takes another text.
+    /// Takes another text, and what is laid over it if that is said.
     pub(super) fn edit(
         &mut self,
         text: String,
-        source: &dyn Source,
-        bounds: &Bounds,
+        set: Option<Map<String, Value>>,
+        files: Files<'_>,
     ) -> Result<(), String> {
         if self.text.is_none() {
             return Err("a bare model has no text to edit".to_owned());
         }
         self.text = Some(text);
-        self.read(source, bounds)?;
-        // What is laid over the scene may name what is no longer there.
-        if self.is_sound && self.shown().is_err() {
+        self.grab = None;
+        self.read(files)?;
+        if self.is_sound {
+            // What is laid over the scene may name what is no longer there.
+            let set = set.unwrap_or_else(|| std::mem::take(&mut self.set));
             self.set.clear();
+            if self.lay(set, files).is_err() || self.shown().is_err() {
+                self.set.clear();
+            }
         }
         Ok(())
     }
 
-    fn read(&mut self, source: &dyn Source, bounds: &Bounds) -> Result<(), String> {
-        let reading = match &self.text {
-            Some(text) => {
-                let edited = Edited { path: &self.path, text, source };
-                read(&self.path, None, &edited, &bounds.limits)
-            }
-            None => read(&self.path, None, source, &bounds.limits),
+    /// Writes values into the text, and takes back what was laid over these keys; where that cannot
+    /// be, all is as it was.
+    pub(super) fn write(
+        &mut self,
+        set: &Map<String, Value>,
+        files: Files<'_>,
+    ) -> Result<(), String> {
+        let text = self.text.as_deref().ok_or("a bare model has no text to write into")?;
+        if !self.is_sound {
+            return Err("nothing is written into a text that cannot be read".to_owned());
+        }
+        let new = written(text, set)?;
+        if new.len() as u64 > Bounds::TEXT {
+            return Err(format!("a text of more than {} bytes", Bounds::TEXT));
+        }
+        let mut next = Self {
+            path: self.path.clone(),
+            text: Some(new),
+            as_read: self.as_read.clone(),
+            diagnostics: Vec::new(),
+            is_sound: false,
+            base: self.base.clone(),
+            set: Map::new(),
+            grab: None,
         };
+        next.read(files)?;
+        if let Some(error) = next.diagnostics.iter().find(|diagnostic| diagnostic.is_error()) {
+            return Err(look::in_short(error));
+        }
+        let mut left = self.set.clone();
+        left.retain(|path, _| !set.contains_key(path));
+        next.lay(left, files)?;
+        next.shown()?;
+        *self = next;
+        Ok(())
+    }
+
+    /// Drags a handle.
+    pub(super) fn drag(
+        &mut self,
+        path: &str,
+        [from, to]: [[f64; 2]; 2],
+        files: Files<'_>,
+    ) -> Result<(), String> {
+        if !from.iter().chain(&to).all(|x| x.is_finite() && x.abs() < 1e7) {
+            return Err("a handle is dragged to a place near the picture".to_owned());
+        }
+        if !self.grab.as_ref().is_some_and(|grab| grab.is(path, from)) {
+            let shown = self.shown()?;
+            let spot = self.spots(&self.scene()?)?.into_iter().find(|spot| spot.path == path);
+            let spot = spot.ok_or_else(|| format!("there is no handle `{path}`"))?;
+            let camera = shown.view.camera().clone();
+            self.grab = Some(Grab::new(spot, from, camera, shown.image.size));
+        }
+        let values = self.grab.as_ref().map(|grab| grab.dragged(to)).transpose()?;
+        self.lay(values.unwrap_or_default(), files)
+    }
+
+    /// Lets go of the handle that is held; its keys, and what is laid over them.
+    pub(super) fn let_go(&mut self) -> Map<String, Value> {
+        let Some(grab) = self.grab.take() else { return Map::new() };
+        let keys = grab.keys();
+        self.set
+            .iter()
+            .filter(|(path, _)| keys.contains(path))
+            .map(|(k, v)| (k.clone(), v.clone()))
+            .collect()
+    }
+
+    fn spots(&self, scene: &Scene) -> Result<Vec<Spot>, String> {
+        Ok(handles::spots(scene, self.text.as_deref(), &self.base()?.middles))
+    }
+
+    fn read(&mut self, files: Files<'_>) -> Result<(), String> {
+        let reading = self.reading(&[], files);
         self.diagnostics = reading.diagnostics;
         self.is_sound = false;
         let Some(scene) = reading.scene else { return Ok(()) };
-        let options =
-            GeometryOptions { max_bytes: Some(bounds.bytes), ..GeometryOptions::default() };
-        let geometry = Geometry::new(&scene, options).map_err(|error| error.to_string())?;
-        let look = look::text(&scene)?;
-        self.base = Some(Base { scene, geometry: Arc::new(geometry), look });
+        self.base = Some(self.based(scene, Map::new(), files.bounds)?);
         self.is_sound = true;
         Ok(())
+    }
+
+    fn reading(&self, changes: &[Change], Files { source, bounds }: Files<'_>) -> Reading {
+        match &self.text {
+            Some(text) => {
+                let edited = Edited { path: &self.path, text, source };
+                read_changed(&self.path, None, &edited, &bounds.limits, changes)
+            }
+            None => read_changed(&self.path, None, source, &bounds.limits, changes),
+        }
+    }
+
+    /// A scene made ready; arrays that are those of the scene before are shared with it, and their
+    /// trees not built again.
+    fn based(
+        &self,
+        mut scene: Scene,
+        laid: Map<String, Value>,
+        bounds: &Bounds,
+    ) -> Result<Arc<Base>, String> {
+        let before = self.base.as_ref();
+        for (new, old) in scene.objects.iter_mut().zip(before.iter().flat_map(|b| &b.scene.objects))
+        {
+            share(&mut new.shape, &old.shape);
+        }
+        let options =
+            GeometryOptions { max_bytes: Some(bounds.bytes), ..GeometryOptions::default() };
+        let geometry = match before {
+            Some(before) => before.geometry.update(&scene),
+            None => Geometry::new(&scene, options),
+        };
+        let geometry = Arc::new(geometry.map_err(|error| error.to_string())?);
+        let look = look::text(&scene)?;
+        let middles = handles::middles(&scene);
+        Ok(Arc::new(Base { scene, geometry, look, laid, middles }))
     }
 
     /// Whether the text can be drawn, and all there is to say about it.
@@ -112,7 +241,26 @@ impl Opened {
         let view = View::new(Arc::clone(&base.geometry), Look::new(&scene));
         let view = view.map_err(|error| error.to_string())?;
         let wells = look::wells(&scene);
-        Ok(Shown { view, image: scene.image, values, wells })
+        let whole = Scene { objects: base.scene.objects.clone(), ..scene };
+        let spots = self.spots(&whole)?;
+        let size = whole.image.size;
+        let handles = spots.iter().filter_map(|spot| spot.seen(view.camera(), size)).collect();
+        let terms = TermSet::of_scene(&whole);
+        Ok(Shown { view, image: whole.image, values, wells, handles, terms })
+    }
+
+    /// What a picture of it would show with more laid over it.
+    pub(super) fn view_with(&self, more: &Map<String, Value>) -> Result<View, String> {
+        let base = self.base()?;
+        let mut set = self.set.clone();
+        for (path, value) in more {
+            if !look::is_of_look(path) {
+                return Err(format!("`{path}` is not laid over a single answer"));
+            }
+            set.insert(path.clone(), value.clone());
+        }
+        let (scene, _) = look::laid_over(base, &set)?;
+        View::new(Arc::clone(&base.geometry), Look::new(&scene)).map_err(|error| error.to_string())
     }
 
     /// The scene with what is laid over it, objects and all.
@@ -124,7 +272,7 @@ impl Opened {
     }
 
     pub(super) fn base(&self) -> Result<&Base, String> {
-        self.base.as_ref().ok_or_else(|| "there is no picture of this scene yet".to_owned())
+        self.base.as_deref().ok_or_else(|| "there is no picture of this scene yet".to_owned())
     }
 
     pub(super) fn path(&self) -> &str {
@@ -140,19 +288,27 @@ impl Opened {
     }
 
     /// Takes back all that is laid over the scene.
-    #[allow(clippy::unnecessary_wraps, reason = "one of several changes, of which others can fail")]
-    pub(super) fn reset(&mut self) -> Result<(), String> {
-        self.set.clear();
-        Ok(())
+    pub(super) fn reset(&mut self, files: Files<'_>) -> Result<(), String> {
+        let nothing = self.set.keys().map(|path| (path.clone(), Value::Null)).collect();
+        self.lay(nothing, files)
+    }
+
+    /// What is laid over the scene now.
+    pub(super) fn before(&self) -> Before {
+        Before { base: self.base.clone(), set: self.set.clone() }
     }
 
     /// Lays over the scene what was laid over it before.
-    pub(super) fn put_back(&mut self, set: Map<String, Value>) {
-        self.set = set;
+    pub(super) fn put_back(&mut self, before: Before) {
+        (self.base, self.set, self.grab) = (before.base, before.set, None);
     }
 
     /// Lays values over the scene; where one of them cannot be, all is as it was.
-    pub(super) fn lay(&mut self, values: Map<String, Value>) -> Result<(), String> {
+    pub(super) fn lay(
+        &mut self,
+        values: Map<String, Value>,
+        files: Files<'_>,
+    ) -> Result<(), String> {
         let mut set = self.set.clone();
         for (path, value) in values {
             look::allowed(&path)?;
@@ -162,36 +318,59 @@ impl Opened {
                 set.insert(path, value);
             }
         }
-        look::laid_over(self.base()?, &set)?;
-        self.set = set;
+        let objects = |set: &Map<String, Value>| -> Map<String, Value> {
+            let of_objects = set.iter().filter(|(path, _)| !look::is_of_look(path));
+            of_objects.map(|(path, value)| (path.clone(), value.clone())).collect()
+        };
+        let laid = objects(&set);
+        let base = if laid == self.base()?.laid {
+            self.base.clone()
+        } else {
+            // Objects are changed by reading the text with these values laid over it.
+            let changes: Result<Vec<Change>, String> =
+                look::changes(&laid).map(|words| Change::parse(&words)).collect();
+            let reading = self.reading(&changes?, files);
+            let scene = reading.into_scene().map_err(|error| look::first_error(&error))?;
+            Some(self.based(scene, laid, files.bounds)?)
+        };
+        look::laid_over(base.as_deref().ok_or("nothing can be drawn yet")?, &set)?;
+        (self.base, self.set) = (base, set);
         Ok(())
-    }
-
-    /// The command line that draws what is shown.
-    pub(super) fn command(&self) -> Option<String> {
-        if self.text.is_none() && !self.set.is_empty() {
-            return None;
-        }
-        let mut command = format!("phong render {}", quoted(&self.path));
-        for change in look::changes(&self.set) {
-            command.push_str(" --set ");
-            command.push_str(&quoted(&change));
-        }
-        Some(command)
     }
 }
 
-/// A word for a shell: in single quotes where it holds anything but plain letters.
-fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,".contains(c);
-    if !word.is_empty() && word.chars().all(plain) {
-        return word.to_owned();
+/// Takes the arrays of another shape where they hold the same.
+fn share(new: &mut Shape, old: &Shape) {
+    match (new, old) {
+        (Shape::Mesh(new), Shape::Mesh(old)) => {
+            let same = new.origin == old.origin
+                && new.positions == old.positions
+                && new.indices == old.indices
+                && new.normals == old.normals
+                && new.normal_indices == old.normal_indices
+                && new.uvs == old.uvs
+                && new.uv_indices == old.uv_indices
+                && new.colors == old.colors
+                && new.face_materials == old.face_materials;
+            if same {
+                new.clone_from(old);
+            }
+        }
+        (Shape::Points(new), Shape::Points(old)) => {
+            let same = new.origin == old.origin
+                && new.spheres == old.spheres
+                && new.colors == old.colors
+                && new.guessed == old.guessed;
+            if same {
+                new.clone_from(old);
+            }
+        }
+        _ => {}
     }
-    format!("'{}'", word.replace('\'', "'\\''"))
 }
 
 /// All of a text file.
-fn text_of(path: &str, source: &dyn Source, bounds: &Bounds) -> Result<String, String> {
+pub(super) fn text_of(path: &str, Files { source, bounds }: Files<'_>) -> Result<String, String> {
     let cannot = |error: &io::Error| format!("cannot read {path}: {}", trouble(error));
     let file = source.open(path).map_err(|error| cannot(&error))?;
     if file.len() > bounds.limits.text_bytes {

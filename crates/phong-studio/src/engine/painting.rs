@@ -1,8 +1,11 @@
 //! A picture under way: first at an eighth of its size, then all of it in 1, 2, 4, … samples a pixel.
 
+use std::borrow::Cow;
+
 use phong::film::Film;
 use phong::render::{Cancel, Event, Passes, RenderOptions, Rendering, render};
 use phong::scene::Image;
+use phong::terms::{Term, TermSet};
 use phong::view::View;
 
 use super::{Emit, say};
@@ -19,6 +22,8 @@ pub(super) struct Painting {
     options: RenderOptions,
     /// How the first pass is drawn; `None`: it is done.
     preview: Option<RenderOptions>,
+    /// The terms that are left out of what is shown.
+    off: TermSet,
     /// What there is so far; `None`: nothing.
     film: Option<Film>,
     done: bool,
@@ -30,11 +35,15 @@ impl Painting {
         number: u32,
         view: View,
         image: &Image,
+        off: TermSet,
         most: u64,
         share: Option<(u32, u32)>,
     ) -> Result<Self, String> {
         let said = |error: phong::render::OptionsError| error.to_string();
-        let mut options = RenderOptions::of(image).map_err(said)?.with_passes(Passes::Doubling);
+        // Terms are kept apart only where one of them is left out.
+        let terms = if off == TermSet::NONE { TermSet::NONE } else { TermSet::ALL };
+        let whole = RenderOptions::of(image).map_err(said)?.with_terms(terms);
+        let mut options = whole.clone().with_passes(Passes::Doubling);
         if options.film_bytes() > most {
             options = options.with_passes(Passes::One);
         }
@@ -47,13 +56,13 @@ impl Painting {
             ));
         }
         let small = image.size.map(|side| side.div_ceil(u32::from(STEP)));
-        let preview = RenderOptions::of(image).map_err(said)?.with_size(small).map_err(said)?;
+        let preview = whole.with_size(small).map_err(said)?;
         let mut preview = Some(preview.with_samples(1).map_err(said)?);
         if let Some((index, count)) = share {
             options = options.with_share(index, count).map_err(said)?;
             preview = preview.filter(|_| index == 0);
         }
-        Ok(Self { number, view, options, preview, film: None, done: false })
+        Ok(Self { number, view, options, preview, off, film: None, done: false })
     }
 
     pub(super) fn number(&self) -> u32 {
@@ -93,12 +102,13 @@ impl Painting {
         cancel: &Cancel,
         emit: Emit<'_>,
     ) -> Result<(), String> {
-        let Self { number, view, options, .. } = self;
-        let picture = *number;
+        let Self { number, view, options, off, .. } = self;
+        let (picture, off) = (*number, *off);
         let passes = 1 + options.passes().of(options.samples()).len() as u32;
         let tile = |event: Event<'_>, step, first: u32| match event {
             Event::Tile { pass, window, values, .. } => {
-                let [colors, alphas, ..] = values else { return true };
+                let [colors, alphas, terms @ ..] = values else { return true };
+                let colors = &*without(colors, terms, off);
                 let frame = TileFrame {
                     picture,
                     pass: (pass + first) as u16,
@@ -152,4 +162,16 @@ impl Painting {
         self.film = Some(outcome.film);
         Ok(())
     }
+}
+
+/// The sum of the terms but for those that are left out; `terms` are all, or none are kept apart.
+fn without<'a>(colors: &'a [f32], terms: &[Vec<f32>], off: TermSet) -> Cow<'a, [f32]> {
+    if off == TermSet::NONE {
+        return Cow::Borrowed(colors);
+    }
+    let mut sum = vec![0.0; colors.len()];
+    for (_, values) in Term::ALL.iter().zip(terms).filter(|(term, _)| !off.has(**term)) {
+        sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
+    }
+    Cow::Owned(sum)
 }

@@ -83,7 +83,13 @@ async fn read(mut stream: SplitStream<WebSocket>, to_engine: SyncSender<Heard>, 
 fn can_wait(request: &Request) -> bool {
     matches!(
         request,
-        Request::Explain { .. } | Request::Pixels { .. } | Request::Export { .. } | Request::Keys
+        Request::Explain { .. }
+            | Request::Lobe { .. }
+            | Request::Guess { .. }
+            | Request::Grade { .. }
+            | Request::Pixels { .. }
+            | Request::Export { .. }
+            | Request::Keys
     )
 }
 

@@ -17,20 +17,24 @@ use crate::SCENE;
 use crate::client::Page;
 
 /// An engine and a page that talk with each other.
-struct Talk {
-    engine: Engine,
-    page: Page,
+pub(crate) struct Talk {
+    pub(crate) engine: Engine,
+    pub(crate) page: Page,
     /// Whether the engine is stopped after every tile.
     stops: bool,
 }
 
 impl Talk {
     fn new() -> Self {
-        Self::sharing(0, 1)
+        Self::sharing(SCENE, 0, 1)
     }
 
-    fn sharing(index: u32, count: u32) -> Self {
-        let engine = Engine::new(Memory::new().with("a.toml", SCENE.as_bytes()), Bounds::default());
+    pub(crate) fn of(text: &str) -> Self {
+        Self::sharing(text, 0, 1)
+    }
+
+    fn sharing(text: &str, index: u32, count: u32) -> Self {
+        let engine = Engine::new(Memory::new().with("a.toml", text.as_bytes()), Bounds::default());
         let engine = engine.with_share(index, count);
         let mut talk = Self { engine, page: Page::default(), stops: false };
         talk.ask(&json!({ "do": "pixels", "kind": "linear" }));
@@ -38,11 +42,11 @@ impl Talk {
         talk
     }
 
-    fn ask(&mut self, request: &Value) {
+    pub(crate) fn ask(&mut self, request: &Value) {
         self.with(|engine, emit| engine.receive(&request.to_string(), emit));
     }
 
-    fn with(&mut self, act: impl FnOnce(&mut Engine, phong_studio::engine::Emit<'_>)) {
+    pub(crate) fn with(&mut self, act: impl FnOnce(&mut Engine, phong_studio::engine::Emit<'_>)) {
         let heard = Mutex::new(Vec::new());
         let stops = self.stops;
         act(&mut self.engine, &|message: Message| {
@@ -53,8 +57,15 @@ impl Talk {
         heard.into_inner().unwrap().iter().for_each(|message| self.page.hear(message));
     }
 
+    /// Draws for a moment.
+    pub(crate) fn some(&mut self) {
+        self.stops = true;
+        self.with(|engine, emit| engine.advance(&Cancel::new(), emit));
+        self.stops = false;
+    }
+
     /// Draws to the end; how often it had to be asked.
-    fn draw(&mut self) -> usize {
+    pub(crate) fn draw(&mut self) -> usize {
         let mut times = 0;
         while self.engine.has_work() {
             self.with(|engine, emit| engine.advance(&Cancel::new(), emit));
@@ -65,26 +76,26 @@ impl Talk {
     }
 }
 
-fn scene(changes: &[&str]) -> Scene {
+pub(crate) fn scene(changes: &[&str]) -> Scene {
     let files = Memory::new().with("a.toml", SCENE.as_bytes());
     let changes: Vec<_> = changes.iter().map(|change| Change::parse(change).unwrap()).collect();
     read_changed("a.toml", None, &files, &Limits::default(), &changes).scene.unwrap()
 }
 
 /// The film that `phong render` makes.
-fn film(scene: &Scene) -> Film {
+pub(crate) fn film(scene: &Scene) -> Film {
     let options = RenderOptions::of(&scene.image).unwrap();
     render(&View::of(scene).unwrap(), &options, &|_| {}, &Cancel::new()).film
 }
 
-fn bits(film: &Film) -> Vec<u32> {
+pub(crate) fn bits(film: &Film) -> Vec<u32> {
     let values = |kind| film.layer(kind).unwrap().values.to_vec();
     let (colors, alphas) = (values(LayerKind::Picture), values(LayerKind::Alpha));
     let pixels = colors.chunks_exact(3).zip(&alphas);
     pixels.flat_map(|(color, alpha)| color.iter().chain([alpha]).map(|v| v.to_bits())).collect()
 }
 
-fn seen(page: &Page) -> Vec<u32> {
+pub(crate) fn seen(page: &Page) -> Vec<u32> {
     page.pixels.iter().map(|v| v.to_bits()).collect()
 }
 
@@ -137,7 +148,9 @@ fn what_cannot_be_laid_over_it_is_refused_and_all_is_as_it_was() {
     for (path, value, why) in [
         ("materials.plastic.shininess", json!(-1), "shininess"),
         ("materials.plastik.color", json!("red"), "plastik"),
-        ("sphere.1.radius", json!(2), "in the text"),
+        ("include.1.file", json!("b.toml"), "in the text"),
+        ("sphere.3.radius", json!(2), "sphere"),
+        ("sphere.1.radius", json!(-2), "radius"),
         ("camera.fov", json!("wide"), "fov"),
     ] {
         talk.ask(&json!({ "do": "look", "set": { path: value } }));
@@ -265,7 +278,8 @@ fn the_studios_own_scene_is_that_of_the_gallery() {
 fn shares_put_together_are_the_file_of_a_render_and_say_every_pass() {
     // Of more shares than there are tiles some are empty.
     for count in [2, 40] {
-        let mut talks: Vec<Talk> = (0..count).map(|index| Talk::sharing(index, count)).collect();
+        let mut talks: Vec<Talk> =
+            (0..count).map(|index| Talk::sharing(SCENE, index, count)).collect();
         let mut parts = Vec::new();
         for talk in &mut talks {
             while talk.engine.has_work() {

@@ -1,10 +1,14 @@
 //! The protocol, against the engine and against the server.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
+mod changing;
 mod client;
 mod engine;
 #[cfg(feature = "server")]
+mod hostile;
+#[cfg(feature = "server")]
 mod server;
+mod teaching;
 
 /// A small scene: two balls, of which one mirrors, a floor, two lights.
 const SCENE: &str = r##"version = 1

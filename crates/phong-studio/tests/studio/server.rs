@@ -17,14 +17,14 @@ use crate::SCENE;
 use crate::client::Page;
 
 /// A studio on a folder with a scene in it and a secret beside it.
-struct Studio {
+pub(crate) struct Studio {
     address: SocketAddr,
     token: String,
     _folder: TempDir,
 }
 
 impl Studio {
-    fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let folder = tempfile::tempdir().unwrap();
         let inner = folder.path().join("scenes");
         std::fs::create_dir(&inner).unwrap();
@@ -64,7 +64,7 @@ impl Studio {
         format!("Host: {}\r\n", self.address)
     }
 
-    fn call(&self) -> Result<Client, String> {
+    pub(crate) fn call(&self) -> Result<Client, String> {
         self.call_from(&format!("http://{}", self.address))
     }
 
@@ -80,7 +80,7 @@ impl Studio {
     }
 }
 
-struct Client {
+pub(crate) struct Client {
     socket: WebSocket<TcpStream>,
     page: Page,
 }
@@ -91,7 +91,7 @@ impl Client {
     }
 
     /// Hears until `enough`.
-    fn until(&mut self, enough: impl Fn(&Page) -> bool) {
+    pub(crate) fn until(&mut self, enough: impl Fn(&Page) -> bool) {
         while !enough(&self.page) {
             match self.socket.read().unwrap() {
                 Sent::Text(text) => self.page.hear(&Message::Text(text.to_string())),
@@ -101,7 +101,7 @@ impl Client {
         }
     }
 
-    fn open(&mut self, path: &str) {
+    pub(crate) fn open(&mut self, path: &str) {
         self.ask(&json!({ "do": "pixels", "kind": "linear" }));
         self.ask(&json!({ "do": "open", "path": path }));
     }
@@ -113,7 +113,7 @@ fn a_page_is_told_what_there_is_and_draws_it_to_the_end() {
     let mut client = studio.call().unwrap();
     client.until(|page| !page.all("hello").is_empty());
     let hello = client.page.last("hello");
-    assert_eq!((&hello["protocol"], &hello["open"]), (&json!(1), &json!("a.toml")));
+    assert_eq!((&hello["protocol"], &hello["open"]), (&json!(2), &json!("a.toml")));
     assert!(hello["files"].as_array().unwrap().contains(&json!("a.toml")));
     client.open("a.toml");
     client.until(Page::is_done);

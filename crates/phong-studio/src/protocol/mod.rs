@@ -3,11 +3,15 @@
 //! Messages are JSON, a text each: the page sends [`Request`]s, the engine answers [`Reply`]s. What
 //! is large comes as a frame of bytes: [`TileFrame`]s and files.
 
+mod frame;
+
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
+pub use frame::{HEADER, TileFrame, file_frame};
+
 /// The version of the protocol. A page and an engine of different versions do not talk.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// What the page asks for.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -23,6 +27,33 @@ pub enum Request {
     Edit {
         /// All of the text.
         text: String,
+        /// What is laid over it from now on; `None`: what was.
+        #[serde(default)]
+        set: Option<Map<String, Value>>,
+    },
+    /// Writes values into the text, of which nothing else is changed, and draws that. What was laid
+    /// over these keys is taken back.
+    Write {
+        /// The values by the paths of their keys; `null` takes a key out of the text.
+        set: Map<String, Value>,
+    },
+    /// Drags a handle in the plane through it that faces the camera, and lays the keys that follow it
+    /// over the scene.
+    Drag {
+        /// Which handle.
+        path: String,
+        /// Where it was taken hold of, in pixels of the picture.
+        from: [f64; 2],
+        /// Where it is now.
+        to: [f64; 2],
+        /// Whether it is let go of: then its keys are written into the text.
+        #[serde(default)]
+        keep: bool,
+    },
+    /// Leaves terms out of what is drawn from now on. Files are of the whole picture.
+    Terms {
+        /// The names of those to leave out.
+        off: Vec<String>,
     },
     /// Lays values over the scene: `{"materials.red.shininess": 60}`. Of the same key the newest
     /// counts; `null` takes it back to what the text says.
@@ -61,6 +92,38 @@ pub enum Request {
         /// Samples of it to tell, 1 to [`MOST_EXPLAINED`]; 1 is the ray through its centre.
         #[serde(default = "one")]
         samples: u32,
+        /// Values that are laid over the scene for this answer alone, as of `look`.
+        #[serde(default)]
+        set: Map<String, Value>,
+    },
+    /// The highlight's lobe at a pixel.
+    Lobe {
+        /// Comes back with the answer.
+        id: u64,
+        /// Column and row, from the upper left.
+        pixel: [u32; 2],
+        /// The light, from 1.
+        light: usize,
+        /// Values that are laid over the scene for this answer alone, as of `look`.
+        #[serde(default)]
+        set: Map<String, Value>,
+    },
+    /// Draws the picture with one mistake in it, for somebody to find.
+    Mistake {
+        /// Which of those that the scene can show.
+        seed: u64,
+    },
+    /// Says what the mistake is.
+    Guess {
+        /// Its name; `None`: somebody gives up.
+        cause: Option<String>,
+    },
+    /// Holds somebody else's picture of the scene against ours.
+    Grade {
+        /// What it is called.
+        name: String,
+        /// Its file, in base 64.
+        bytes: String,
     },
     /// Stops drawing; what is drawn stays.
     Cancel,
@@ -73,19 +136,7 @@ pub enum Request {
     },
     /// Sends the table of keys.
     Keys,
-    /// Draws tiny mirrors at random, and counts where they send the light.
-    Facets {
-        /// Comes back with the answer.
-        id: u64,
-        /// The angle at which the light comes in, from the normal, degrees in [5, 80].
-        theta: f64,
-        /// How many, 1 to [`MOST_FACETS`]; more begin with the same ones.
-        count: u32,
-    },
 }
-
-/// The most facets that are drawn at once.
-pub const MOST_FACETS: u32 = 1_000_000;
 
 fn one() -> u32 {
     1
@@ -115,6 +166,10 @@ pub enum FileKind {
     Exr,
     /// The scene's text as it was edited, without what was laid over it.
     Toml,
+    /// A program in Python that draws what is shown.
+    Python,
+    /// Every pixel of what is shown explained, in one page for offline use.
+    Html,
 }
 
 /// What the engine says.
@@ -138,6 +193,11 @@ pub enum Reply {
         path: String,
         /// Its text; `None` for a bare model, which has none.
         text: Option<String>,
+    },
+    /// The text as it is after values were written into it.
+    Text {
+        /// All of it.
+        text: String,
     },
     /// All there is to say about the text, as `phong check --json` says it.
     Checked {
@@ -164,6 +224,12 @@ pub enum Reply {
         set: Map<String, Value>,
         /// The command line that draws this very picture; `None` for a bare model that was turned.
         command: Option<String>,
+        /// Points of the scene that can be dragged, where they are seen.
+        handles: Vec<Handle>,
+        /// The terms that a picture of the scene can have, in the order of the sum.
+        terms: Vec<&'static str>,
+        /// Those that are left out of what is drawn.
+        off: Vec<&'static str>,
     },
     /// A pass of a picture is done.
     Pass {
@@ -184,8 +250,59 @@ pub enum Reply {
         picture: u32,
         /// What `phong explain --json` says.
         told: Value,
+        /// The levels that the pixel has in a picture with a mistake, where one is shown.
+        drawn: Option<[u8; 3]>,
         /// Vectors and rays of the first sample, as they are seen in the picture.
         lines: Vec<Line>,
+    },
+    /// The highlight's lobe at a pixel, in the plane of the normal and a light.
+    Lobe {
+        /// As asked.
+        id: u64,
+        /// The pixel.
+        pixel: [u32; 2],
+        /// The light's name.
+        light: String,
+        /// The lobe's outline, degree by degree from one horizon to the other: as far from (0, 0) as
+        /// it is strong towards there; the strongest is 1. Up is the normal, and the light comes from
+        /// the left.
+        points: Vec<[f32; 2]>,
+        /// Unit vectors, as they lie in this plane.
+        marks: Vec<Mark>,
+        /// How strong it is at most, with `k_s`, of white light.
+        most: f32,
+        /// How strong it is towards the eye.
+        at_eye: f32,
+    },
+    /// The picture has a mistake in it. Its tiles follow, then its only pass.
+    Mistake {
+        /// The picture's number.
+        picture: u32,
+        /// What it may be.
+        choices: Vec<Choice>,
+    },
+    /// Whether the mistake was found.
+    Verdict {
+        /// What was said.
+        cause: Option<String>,
+        /// Whether it is right.
+        right: bool,
+        /// What is wrong with the picture, and what would be right; `None`: it is still to be found.
+        says: Option<String>,
+    },
+    /// What there is to say about somebody's picture.
+    Graded {
+        /// What it is called.
+        name: String,
+        /// What `phong grade --json` says.
+        told: Value,
+    },
+    /// A class sheet was opened.
+    Sheet {
+        /// What it is called.
+        title: String,
+        /// What there is to do.
+        exercises: Vec<Exercise>,
     },
     /// A file; its bytes follow as a frame.
     File {
@@ -198,23 +315,6 @@ pub enum Reply {
     Keys {
         /// The schema.
         schema: Value,
-    },
-    /// What tiny mirrors send out, and what they should add up to: densities per steradian.
-    Facets {
-        /// As asked.
-        id: u64,
-        /// As asked.
-        count: u32,
-        /// The angles from the normal between which directions are counted, degrees.
-        range: [f64; 2],
-        /// For each band of directions, facets by the light that each catches.
-        counted: Vec<f64>,
-        /// For each band, facets counted alike.
-        alike: Vec<f64>,
-        /// The lobe of the formula over the same range, at equal distances.
-        lobe: Vec<f64>,
-        /// How far `counted` is from it: root mean square, in units of its peak.
-        error: f64,
     },
     /// A request could not be met. The engine goes on.
     Error {
@@ -237,6 +337,53 @@ pub struct Line {
     pub to: [f64; 2],
 }
 
+/// A point of the scene that can be dragged in the picture.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Handle {
+    /// The key that follows it, or the first of several; it names the handle.
+    pub path: String,
+    /// `camera`, `light`, `target` (of a spot light) or `object`.
+    pub kind: &'static str,
+    /// What it is a handle of.
+    pub name: String,
+    /// Where it is seen, in pixels of the picture from its upper left.
+    pub at: [f64; 2],
+}
+
+/// One of several mistakes that a picture may have in it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Choice {
+    /// Its name, as of `phong grade`.
+    pub cause: &'static str,
+    /// What is wrong, and what would be right.
+    pub says: &'static str,
+}
+
+/// Something to do, from a class sheet.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Exercise {
+    /// What it is called.
+    pub title: String,
+    /// What to do.
+    #[serde(default)]
+    pub text: String,
+    /// The scene that it is about, relative to the opened folder.
+    pub scene: String,
+    /// The seed of a mistake to be found in its picture; `None`: there is none.
+    #[serde(default)]
+    pub mistake: Option<u64>,
+}
+
+/// A direction in a plot.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Mark {
+    /// `n`, `l`, `r`, `e` or `h`.
+    pub name: &'static str,
+    /// Its part in the plane of the plot: shorter than 1 where it leaves that plane.
+    pub at: [f32; 2],
+}
+
 /// A message from the engine, as it is sent.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Message {
@@ -253,73 +400,6 @@ impl From<&Reply> for Message {
     }
 }
 
-/// Pixels of a part of a picture.
-#[derive(Clone, Copy, Debug)]
-pub struct TileFrame<'a> {
-    /// The picture's number.
-    pub picture: u32,
-    /// The pass, from 0.
-    pub pass: u16,
-    /// How many pixels of the picture, across and down, each pixel here stands for: 8 or 1.
-    pub step: u8,
-    /// Left edge, in pixels of this frame's own grid.
-    pub x: u32,
-    /// Upper edge.
-    pub y: u32,
-    /// Width.
-    pub width: u32,
-    /// Height.
-    pub height: u32,
-    /// Three linear values a pixel, rows from top to bottom.
-    pub colors: &'a [f32],
-    /// One value a pixel.
-    pub alphas: &'a [f32],
-}
-
-/// Bytes before the pixels of a tile, and before a file.
-pub const HEADER: usize = 24;
-
-impl TileFrame<'_> {
-    /// As it is sent: one byte for the kind (1 sRGB, 2 linear), one for the step, two for the pass, then
-    /// the picture, x, y, width and height in four bytes each, and the pixels; least significant byte
-    /// first.
-    #[must_use]
-    pub fn bytes(&self, kind: PixelKind) -> Vec<u8> {
-        let pixels = self.colors.chunks_exact(3).zip(self.alphas);
-        let (code, each) = match kind {
-            PixelKind::Srgb8 => (1, 4),
-            PixelKind::Linear => (2, 16),
-        };
-        let mut out = Vec::with_capacity(HEADER + each * self.alphas.len());
-        out.extend([code, self.step]);
-        out.extend(self.pass.to_le_bytes());
-        for number in [self.picture, self.x, self.y, self.width, self.height] {
-            out.extend(number.to_le_bytes());
-        }
-        match kind {
-            PixelKind::Srgb8 => pixels.for_each(|(color, &alpha)| {
-                let straight = |v: f32| if alpha > 0.0 { v / alpha } else { v };
-                out.extend(color.iter().map(|&v| phong::image::srgb_level(straight(v))));
-                out.push((alpha.clamp(0.0, 1.0) * 255.0 + 0.5) as u8);
-            }),
-            PixelKind::Linear => pixels.for_each(|(color, alpha)| {
-                color.iter().chain([alpha]).for_each(|v| out.extend(v.to_le_bytes()));
-            }),
-        }
-        out
-    }
-}
-
-/// A file as it is sent: the kind 3, and 23 bytes that say nothing, so that pixels and files begin at
-/// the same place.
-#[must_use]
-pub fn file_frame(bytes: &[u8]) -> Vec<u8> {
-    let mut out = vec![0; HEADER];
-    out[0] = 3;
-    out.extend(bytes);
-    out
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -330,7 +410,7 @@ mod tests {
         let turn = read(r#"{"do": "turn", "by": [0.1, -0.2]}"#).unwrap();
         assert_eq!(turn, Request::Turn { by: [0.1, -0.2] });
         let explain = read(r#"{"do": "explain", "id": 7, "pixel": [3, 4]}"#).unwrap();
-        assert_eq!(explain, Request::Explain { id: 7, pixel: [3, 4], samples: 1 });
+        assert_eq!(explain, Request::Explain { id: 7, pixel: [3, 4], samples: 1, set: Map::new() });
         let pixels = read(r#"{"do": "pixels", "kind": "linear"}"#).unwrap();
         assert_eq!(pixels, Request::Pixels { kind: PixelKind::Linear });
         for wrong in
@@ -338,29 +418,5 @@ mod tests {
         {
             assert!(read(wrong).is_err(), "{wrong}");
         }
-    }
-
-    #[test]
-    fn a_tile_begins_with_24_bytes_and_keeps_every_bit_of_linear_values() {
-        let (colors, alphas) = ([0.25, 1.0, -0.5, 0.1, f32::MIN_POSITIVE, 3.0], [1.0, 0.5]);
-        let tile = TileFrame {
-            picture: 258,
-            pass: 3,
-            step: 1,
-            x: 16,
-            y: 32,
-            width: 2,
-            height: 1,
-            colors: &colors,
-            alphas: &alphas,
-        };
-        let bytes = tile.bytes(PixelKind::Linear);
-        assert_eq!(bytes[..8], [2, 1, 3, 0, 2, 1, 0, 0]);
-        assert_eq!(bytes.len(), HEADER + 2 * 16);
-        let value = |i: usize| f32::from_le_bytes(bytes[HEADER + 4 * i..][..4].try_into().unwrap());
-        let values: Vec<f32> = (0..8).map(value).collect();
-        assert_eq!(values, [0.25, 1.0, -0.5, 1.0, 0.1, f32::MIN_POSITIVE, 3.0, 0.5]);
-        let bytes = tile.bytes(PixelKind::Srgb8);
-        assert_eq!(bytes[HEADER..], [137, 255, 0, 255, 124, 0, 255, 128]);
     }
 }

@@ -1,0 +1,50 @@
+//! How to draw what is shown elsewhere: as a command line, and as a program in Python.
+
+use serde_json::Value;
+
+use super::look;
+use super::opened::Opened;
+use super::writing::written;
+
+impl Opened {
+    /// The command line that draws what is shown.
+    pub(super) fn command(&self) -> Option<String> {
+        if self.text.is_none() && !self.set.is_empty() {
+            return None;
+        }
+        let mut command = format!("phong render {}", quoted(&self.path));
+        for change in look::changes(&self.set) {
+            command.push_str(" --set ");
+            command.push_str(&quoted(&change));
+        }
+        Some(command)
+    }
+
+    /// A program in Python that draws what is shown: from the file if it is the file that is shown,
+    /// else from the text with what is laid over it written in.
+    pub(super) fn python(&self) -> Result<String, String> {
+        // Text of JSON is text of Python.
+        let read = match (&self.text, self.set.is_empty()) {
+            (text, true) if *text == self.as_read => {
+                format!("phong.Scene.read({})", Value::from(self.path.as_str()))
+            }
+            (None, _) => return Err("a bare model that was changed has no text to copy".to_owned()),
+            (Some(text), _) => {
+                let text = written(text, &self.set)?
+                    .replace('\\', "\\\\")
+                    .replace("\"\"\"", "\\\"\\\"\\\"");
+                format!("phong.Scene.parse(\"\"\"\\\n{text}\"\"\")")
+            }
+        };
+        Ok(format!("import phong\n\nscene = {read}\nphong.render(scene).save(\"picture.png\")\n"))
+    }
+}
+
+/// A word for a shell: in single quotes where it holds anything but plain letters.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', "'\\''"))
+}
