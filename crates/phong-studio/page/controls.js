@@ -1,5 +1,6 @@
 // Sliders and colour wells for what can be laid over a scene, made from the table of keys.
 
+import { keysOf } from "./keys.js";
 import { words } from "./words.js";
 
 // Where sliders end whose key has no end of its own.
@@ -9,9 +10,11 @@ const REACH = { shininess: 200, k_a: 1, k_d: 1, k_s: 2, k_e: 2, fov: 120, sample
 const LEFT_OUT = new Set(["eye", "look_at", "up", "size", "seed", "name", "attenuation"]);
 
 export class Controls {
-  constructor(root, set) {
+  // `set` is called while a value is moved, `keep` when it is let go of.
+  constructor(root, { set, keep }) {
     this.root = root;
     this.set = set;
+    this.keep = keep;
     this.shown = "";
     this.refresh = [];
   }
@@ -56,7 +59,9 @@ export class Controls {
       one("camera", words.groups.camera),
       one("image", words.groups.image),
     ];
-    return all.map((group) => ({ ...group, keys: keysOf(group) }));
+    const left = ([key]) => !LEFT_OUT.has(key);
+    const keys = (group) => Object.fromEntries(Object.entries(keysOf(group)).filter(left));
+    return all.map((group) => ({ ...group, keys: keys(group) }));
   }
 
   group({ title, path, keys }, open) {
@@ -89,6 +94,7 @@ export class Controls {
     name.textContent = key;
     row.append(name);
     const set = (value) => this.set({ [path]: value });
+    const keep = (value) => this.keep({ [path]: value });
     const input = (attributes) => {
       const element = document.createElement("input");
       Object.assign(element, attributes);
@@ -99,17 +105,17 @@ export class Controls {
     const plain = schema.anyOf?.find((one) => one.type === "number" && !one.title) ?? schema;
     if (this.look.wells[path] !== undefined) {
       const well = input({ type: "color" });
-      well.oninput = () => set(well.value);
-      this.refresh.push(() => idle(well) && (well.value = this.look.wells[path] ?? well.value));
+      const held = hold(well, "input", set, keep);
+      this.refresh.push(() => !held() && (well.value = this.look.wells[path] ?? well.value));
     } else if (schema.enum) {
       const select = document.createElement("select");
       select.append(...schema.enum.map((word) => new Option(word, word)));
-      select.onchange = () => set(select.value);
+      select.onchange = () => keep(select.value);
       row.append(select);
-      this.refresh.push(() => idle(select) && (select.value = this.value(path, schema)));
+      this.refresh.push(() => (select.value = this.value(path, schema)));
     } else if (schema.type === "boolean") {
       const box = input({ type: "checkbox" });
-      box.onchange = () => set(box.checked);
+      box.onchange = () => keep(box.checked);
       this.refresh.push(() => (box.checked = this.value(path, schema) === true));
     } else if (plain.type === "number" || plain.type === "integer") {
       const whole = plain.type === "integer";
@@ -118,16 +124,17 @@ export class Controls {
       const step = whole ? 1 : (most - Math.max(least, 0)) / 200;
       const slider = input({ type: "range", min: Math.max(least, whole ? 1 : 0), max: most, step });
       const number = input({ type: "number", step: "any" });
-      slider.oninput = () => set(Number((number.value = slider.value)));
-      number.onchange = () => number.value !== "" && set(Number(number.value));
+      const value = (of) => (to) => of(Number((number.value = to)));
+      const held = hold(slider, "input", value(set), value(keep));
+      const typed = hold(number, "input", () => {}, (to) => to !== "" && keep(Number(to)));
       this.refresh.push(() => {
         const value = this.value(path, schema);
         if (typeof value !== "number") return;
-        if (idle(slider)) {
+        if (!held()) {
           if (value > Number(slider.max)) slider.max = 2 * value;
           slider.value = value;
         }
-        if (idle(number)) number.value = Number(value.toPrecision(7));
+        if (!typed()) number.value = Number(value.toPrecision(7));
       });
     } else {
       return null;
@@ -136,19 +143,16 @@ export class Controls {
   }
 }
 
-// Whether nobody is at this control just now.
-function idle(element) {
-  return document.activeElement !== element;
-}
-
-// The keys of a table that go with the kind of this one.
-function keysOf({ table, values }) {
-  const keys = { ...table.properties };
-  for (const { if: condition, then } of table.allOf ?? []) {
-    const [select, { const: word }] = Object.entries(condition.properties)[0];
-    const chosen = values[select] ?? keys[select]?.default;
-    if (chosen === word) Object.assign(keys, then.properties);
-  }
-  const left = ([key, schema]) => schema !== false && !LEFT_OUT.has(key) && !schema.not;
-  return Object.fromEntries(Object.entries(keys).filter(left));
+// Calls `set` while a control is moved and `keep` when it is let go of; gives whether it is held.
+function hold(control, moved, set, keep) {
+  let held = false;
+  control.addEventListener(moved, () => {
+    held = true;
+    set(control.value);
+  });
+  control.addEventListener("change", () => {
+    held = false;
+    keep(control.value);
+  });
+  return () => held;
 }

@@ -21,5 +21,9 @@ function call({ hear, take, gone }) {
     send(request) {
       if (socket.readyState === WebSocket.OPEN) socket.send(JSON.stringify(request));
     },
+    close() {
+      socket.onclose = null;
+      socket.close();
+    },
   };
 }

@@ -1,41 +1,25 @@
 // A pixel, explained: the equation with its numbers, as the engine tells them.
 
+import { element, number, swatch, triple } from "./elements.js";
 import { words } from "./words.js";
 
 const SUBSCRIPTS = { c_a: "a", c_d: "d", c_s: "s" };
 
-export function show(root, told) {
+// `drawn` are the levels of the pixel in a picture with a mistake.
+export function show(root, told, drawn) {
   const [sample] = told.samples;
-  const parts = [swatch(told)];
+  const parts = [result(told)];
+  if (drawn) parts.push(element("p", { class: "result" }, swatch({ srgb8: drawn }), ` ${words.drawn} ${drawn.join(" ")}`));
   if (sample.hit) parts.push(...surface(sample));
   else parts.push(element("p", {}, words.background));
   parts.push(terms(told));
   root.replaceChildren(...parts);
 }
 
-function element(name, attributes, ...children) {
-  const made = document.createElement(name);
-  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-  made.append(...children);
-  return made;
-}
-
-// A number with as many digits as one wants to read; the title has them all.
-function number(value) {
-  const text = value === null ? "∞" : Number(value.toPrecision(4)).toString();
-  return element("span", { class: "number", title: String(value) }, text);
-}
-
-function triple(values) {
-  const parts = values.flatMap((value, i) => (i === 0 ? [number(value)] : [", ", number(value)]));
-  return element("span", { class: "triple" }, "(", ...parts, ")");
-}
-
-function swatch({ pixel, linear, srgb8 }) {
-  const sample = element("span", { class: "swatch" });
-  sample.style.backgroundColor = `rgb(${srgb8.join(" ")})`;
+function result(told) {
+  const { pixel, linear, srgb8 } = told;
   const says = [` (${pixel.join(", ")}): ${words.linear} `, triple(linear), ` ${words.shown} ${srgb8.join(" ")}`];
-  return element("p", { class: "result" }, sample, ...says);
+  return element("p", { class: "result" }, swatch(told), ...says);
 }
 
 function surface(sample) {

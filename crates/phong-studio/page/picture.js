@@ -1,17 +1,19 @@
 // The picture, what is drawn over it, and the hands on it.
 
-const SVG = "http://www.w3.org/2000/svg";
+import { drawn } from "./elements.js";
 
 export class Picture {
-  constructor(frame, { turn, move, zoom, point, pin }) {
+  constructor(frame, hands, { point, pin }) {
     this.frame = frame;
     this.canvas = frame.querySelector("canvas");
     this.overlay = frame.querySelector("svg");
     this.context = this.canvas.getContext("2d");
     this.small = document.createElement("canvas");
     this.number = 0;
-    this.hands = { turn, move, zoom, point, pin };
-    this.pending = null;
+    this.hands = hands;
+    this.point = point;
+    this.pin = pin;
+    this.held = false;
     this.listen();
   }
 
@@ -21,7 +23,7 @@ export class Picture {
     if (this.canvas.width !== width || this.canvas.height !== height) {
       this.canvas.width = width;
       this.canvas.height = height;
-      this.overlay.setAttribute("viewBox", `0 0 ${width} ${height}`);
+      this.overlay?.setAttribute("viewBox", `0 0 ${width} ${height}`);
       this.frame.style.setProperty("--width", width);
       this.frame.style.setProperty("--height", height);
     }
@@ -50,25 +52,31 @@ export class Picture {
 
   // Draws what an explanation says over the picture.
   lines(lines, [x, y]) {
-    const make = (name, attributes, text) => {
-      const element = document.createElementNS(SVG, name);
-      for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
-      if (text) element.textContent = text;
-      return element;
-    };
     const scale = this.canvas.height / 540;
     this.overlay.style.setProperty("--scale", scale);
-    const parts = [make("circle", { cx: x + 0.5, cy: y + 0.5, r: 4 * scale, class: "pixel" })];
+    const parts = [this.ring([x, y], "pixel")];
     for (const { name, light, from, to } of lines) {
       const along = { x1: from[0], y1: from[1], x2: to[0], y2: to[1] };
-      parts.push(make("line", { ...along, class: "under" }), make("line", { ...along, class: `line ${name}` }));
+      parts.push(drawn("line", { ...along, class: "under" }), drawn("line", { ...along, class: `line ${name}` }));
       if (name.length === 1) {
-        parts.push(make("circle", { cx: to[0], cy: to[1], r: 3 * scale, class: `tip ${name}` }));
+        parts.push(drawn("circle", { cx: to[0], cy: to[1], r: 3 * scale, class: `tip ${name}` }));
         const label = light === null ? name : `${name}${light}`;
-        parts.push(make("text", { x: to[0] + 6 * scale, y: to[1] - 4 * scale, class: name }, label));
+        parts.push(drawn("text", { x: to[0] + 6 * scale, y: to[1] - 4 * scale, class: name }, label));
       }
     }
+    if (this.other) parts.push(this.ring(this.other, "pixel other"));
     this.overlay.replaceChildren(...parts);
+  }
+
+  // Marks the other pixel of two that are compared; `null`: none.
+  mark(pixel) {
+    this.other = pixel;
+    this.overlay.querySelector(".other")?.remove();
+    if (pixel) this.overlay.append(this.ring(pixel, "pixel other"));
+  }
+
+  ring([x, y], kind) {
+    return drawn("circle", { cx: x + 0.5, cy: y + 0.5, r: (4 * this.canvas.height) / 540, class: kind });
   }
 
   clear() {
@@ -84,22 +92,6 @@ export class Picture {
     return inside ? [x, y] : null;
   }
 
-  // Gathers what hands do until the next picture can be shown.
-  gather(what, by) {
-    if (!this.pending) {
-      this.pending = { turn: [0, 0], move: [0, 0], zoom: 1 };
-      requestAnimationFrame(() => {
-        const { turn, move, zoom } = this.pending;
-        this.pending = null;
-        if (turn[0] || turn[1]) this.hands.turn(turn);
-        if (move[0] || move[1]) this.hands.move(move);
-        if (zoom !== 1) this.hands.zoom(zoom);
-      });
-    }
-    if (what === "zoom") this.pending.zoom *= by;
-    else this.pending[what] = this.pending[what].map((n, i) => n + by[i]);
-  }
-
   listen() {
     const { frame, canvas } = this;
     const fingers = new Map();
@@ -108,12 +100,13 @@ export class Picture {
       frame.setPointerCapture(event.pointerId);
       fingers.set(event.pointerId, [event.clientX, event.clientY]);
       travelled = fingers.size > 1 ? Infinity : 0;
+      this.held = true;
     });
     frame.addEventListener("pointermove", (event) => {
       const before = fingers.get(event.pointerId);
       if (!before) {
         const pixel = this.pixel(event);
-        if (pixel) this.hands.point(pixel);
+        if (pixel) this.point(pixel);
         return;
       }
       const now = [event.clientX, event.clientY];
@@ -124,17 +117,18 @@ export class Picture {
       if (fingers.size === 2) {
         const [other] = [...fingers].filter(([id]) => id !== event.pointerId).map(([, place]) => place);
         const apart = (place) => Math.hypot(place[0] - other[0], place[1] - other[1]) || 1;
-        this.gather("zoom", apart(before) / apart(now));
-        this.gather("move", by.map((n) => n / 2));
+        this.hands.zoom(apart(before) / apart(now));
+        this.hands.move(by.map((n) => n / 2));
       } else {
-        this.gather(event.shiftKey || event.buttons > 1 ? "move" : "turn", by);
+        this.hands[event.shiftKey || event.buttons > 1 ? "move" : "turn"](by);
       }
       fingers.set(event.pointerId, now);
     });
     const end = (event) => {
       const was = fingers.delete(event.pointerId);
+      this.held = fingers.size > 0;
       const pixel = this.pixel(event);
-      if (was && travelled < 4 && pixel && event.type === "pointerup") this.hands.pin(pixel);
+      if (was && travelled < 4 && pixel && event.type === "pointerup") this.pin(pixel, event.shiftKey);
     };
     frame.addEventListener("pointerup", end);
     frame.addEventListener("pointercancel", end);
@@ -143,16 +137,16 @@ export class Picture {
       "wheel",
       (event) => {
         event.preventDefault();
-        this.gather("zoom", event.deltaY > 0 ? 1.1 : 1 / 1.1);
+        this.hands.zoom(event.deltaY > 0 ? 1.1 : 1 / 1.1);
       },
       { passive: false },
     );
     frame.addEventListener("keydown", (event) => {
       const ways = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
       const way = ways[event.key];
-      if (way) this.gather(event.shiftKey ? "move" : "turn", way.map((n) => n * 0.04));
-      else if (event.key === "+" || event.key === "=") this.gather("zoom", 1 / 1.1);
-      else if (event.key === "-") this.gather("zoom", 1.1);
+      if (way) this.hands[event.shiftKey ? "move" : "turn"](way.map((n) => n * 0.04));
+      else if (event.key === "+" || event.key === "=") this.hands.zoom(1 / 1.1);
+      else if (event.key === "-") this.hands.zoom(1.1);
       else return;
       event.preventDefault();
     });

@@ -1,13 +1,23 @@
-// The studio's page: it shows what an engine says, and says what is asked of it. It computes nothing.
+// The studio's page: brings together the engine, the picture and what is asked of it. It computes nothing.
 
 import { connect } from "./engine.js";
+import { compare } from "./compare.js";
 import { Controls } from "./controls.js";
+import { Curtain } from "./curtain.js";
 import { Editor } from "./editor.js";
-import { Picture } from "./picture.js";
+import { check } from "./elements.js";
 import { show } from "./explained.js";
+import { Handles } from "./handles.js";
+import { Hands } from "./hands.js";
+import { History } from "./history.js";
+import { plot } from "./lobe.js";
+import { Picture } from "./picture.js";
+import { Saving } from "./saving.js";
+import { drops, Teaching } from "./teaching.js";
+import { WhatIf } from "./whatif.js";
 import { fill, words } from "./words.js";
 
-const PROTOCOL = 1;
+const PROTOCOL = 2;
 const at = (id) => document.getElementById(id);
 
 fill(document);
@@ -15,27 +25,72 @@ at("status").textContent = words.connecting;
 at("why").textContent = words.nothing;
 
 // What is known of the engine.
-const state = { look: null, stopped: false, asked: 0, answered: 0, wanted: null, pinned: null, file: null };
+const state = { look: null, stopped: false, asked: 0, answered: 0, wanted: null, pinned: null, other: null };
 globalThis.studio = state; // for who looks from outside, as tests do
 
 const engine = connect({ hear, take, gone: () => say(words.lost) });
 const send = (request) => engine.send(request);
-
-const picture = new Picture(at("frame"), {
-  turn: (by) => send({ do: "turn", by }),
-  move: (by) => send({ do: "move", by }),
-  zoom: (by) => send({ do: "zoom", by }),
+const saving = new Saving(send, () => say(words.copied));
+const hands = new Hands(send);
+const picture = new Picture(at("frame"), hands, {
   point: (pixel) => at("follow").checked && !state.pinned && explain(pixel),
-  pin: (pixel) => {
+  pin: (pixel, another) => {
+    if (another && state.pinned) keepOther();
     state.pinned = pixel;
     explain(pixel);
   },
 });
-const controls = new Controls(at("sliders"), (set) => send({ do: "look", set }));
-const editor = new Editor(at("text"), at("diagnostics"), (text) => send({ do: "edit", text }));
+const handles = new Handles(at("frame"), at("canvas"), {
+  drag: (drag) => hands.drag(drag),
+  drop: (drag) => {
+    hands.forget("drag");
+    editor.flush();
+    send({ do: "drag", ...drag });
+  },
+});
+const controls = new Controls(at("sliders"), { set: (set) => hands.look(set), keep: write });
+const editor = new Editor(at("text"), at("diagnostics"), at("offers"), (text) => send({ do: "edit", text }));
+const curtain = new Curtain(at("frame"), at("curtain"));
+const whatIf = new WhatIf(at("supposed"), (set) => {
+  if (state.told) send({ do: "explain", id: SUPPOSED, pixel: state.told.pixel, set });
+});
+const teaching = new Teaching(at("teaching"), {
+  send,
+  begin: ({ scene, mistake }) => {
+    send({ do: "open", path: scene });
+    if (mistake !== null) teaching.plant(mistake);
+  },
+});
+drops(teaching);
+const history = new History({
+  restore: ({ text, set }) => {
+    if (text === null) {
+      const gone = Object.keys(state.look.set).map((path) => [path, null]);
+      send({ do: "look", set: { ...Object.fromEntries(gone), ...set } });
+    } else {
+      editor.show(text);
+      send({ do: "edit", text, set });
+    }
+  },
+  changed: ({ canUndo, canRedo }) => {
+    at("undo").disabled = !canUndo;
+    at("redo").disabled = !canRedo;
+  },
+});
+
+// The numbers of answers that are not about the pixel under the pointer.
+const OTHER = 1e9;
+const SUPPOSED = 2e9;
 
 function say(text) {
   at("status").textContent = text;
+}
+
+// Writes values into the text; a bare model has none, and they are laid over it.
+function write(set) {
+  hands.forget("look");
+  editor.flush();
+  send(state.bare ? { do: "look", set } : { do: "write", set });
 }
 
 // One question at a time; of those that come meanwhile the newest is asked next.
@@ -52,6 +107,40 @@ function ask() {
   send({ do: "explain", id: state.asked, pixel });
 }
 
+function askLobe() {
+  if (at("lobe").open && state.told?.samples[0].hit) {
+    send({ do: "lobe", id: state.asked, pixel: state.told.pixel, light: Number(at("lobe-light").value) });
+  }
+}
+
+// Keeps the pixel that is explained, to be compared with the next.
+function keepOther() {
+  state.other = state.other ? null : state.told?.pixel ?? null;
+  at("pin").textContent = state.other ? words.unpin : words.pin;
+  at("pin").setAttribute("aria-pressed", String(state.other !== null));
+  at("compared").replaceChildren();
+  picture.mark(state.other);
+  if (state.other) send({ do: "explain", id: OTHER, pixel: state.other });
+}
+
+function note() {
+  const text = state.bare ? null : editor.text;
+  history.note({ text, set: state.look?.set ?? {} }, picture.held || handles.held !== null);
+}
+
+function terms({ terms: all, off }) {
+  const boxes = all.map((name) =>
+    check(name, !off.includes(name), (on) => {
+      const left = state.look.off.filter((one) => one !== name);
+      send({ do: "terms", off: on ? left : [...left, name] });
+    }),
+  );
+  const [legend] = at("terms").children;
+  const focused = [...at("terms").querySelectorAll("input")].indexOf(document.activeElement);
+  at("terms").replaceChildren(legend, ...boxes);
+  if (focused >= 0) at("terms").querySelectorAll("input")[focused]?.focus();
+}
+
 const hearing = {
   hello({ protocol, open, files }) {
     if (protocol !== PROTOCOL) return say(words.old);
@@ -62,50 +151,107 @@ const hearing = {
   },
   scene({ path, text }) {
     at("file").value = path;
+    state.bare = text === null;
+    state.fresh = true;
+    state.path = path;
     editor.show(text);
     state.pinned = null;
+    if (state.other) keepOther();
+    if (curtain.engine) keepA();
     picture.clear();
+  },
+  text({ text }) {
+    editor.show(text);
+    say(words.written);
   },
   checked({ ok, diagnostics }) {
     editor.say(diagnostics);
     at("frame").classList.toggle("stale", !ok);
-    if (!ok) say(words.broken);
+    if (ok) return;
+    say(words.broken);
+    hands.seen();
+    if (!state.fresh) note();
   },
   look(look) {
     state.look = look;
     state.stopped = false;
     at("stop").textContent = words.stop;
     picture.begin(look.picture, look.size);
+    teaching.end();
     controls.update(look);
+    handles.show(at("show-handles").checked ? look.handles : []);
+    terms(look);
+    curtain.follow(look);
     at("command").textContent = look.command ?? "";
+    at("write").disabled = state.bare || Object.keys(look.set).length === 0;
+    at("reset").disabled = Object.keys(look.set).length === 0;
     at("x").max = look.size[0] - 1;
     at("y").max = look.size[1] - 1;
+    if (state.fresh) history.start({ text: state.bare ? null : editor.text, set: look.set });
+    else note();
+    state.fresh = false;
     if (state.pinned) explain(state.pinned);
+    if (state.other) send({ do: "explain", id: OTHER, pixel: state.other });
   },
   pass({ picture: number, pass, passes, samples }) {
     if (number !== state.look?.picture) return;
-    if (pass === 0) picture.first();
+    if (pass === 0) {
+      state.seen = number;
+      // Where there is one pass alone, its tiles are of full size.
+      if (passes > 1) picture.first();
+      hands.seen();
+    }
     at("progress").value = (pass + 1) / passes;
     const all = state.look.samples;
     say(pass + 1 === passes ? words.done(all) : words.drawing(samples, all));
     state.done = pass + 1 === passes ? number : state.done;
   },
-  explanation({ id, told, lines }) {
-    state.answered = Math.max(state.answered, id);
-    state.told = told;
-    show(at("why"), told);
-    picture.lines(lines, told.pixel);
-    [at("x").value, at("y").value] = told.pixel;
-    ask();
+  explanation({ id, told, drawn, lines }) {
+    if (id === SUPPOSED) return whatIf.answer(told);
+    if (id === OTHER) {
+      state.compared = told;
+    } else {
+      state.answered = Math.max(state.answered, id);
+      state.told = told;
+      show(at("why"), told, drawn);
+      picture.lines(lines, told.pixel);
+      [at("x").value, at("y").value] = told.pixel;
+      whatIf.show(told, state.look.values);
+      askLobe();
+      ask();
+    }
+    if (state.other && state.compared) compare(at("compared"), state.compared, state.told);
+  },
+  mistake(mistake) {
+    teaching.choose(mistake);
+  },
+  verdict(verdict) {
+    teaching.judged(verdict);
+  },
+  graded(graded) {
+    teaching.marked(graded);
+  },
+  sheet(sheet) {
+    teaching.sheet(sheet);
+    const [first] = sheet.exercises;
+    if (first) send({ do: "open", path: first.scene });
+  },
+  lobe(lobe) {
+    plot(at("plot"), lobe);
   },
   file({ name }) {
-    state.file = name;
+    saving.named(name);
   },
   keys({ schema }) {
     controls.keys(schema);
+    editor.keys(schema);
+    whatIf.keys(schema);
   },
   error({ message }) {
     state.answered = state.asked;
+    saving.refused();
+    teaching.refused();
+    hands.seen();
     say(message);
   },
 };
@@ -115,32 +261,38 @@ function hear(reply) {
 }
 
 function take(frame) {
-  if (frame.kind === "file") return save(state.file, frame.bytes);
+  if (frame.kind === "file") return saving.take(frame.bytes);
   picture.tile(frame);
 }
 
-function save(name, bytes) {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(new Blob([bytes]));
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+// Keeps what is shown as A, or leaves A.
+function keepA() {
+  const on = curtain.engine === null;
+  if (on) curtain.keep({ path: state.path, text: state.bare ? null : editor.text, ...state.look });
+  else curtain.leave();
+  at("keep-a").textContent = on ? words.leaveA : words.keepA;
 }
 
 at("file").onchange = ({ target }) => send({ do: "open", path: target.value });
+at("undo").onclick = () => history.undo();
+at("redo").onclick = () => history.redo();
 at("reset").onclick = () => send({ do: "reset" });
-for (const format of ["png", "exr", "toml"]) {
-  at(format).onclick = () => send({ do: "export", format });
+at("write").onclick = () => write(state.look.set);
+at("keep-a").onclick = keepA;
+at("show-handles").onchange = () => handles.show(at("show-handles").checked ? state.look.handles : []);
+at("lobe").ontoggle = askLobe;
+at("lobe-light").onchange = askLobe;
+at("pin").onclick = keepOther;
+for (const format of ["png", "exr", "toml", "html"]) {
+  at(format).onclick = () => saving.download(format);
 }
+at("copy").onclick = () => saving.clip(at("command").textContent);
+at("python").onclick = () => saving.copy("python");
 at("stop").onclick = () => {
   state.stopped = !state.stopped;
   at("stop").textContent = state.stopped ? words.resume : words.stop;
   if (state.stopped) say(words.stopped);
   send({ do: state.stopped ? "cancel" : "resume" });
-};
-at("copy").onclick = async () => {
-  await navigator.clipboard.writeText(at("command").textContent);
-  say(words.copied);
 };
 at("pixel").onsubmit = (event) => {
   event.preventDefault();
@@ -148,3 +300,13 @@ at("pixel").onsubmit = (event) => {
   explain(state.pinned);
 };
 at("follow").onchange = () => (state.pinned = null);
+addEventListener("pointerup", () => history.settle());
+addEventListener("keydown", (event) => {
+  const command = (event.ctrlKey || event.metaKey) && !event.altKey;
+  const key = command ? event.key.toLowerCase() : "";
+  if (key === "z") event.shiftKey ? history.redo() : history.undo();
+  else if (key === "y") history.redo();
+  else if (key === "s") saving.download("toml");
+  else return;
+  event.preventDefault();
+});

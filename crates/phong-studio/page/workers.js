@@ -8,7 +8,7 @@ import { words } from "./words.js";
 const MOST = 8;
 
 // Requests that leave the picture as it is: the first engine alone is asked.
-const ASKED = new Set(["explain", "export", "keys", "facets", "lobe"]);
+const ASKED = new Set(["explain", "export", "keys", "facets", "lobe", "guess", "grade"]);
 
 // A module that gives a vector: whether it is one at all tells whether vectors are known here.
 const VECTOR = [
@@ -73,6 +73,11 @@ class Team {
       if (request.do === "export") this.exported(request);
       else this.tell(request, ASKED.has(request.do) ? 1 : this.count);
     });
+  }
+
+  close() {
+    this.hear = this.take = () => {};
+    this.workers?.forEach((worker) => worker.terminate());
   }
 
   tell(request, many) {

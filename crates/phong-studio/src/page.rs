@@ -25,6 +25,7 @@ macro_rules! page_files {
 page_files! {
     "index.html" "text/html; charset=utf-8",
     "studio.css" "text/css; charset=utf-8",
+    "picture.css" "text/css; charset=utf-8",
     "studio.js" "text/javascript; charset=utf-8",
     "words.js" "text/javascript; charset=utf-8",
     "engine.js" "text/javascript; charset=utf-8",
@@ -36,6 +37,18 @@ page_files! {
     "controls.js" "text/javascript; charset=utf-8",
     "explained.js" "text/javascript; charset=utf-8",
     "editor.js" "text/javascript; charset=utf-8",
+    "completion.js" "text/javascript; charset=utf-8",
+    "compare.js" "text/javascript; charset=utf-8",
+    "curtain.js" "text/javascript; charset=utf-8",
+    "elements.js" "text/javascript; charset=utf-8",
+    "handles.js" "text/javascript; charset=utf-8",
+    "hands.js" "text/javascript; charset=utf-8",
+    "history.js" "text/javascript; charset=utf-8",
+    "keys.js" "text/javascript; charset=utf-8",
+    "lobe.js" "text/javascript; charset=utf-8",
+    "saving.js" "text/javascript; charset=utf-8",
+    "teaching.js" "text/javascript; charset=utf-8",
+    "whatif.js" "text/javascript; charset=utf-8",
 }
 
 /// The file of this name.
