@@ -136,7 +136,19 @@ pub enum Request {
     },
     /// Sends the table of keys.
     Keys,
+    /// Draws tiny mirrors at random, and counts where they send the light.
+    Facets {
+        /// Comes back with the answer.
+        id: u64,
+        /// The angle at which the light comes in, from the normal, degrees in [5, 80].
+        theta: f64,
+        /// How many, 1 to [`MOST_FACETS`]; more begin with the same ones.
+        count: u32,
+    },
 }
+
+/// The most facets that are drawn at once.
+pub const MOST_FACETS: u32 = 1_000_000;
 
 fn one() -> u32 {
     1
@@ -315,6 +327,23 @@ pub enum Reply {
     Keys {
         /// The schema.
         schema: Value,
+    },
+    /// What tiny mirrors send out, and what they should add up to: densities per steradian.
+    Facets {
+        /// As asked.
+        id: u64,
+        /// As asked.
+        count: u32,
+        /// The angles from the normal between which directions are counted, degrees.
+        range: [f64; 2],
+        /// For each band of directions, facets by the light that each catches.
+        counted: Vec<f64>,
+        /// For each band, facets counted alike.
+        alike: Vec<f64>,
+        /// The lobe of the formula over the same range, at equal distances.
+        lobe: Vec<f64>,
+        /// How far `counted` is from it: root mean square, in units of its peak.
+        error: f64,
     },
     /// A request could not be met. The engine goes on.
     Error {

@@ -1,0 +1,188 @@
+#!/usr/bin/env python3
+"""Keeps the studio busy for a while, and tells what memory it has before and after.
+
+`python3 .ci/soak.py PHONG [--minutes N] [--scene FILE]`: clients come, turn the scene, change it, ask
+and go, some of them in the middle of a picture. At the end memory may not
+have grown by more than a quarter and 16 MiB, and the last picture is the first, byte for byte.
+"""
+
+import argparse
+import base64
+import json
+import os
+import random
+import socket
+import struct
+import subprocess
+import time
+from pathlib import Path
+from urllib.parse import urlparse
+
+
+class Client:
+    """A page without a browser: a WebSocket, as RFC 6455 has it, as far as it is needed here."""
+
+    def __init__(self, url):
+        parsed = urlparse(url)
+        token = parsed.query.partition("token=")[2]
+        self.socket = socket.create_connection((parsed.hostname, parsed.port), timeout=60)
+        key = base64.b64encode(os.urandom(16)).decode()
+        self.socket.sendall(
+            f"GET /{token}/engine HTTP/1.1\r\nHost: {parsed.netloc}\r\nOrigin: http://{parsed.netloc}\r\n"
+            "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+            f"Sec-WebSocket-Key: {key}\r\n\r\n".encode()
+        )
+        self.file = self.socket.makefile("rb")
+        status = self.file.readline()
+        assert b"101" in status, status
+        while self.file.readline().strip():
+            pass
+        self.look, self.tiles = {}, 0
+
+    def ask(self, **request):
+        data = json.dumps(request).encode()
+        head = bytes([0x81]) + (bytes([0x80 | len(data)]) if len(data) < 126 else bytes([0xFE]) + struct.pack(">H", len(data)))
+        self.socket.sendall(head + bytes(4) + data)  # a mask of zeros is a mask
+
+    def hear(self):
+        """The next reply, or the bytes of the next frame."""
+        first, second = self.file.read(2)
+        length = second & 127
+        if length > 125:
+            length = int.from_bytes(self.file.read(2 if length == 126 else 8), "big")
+        data = self.file.read(length)
+        if first & 15 == 9:
+            return self.hear()
+        return json.loads(data) if first & 15 == 1 else data
+
+    def until(self, kind, **fields):
+        while True:
+            reply = self.hear()
+            if isinstance(reply, bytes):
+                self.tiles += 1
+                continue
+            if reply["is"] == "look":
+                self.look = reply
+            if reply["is"] == kind and all(reply[key] == value for key, value in fields.items()):
+                return reply
+
+    def drawn(self):
+        """Waits until the newest picture is done."""
+        while True:
+            reply = self.until("pass")
+            if reply["picture"] == self.look["picture"] and reply["pass"] + 1 == reply["passes"]:
+                return
+
+    def picture(self):
+        self.ask(do="export", format="png")
+        self.until("file")
+        return self.hear()
+
+    def close(self):
+        self.socket.close()
+
+
+def resident(process):
+    """Bytes of memory that a process has now."""
+    pages = Path(f"/proc/{process.pid}/statm").read_text().split()[1]
+    return int(pages) * os.sysconf("SC_PAGE_SIZE")
+
+
+def visit(url, name, dice):
+    """A client comes, does this and that, and goes. How many pictures were begun."""
+    client = Client(url)
+    client.until("hello")
+    client.ask(do="open", path=name)
+    client.until("look")
+    for _ in range(dice.randrange(5, 40)):
+        what = dice.randrange(5)
+        if what == 0:
+            client.ask(do="zoom", by=dice.choice([0.9, 1.1]))
+        elif what == 1:
+            client.ask(do="explain", id=1, pixel=[dice.randrange(20), dice.randrange(20)])
+        elif what == 2:
+            client.ask(do="look", set={"camera.fov": dice.uniform(20, 60)})
+        else:
+            client.ask(do="turn", by=[dice.uniform(-0.1, 0.1), dice.uniform(-0.05, 0.05)])
+        if what != 1:
+            client.until("look")
+    if dice.randrange(3):
+        client.drawn()
+    pictures = client.look["picture"]
+    client.close()
+    return pictures
+
+
+def soak(arguments):
+    scene = Path(arguments.scene).resolve()
+    studio = subprocess.Popen([arguments.phong, "studio", scene, "--no-open"], stdout=subprocess.PIPE, text=True)
+    try:
+        url = studio.stdout.readline().strip()
+        dice = random.Random(1)
+        client = Client(url)
+        client.until("hello")
+        client.ask(do="open", path=scene.name)
+        client.until("look")
+        client.drawn()
+        first = client.picture()
+        client.close()
+        for _ in range(5):
+            visit(url, scene.name, dice)
+        time.sleep(0.5)
+        before = resident(studio)
+        end, visits, pictures, most = time.monotonic() + 60 * arguments.minutes, 0, 0, before
+        while time.monotonic() < end:
+            pictures += visit(url, scene.name, dice)
+            visits += 1
+            most = max(most, resident(studio))
+        time.sleep(0.5)
+        after = resident(studio)
+        client = Client(url)
+        client.ask(do="open", path=scene.name)
+        client.until("look")
+        client.drawn()
+        assert client.picture() == first, "the last picture is not the first"
+        client.close()
+        mib = [f"{n / 2**20:.1f}" for n in (before, most, after)]
+        print(f"{arguments.minutes} min: {visits} clients, {pictures} pictures begun; memory {mib[0]} MiB, at most {mib[1]}, at the end {mib[2]}")
+        assert after <= 1.25 * before + 2**24, "memory has grown"
+    finally:
+        studio.terminate()
+        studio.wait()
+
+
+def speed(arguments):
+    """Pictures a second while a scene is turned: the next turn is asked for when the last is seen."""
+    scene = Path(arguments.scene).resolve()
+    studio = subprocess.Popen([arguments.phong, "studio", scene, "--no-open"], stdout=subprocess.PIPE, text=True)
+    try:
+        client = Client(studio.stdout.readline().strip())
+        client.until("hello")
+        client.ask(do="open", path=scene.name)
+        client.until("look")
+        client.ask(do="look", set={"image.size": [480, 270]})
+        client.until("look")
+        client.drawn()
+        count, begun = 0, time.monotonic()
+        while time.monotonic() - begun < arguments.seconds:
+            client.ask(do="turn", by=[0.01, 0.002])
+            client.until("look")
+            client.until("pass", picture=client.look["picture"], **{"pass": arguments.full})
+            count += 1
+        print(f"{scene.name} at 480 x 270: {count / (time.monotonic() - begun):.1f} pictures a second, to pass {arguments.full}")
+    finally:
+        studio.terminate()
+        studio.wait()
+
+
+parser = argparse.ArgumentParser()
+parser.add_argument("phong")
+parser.add_argument("--scene", default="scenes/two-balls.toml")
+parser.add_argument("--minutes", type=float, default=60)
+parser.add_argument("--seconds", type=float, help="measure pictures a second for so long, and nothing else")
+parser.add_argument("--full", type=int, default=0, help="the pass that counts as a picture: 0 at an eighth of the size, 1 in full")
+arguments = parser.parse_args()
+if arguments.seconds:
+    speed(arguments)
+else:
+    soak(arguments)
