@@ -1,4 +1,4 @@
-"""The widget in a real JupyterLab, in a real browser without a display."""
+"""The widget in a real JupyterLab and in marimo, in a real browser without a display."""
 
 from __future__ import annotations
 
@@ -10,13 +10,14 @@ import shutil
 import socket
 import subprocess
 import sys
+import textwrap
 import time
 import urllib.error
 import urllib.request
 from collections.abc import Iterator
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
@@ -245,3 +246,81 @@ def test_a_notebook_is_turned_lit_and_explained(
     finished_after(page, fourth)
     assert pixels(page) != before
     page.screenshot(path=os.environ.get("PHONG_SCREENSHOT", str(tmp_path / "lab.png")))
+
+
+def test_marimo_shows_the_same_widget(browser_page: Page, tmp_path: Path) -> None:
+    if find_spec("marimo") is None or find_spec("anywidget") is None:
+        missing("marimo or anywidget")
+    # The cell is a function, whose last expression is shown.
+    body = textwrap.indent(SETUP + SHOW + "\nreturn\n", "    ")
+    app = f"import marimo\n\napp = marimo.App()\n\n\n@app.cell\ndef _():\n{body}"
+    (tmp_path / "app.py").write_text(app)
+    port, log = free_port(), tmp_path / "marimo.log"
+    command = [
+        sys.executable, "-m", "marimo", "-q", "run", "app.py", "--headless", "--no-token",
+        "--host", "127.0.0.1", "--port", str(port),
+    ]  # fmt: skip
+    environment = {**os.environ, "MARIMO_SKIP_UPDATE_CHECK": "1", "XDG_CACHE_HOME": str(tmp_path)}
+    with log.open("wb") as out:
+        process = subprocess.Popen(
+            command, env=environment, cwd=tmp_path, stdout=out, stderr=subprocess.STDOUT
+        )
+        try:
+            answers(f"http://127.0.0.1:{port}/health", process, log)
+            page = browser_page
+            page.goto(f"http://127.0.0.1:{port}/")
+            page.locator('.phong canvas[data-done="true"]').wait_for()
+            scope: dict[str, phong.Scene] = {}
+            exec(SETUP, scope)
+            scene = scope["scene"]
+            image = phong.render(scene, size=SIZE, samples=4)
+            assert pixels(page) == image.to_srgb8().reshape(-1).tolist()
+            page.locator(".phong canvas").click(position={"x": 170.5, "y": 140.5})
+            told = page.locator('.phong-explanation[data-pixel="170,140"]')
+            assert told.text_content() == phong.explain(scene, 170, 140, size=SIZE, samples=4).text
+        finally:
+            process.terminate()
+            try:
+                process.wait(20)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
+
+
+def test_interrupting_a_kernel_stops_a_picture_in_a_fifth_of_a_second(tmp_path: Path) -> None:
+    if find_spec("jupyter_client") is None or find_spec("ipykernel") is None:
+        missing("jupyter_client or ipykernel")
+    from jupyter_client.manager import start_new_kernel
+
+    manager, client = start_new_kernel(
+        cwd=str(tmp_path), env={**os.environ, "IPYTHONDIR": str(tmp_path)}, startup_timeout=300
+    )
+
+    def reply(request: str) -> dict[str, Any]:
+        """The answer to a cell; others are to what the client asks by itself."""
+        while True:
+            message: dict[str, Any] = client.get_shell_msg(timeout=300)
+            if message["parent_header"].get("msg_id") == request:
+                content: dict[str, Any] = message["content"]
+                return content
+
+    try:
+        small = "phong.render(scene, size=(8, 8), progress=False)"
+        assert reply(client.execute(SETUP + small))["status"] == "ok"
+        long = "phong.render(scene, size=(1920, 1080), samples=4096, progress=False)"
+        request = client.execute(f"print('begun', flush=True)\n{long}")
+        while client.get_iopub_msg(timeout=60)["content"].get("text") != "begun\n":
+            pass
+        time.sleep(0.5)
+        manager.interrupt_kernel()
+        interrupted = time.monotonic()
+        stopped = reply(request)
+        took = time.monotonic() - interrupted
+        assert (stopped["status"], stopped.get("ename")) == ("error", "KeyboardInterrupt")
+        # On a busy machine the kernel may itself have to wait.
+        assert took < 0.2 * max(1.0, os.getloadavg()[0]), took
+        print(f"{took:.3f} s from the interrupt to the answer")
+        assert reply(client.execute(small))["status"] == "ok"
+    finally:
+        client.stop_channels()
+        manager.shutdown_kernel(now=True)
