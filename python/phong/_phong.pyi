@@ -2,20 +2,47 @@
 
 from collections.abc import Callable, Sequence
 from os import PathLike
-from typing import Any, Literal, Self, TypeAlias
+from typing import Any, Literal, Self, TypeAlias, final
 
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
+from typing_extensions import disjoint_base
 
 from phong._errors import Diagnostic
 from phong._keys import Camera, Light, Material, Shape
 
 __version__: str
 
+__all__ = [
+    "Cancel",
+    "Image",
+    "Part",
+    "Scene",
+    "__version__",
+    "_check",
+    "_compare",
+    "_convert",
+    "_evaluate",
+    "_explain",
+    "_figure",
+    "_figures",
+    "_fit",
+    "_grade",
+    "_image_of_part",
+    "_render",
+    "_render_part",
+    "arithmetic",
+    "check_keys",
+    "main",
+    "merge",
+    "schema",
+]
+
 _Path: TypeAlias = str | PathLike[str]
 _Side: TypeAlias = Literal["front", "back", "left", "right", "top", "bottom", "iso"]
 _Colors: TypeAlias = ArrayLike | Sequence[str]
 
+@final
 class Cancel:
     """A way to stop work from another thread."""
 
@@ -24,6 +51,7 @@ class Cancel:
     @property
     def is_cancelled(self) -> bool: ...
 
+@final
 class Part:
     """A part of a scene: what an ``add_...`` has added."""
 
@@ -33,6 +61,7 @@ class Part:
     def __hash__(self) -> int: ...
     def __eq__(self, other: object, /) -> bool: ...
 
+@disjoint_base
 class Scene:
     def __new__(
         cls,
@@ -106,6 +135,7 @@ class Scene:
     def __copy__(self) -> Self: ...
     def __deepcopy__(self, _memo: object) -> Self: ...
 
+@final
 class Image:
     """A picture that was rendered. ``numpy.asarray`` makes an array of it: (H, W, 4) ``float32``,
     linear, premultiplied by alpha, rows from top to bottom; it cannot be changed."""
