@@ -32,7 +32,7 @@ impl Former {
             let _ = file.set_permissions(fs::Permissions::from_mode(mode));
         }
         #[cfg(not(unix))]
-        let _ = file;
+        let _ = (file, &self.0);
         Ok(())
     }
 
