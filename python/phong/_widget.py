@@ -114,7 +114,7 @@ def widget(
     size: tuple[int, int] = (640, 360),
     samples: int = 16,
 ) -> SceneWidget:
-    """A scene to look at in a notebook: JupyterLab, or another that shows anywidgets.
+    """A scene to look at in a notebook: JupyterLab, marimo, or another that shows anywidgets.
 
     Dragging turns it, shift-dragging moves it, the wheel goes nearer; so do the arrow keys, shift
     with them, + and -. Sliders pull lights and materials. A click explains the pixel, with numbers.

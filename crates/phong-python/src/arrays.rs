@@ -445,9 +445,11 @@ pub(crate) fn colors(
     let opaque = if bytes { 255.0 } else { 1.0 };
     let of_four = |[r, g, b, a]: [f64; 4]| {
         if a != opaque {
-            return Err(
-                "things that let light through are not built yet: its fourth number must be 1",
-            );
+            return Err(if bytes {
+                "a colour has no opacity of its own: its fourth number must be 255, or left out"
+            } else {
+                "a colour has no opacity of its own: its fourth number must be 1, or left out"
+            });
         }
         color([r, g, b])
     };
