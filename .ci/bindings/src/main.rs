@@ -13,5 +13,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     bindgen.input_path(module).web(true)?.out_name(name).typescript(false);
     // The page says where its module is.
     bindgen.omit_default_module_path(true);
+    bindgen.remove_name_section(true).remove_producers_section(true);
     Ok(bindgen.generate(folder)?)
 }
