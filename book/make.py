@@ -10,9 +10,11 @@ under `made/CHAPTER/` for the chapter to show.
 `--bless` writes what the commands say into the chapters, except where there is a `…`; a line of `?`
 is a place for it. `--built` takes the release build that is there, as the gate has made it.
 The book is then in `book/book`; every picture and link in it has to exist, and every picture to have
-a text that says what it shows.
+a text that says what it shows. Its figures are live if `bash .ci/wasm` was run before: then the
+renderer as WebAssembly lies in it, with the scenes of `book/live`, and any web server serves it.
 """
 
+import json
 import os
 import re
 import shlex
@@ -30,6 +32,8 @@ BUILT = ROOT / "book/book"
 MADE = SOURCE / "made"
 WORK = ROOT / "target/book"
 SCENES = ROOT / "scenes"
+LIVE = ROOT / "book/live"
+MODULES = ROOT / "target/release/wasm"
 BLESS = "--bless" in sys.argv[1:]
 IS_BUILT = "--built" in sys.argv[1:]
 
@@ -135,7 +139,11 @@ def readme():
     work.mkdir(parents=True)
     (work / "scenes").symlink_to(SCENES)
     for command in re.findall(r"^phong .*$", (ROOT / "README.md").read_text(), re.M):
-        if command.startswith("phong studio"):
+        if "--static" in command and not MODULES.is_dir():
+            print(f"not run, as `bash .ci/wasm` was not: {command}")
+        elif "--static" in command:
+            run(command, work)
+        elif command.startswith("phong studio"):
             serves(command, work)
         else:
             run(command, work)
@@ -190,6 +198,26 @@ def check_links():
     return count, len(pages)
 
 
+def live():
+    """Gives the figures an engine, and the book what keeps it for when there is no network."""
+    asked = {
+        name + ".toml"
+        for path in SOURCE.glob("*.md")
+        for name in re.findall(r'data-scene="([^"]*)"', path.read_text())
+    }
+    there = {path.name for path in LIVE.glob("*.toml")}
+    if asked != there:
+        sys.exit(f"scenes of live figures that are asked for and there differ: {sorted(asked ^ there)}")
+    if not MODULES.is_dir():
+        return "still, as `bash .ci/wasm` was not run"
+    run(f"phong studio {LIVE} --static {BUILT}/studio")
+    shutil.copy(BUILT / "studio/offline.js", BUILT)
+    files = [path for path in BUILT.rglob("*") if path.is_file() and path.suffix != ".md"]
+    names = [path.relative_to(BUILT).as_posix() for path in files]
+    (BUILT / "files.json").write_text(json.dumps({"files": sorted(names)}))
+    return "live"
+
+
 def main():
     for folder in (MADE, WORK, BUILT):
         shutil.rmtree(folder, ignore_errors=True)
@@ -203,6 +231,7 @@ def main():
         sys.exit(said)
     links, pages = check_links()
     print(f"{promises} commands say what the book says; {links} links on {pages} pages are whole")
+    print(f"the figures are {live()}")
 
 
 if __name__ == "__main__":
