@@ -145,7 +145,7 @@ fn a_damaged_checkpoint_is_begun_anew() {
     let files = fs::read_dir(folder.path("b/by-content")).unwrap();
     for file in files.map(|file| file.unwrap().path()) {
         if file.extension().is_some_and(|ending| ending == "part") {
-            fs::write(file, b"phong part 3\nrubbish\n\n").unwrap();
+            fs::write(file, b"phong part 4\nrubbish\n\n").unwrap();
         }
     }
     folder.done("batch b.toml --task 0");

@@ -247,7 +247,7 @@ fn an_interrupted_render_keeps_its_checkpoint_and_no_other_render_takes_it() {
 #[test]
 fn a_damaged_checkpoint_is_refused_and_kept() {
     let folder = balls();
-    fs::write(folder.path("a.png.part"), b"phong part 3\nrubbish\n\n").unwrap();
+    fs::write(folder.path("a.png.part"), b"phong part 4\nrubbish\n\n").unwrap();
     folder.when("render a.toml --resume").is_refused(&["a.png.part", "damaged", "remove it"]);
     assert_eq!(folder.names(), ["a.png.part", "a.toml"]);
 }

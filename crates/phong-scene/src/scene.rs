@@ -40,7 +40,7 @@
 //! | `ambient` | a table | every key's default | The ambient light. |
 //! | `ambient_occlusion` | a table | none | What takes ambient light away: a factor of the ambient term. |
 //! | `sky` | not built yet | none | A sky that lights the scene. |
-//! | `fog` | not built yet | none | What fades with distance. |
+//! | `fog` | a table | none | What is far away fades into a colour. |
 //! | `outline` | not built yet | none | Lines around things. |
 //! | `clip` | not built yet | none | What is cut away. |
 //! | `light` | a list of tables | none | The lights. |
@@ -100,6 +100,7 @@ use crate::ambient_occlusion::AmbientOcclusion;
 use crate::camera::Camera;
 use crate::color::Rgb;
 use crate::diagnostic::{Diagnostic, Place, SceneError};
+use crate::fog::Fog;
 use crate::light::Light;
 use crate::limits::Range;
 use crate::material::{Material, MaterialId};
@@ -132,6 +133,8 @@ pub struct Scene {
     pub ambient: Rgb,
     /// What takes ambient light away; `None`: nothing does.
     pub ambient_occlusion: Option<AmbientOcclusion>,
+    /// What is far away fades into a colour; `None`: it does not.
+    pub fog: Option<Fog>,
     /// The lights, in the order of the text.
     pub lights: Vec<Light>,
     /// The materials; [`MaterialId`] indexes them.
@@ -153,6 +156,7 @@ impl Default for Scene {
             camera: Camera::default(),
             ambient: Rgb::WHITE,
             ambient_occlusion: None,
+            fog: None,
             lights: Vec::new(),
             materials: vec![Material::default()],
             textures: Vec::new(),

@@ -3,7 +3,8 @@
 //! All of it is cheap to make and to change, and nothing of it is needed to build trees.
 
 use phong_scene::{
-    AmbientOcclusion, Background, Camera, Diagnostic, Image, Light, Material, Rgb, Scene, Texture,
+    AmbientOcclusion, Background, Camera, Diagnostic, Fog, Image, Light, Material, Rgb, Scene,
+    Texture,
 };
 
 /// What a geometry looks like, as it was written. Each part can be replaced.
@@ -23,6 +24,8 @@ pub struct Look {
     pub ambient: Rgb,
     /// What takes ambient light away; `None`: nothing does.
     pub ambient_occlusion: Option<AmbientOcclusion>,
+    /// What is far away fades into a colour; `None`: it does not.
+    pub fog: Option<Fog>,
     /// What rays see that hit nothing.
     pub background: Background,
 }
@@ -37,20 +40,30 @@ impl Look {
             textures: scene.textures.clone(),
             ambient: scene.ambient,
             ambient_occlusion: scene.ambient_occlusion,
+            fog: scene.fog,
             background: scene.image.background,
         }
     }
     /// What is wrong with it, by the rules of [`Scene::check`].
     #[must_use]
     pub fn check(&self) -> Vec<Diagnostic> {
-        let Self { camera, lights, materials, textures, ambient, ambient_occlusion, background } =
-            self.clone();
+        let Self {
+            camera,
+            lights,
+            materials,
+            textures,
+            ambient,
+            ambient_occlusion,
+            fog,
+            background,
+        } = self.clone();
         let image = Image { background, ..Image::default() };
         let scene = Scene {
             image,
             camera,
             ambient,
             ambient_occlusion,
+            fog,
             lights,
             materials,
             textures,

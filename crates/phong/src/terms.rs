@@ -74,6 +74,8 @@ terms! {
     Reflection reflection;
     /// All that the refracted ray brings, weighted.
     Transmission transmission;
+    /// What fog adds, by whose share the others are less.
+    Fog fog;
 }
 
 impl Term {
@@ -96,6 +98,12 @@ impl Terms {
     /// Every term with its value, in the order of the sum.
     pub fn iter(&self) -> impl Iterator<Item = (Term, Rgb)> {
         Term::ALL.into_iter().map(|term| (term, self[term]))
+    }
+
+    /// What is left of them behind fog of which `clear` lets through, and the fog's own light.
+    #[must_use]
+    pub(crate) fn behind(self, clear: f32, fog: Rgb) -> Self {
+        Self { fog, ..Self::from_fn(|term| self[term] * clear) }
     }
 
     /// The picture: the sum of the terms, in f32, in their order.
@@ -143,6 +151,7 @@ impl TermSet {
     pub fn of_scene(scene: &Scene) -> Self {
         let can_be_seen = |term: &Term| match term {
             Term::Emission => scene.materials.iter().any(phong_scene::Material::glows),
+            Term::Fog => scene.fog.is_some(),
             _ => true,
         };
         Term::ALL.into_iter().filter(can_be_seen).fold(Self::NONE, Self::with)

@@ -3,6 +3,7 @@
 mod coincident;
 mod far;
 mod fixture;
+mod fog;
 mod occlusion;
 mod shading;
 mod varied;
@@ -24,6 +25,7 @@ use crate::texture::Texture;
 pub(crate) use coincident::Coincidences;
 pub use far::StartedRay;
 pub(crate) use fixture::Fixture;
+pub(crate) use fog::Fog;
 pub(crate) use occlusion::Occlusion;
 use shading::Shading;
 pub(crate) use shading::Shading8;
@@ -48,6 +50,8 @@ pub struct View {
     coincidences: Option<Coincidences>,
     /// What takes ambient light away; `None`: nothing does.
     occlusion: Option<Occlusion>,
+    /// What is far away fades; `None`: it does not.
+    fog: Option<Fog>,
     /// Whether rays go on from any material.
     has_bounces: bool,
     /// Whether any material is seen through in a straight line.
@@ -129,6 +133,7 @@ impl View {
             coincidences: Coincidences::of(&geometry, &materials),
             occlusion: look.ambient_occlusion.map(|o| Occlusion::new(&o, geometry.world())),
             has_bounces: look.materials.iter().any(bounces),
+            fog: look.fog.map(|fog| Fog::new(&fog, look.background, &camera)),
             has_see_through: look.materials.iter().any(phong_scene::Material::is_see_through),
             has_filters: look.materials.iter().any(filters),
             has_soft_lights: lights.iter().any(|light| light.soft),
@@ -222,6 +227,12 @@ impl View {
     #[inline]
     pub(crate) fn occlusion(&self) -> Option<Occlusion> {
         self.occlusion
+    }
+
+    /// What is far away fades; `None`: it does not.
+    #[inline]
+    pub(crate) fn fog(&self) -> Option<&Fog> {
+        self.fog.as_ref()
     }
 
     /// Whether samples differ but by their rays: where any light has an extent, and where rays look around

@@ -78,6 +78,19 @@ pub struct LightContribution {
     pub terms: Terms,
 }
 
+/// What fog made of what a ray brought.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Faded {
+    /// How far from the eye the ray's end is, as the fog counts it; infinite where it met nothing.
+    pub distance: f32,
+    /// What is left of the light on this ray's own way: 1 − f, a factor of all that it brought.
+    pub clear: f32,
+    /// The fog's colour, linear.
+    pub color: Rgb,
+    /// What the fog adds: f times its colour.
+    pub light: Rgb,
+}
+
 /// Receives what the integrator reports. Reports are in order, depth first, when one ray is traced
 /// at a time. The rays of a bundle cannot be told apart, so trace one ray only.
 ///
@@ -102,6 +115,8 @@ pub trait Witness {
     fn entered(&mut self, branch: Branch, weight: Rgb, fresnel: Option<f32>, ray: &Ray);
     /// It came back with this light, not yet weighted.
     fn left(&mut self, branch: Branch, light: Rgb);
+    /// What the ray brought faded. What was told of it before is of what it was without fog.
+    fn faded(&mut self, _faded: &Faded) {}
     /// A ray was not sent on: it brings black.
     fn cut(&mut self, branch: Branch, cut: &Cut);
 }

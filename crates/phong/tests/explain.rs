@@ -87,7 +87,7 @@ fn parts_add_up(told: &Explanation, file: &str) {
         if let Some(through) = &surface.through {
             sum.transmission += through.weight * through.light;
         }
-        assert_eq!(sum, sample.terms, "{file}: {:?}", told.pixel);
+        assert_eq!(sum, surface.terms, "{file}: {:?}", told.pixel);
     }
 }
 

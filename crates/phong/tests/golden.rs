@@ -39,7 +39,7 @@ golden! {
         cylinders_open disc ellipsoid mesh_crease mesh_flat
         mesh_smooth plane plane_below points sphere sphere_displaced sphere_far sphere_inside torus
         torus_far triangle triangle_back triangle_normals;
-    terms: ambient ambient_color diffuse emission occlusion reflection reflection_depth shininess_0 shininess_1000
+    terms: ambient ambient_color diffuse emission fog occlusion reflection reflection_depth shininess_0 shininess_1000
         shininess_3 specular specular_object sum total_internal total_internal_plain transmission
         transmission_dark transmission_plain transmission_thin trapped;
     textures: checker_floor checker_spaces checker_uv gradient numbers vertex_colors;

@@ -26,7 +26,7 @@ mod tone;
 mod verdict;
 mod wrong;
 
-use phong_scene::Scene;
+use phong_scene::{Material, Scene, ShadowRule};
 use thiserror::Error;
 
 pub use json::json;
@@ -94,6 +94,9 @@ pub enum GradeError {
     /// It has no colour channels.
     #[error("the picture has no colour channels")]
     NoColor,
+    /// The scene has something that mistakes are not known of yet.
+    #[error("scenes with {0} cannot be graded yet")]
+    NotYet(&'static str),
     /// The scene cannot be made ready for rays.
     #[error(transparent)]
     View(#[from] ViewError),
@@ -116,8 +119,16 @@ impl Grader {
     /// Makes a scene ready, at the size it asks for.
     ///
     /// # Errors
-    /// [`GradeError::Options`], [`GradeError::View`].
+    /// [`GradeError::Options`], [`GradeError::NotYet`], [`GradeError::View`].
     pub fn new(scene: &Scene) -> Result<Self, GradeError> {
+        let lets_light_through =
+            |m: &Material| m.is_see_through() || m.shadow == Some(ShadowRule::Filtered);
+        if scene.fog.is_some() {
+            return Err(GradeError::NotYet("fog"));
+        }
+        if scene.materials.iter().any(lets_light_through) {
+            return Err(GradeError::NotYet("materials that let light through in a straight line"));
+        }
         let right = Prepared::new(View::of(scene)?, scene)?;
         Ok(Self { library: Library::new(scene.clone(), right) })
     }

@@ -15,7 +15,7 @@ const COUNT: usize = Term::ALL.len();
 /// `None`: it is not fitted.
 fn counted_as(term: Term) -> Option<Term> {
     match term {
-        Term::Background => None,
+        Term::Background | Term::Fog => None,
         Term::Transmission => Some(Term::Reflection),
         own => Some(own),
     }

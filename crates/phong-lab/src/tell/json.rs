@@ -6,7 +6,7 @@ use phong::explain::{
 };
 use phong::math::Dir3;
 use phong::terms::Terms;
-use phong::witness::CutReason;
+use phong::witness::{CutReason, Faded};
 use phong_scene::{ConstantMaterial, Place, Rgb, TextureSpace};
 use serde_json::{Map, Value, json};
 
@@ -58,6 +58,15 @@ fn ray_into(out: &mut Map<String, Value>, told: &RayTold) {
     let mut put = |key: &str, value| out.insert(key.to_owned(), value);
     put("origin", json!(told.origin.to_array()));
     put("dir", dir(told.dir));
+    if let Some(Faded { distance, clear, color, light }) = told.fog {
+        let fog = json!({
+            "distance": number(distance),
+            "clear": number(clear),
+            "color": rgb(color),
+            "light": rgb(light),
+        });
+        put("fog", fog);
+    }
     match &told.end {
         End::Background(background) => {
             put("hit", Value::Null);

@@ -8,7 +8,7 @@ use phong::explain::{
     TextureTold,
 };
 use phong::terms::Terms;
-use phong::witness::CutReason;
+use phong::witness::{CutReason, Faded};
 use phong_scene::{AmbientRule, ConstantMaterial, Model, Rgb, TextureSpace, Viewer};
 
 use super::Telling;
@@ -122,6 +122,26 @@ impl Page {
             }
             End::Surface(surface) => self.surface(surface),
         }
+        if let Some(fog) = &ray.fog {
+            self.fog(fog, ray.terms());
+        }
+    }
+
+    fn fog(&mut self, fog: &Faded, terms: Terms) {
+        let Faded { distance, clear, color, light } = *fog;
+        self.blank();
+        let f = self.numbers.one(1.0 - clear);
+        self.line(format_args!(
+            "fog, f = {f} at a distance of {}: each term counts {}",
+            self.numbers.one(distance),
+            self.numbers.one(clear),
+        ));
+        let color = self.numbers.color(color);
+        self.equation(
+            "fog      = f × colour",
+            &[format!("{f} × {color}"), self.numbers.color(light)],
+        );
+        self.terms(terms);
     }
 
     fn surface(&mut self, s: &Surface) {

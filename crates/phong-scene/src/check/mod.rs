@@ -157,6 +157,9 @@ impl<'s> Judge<'s> {
             let name = || "ambient_occlusion".into();
             self.judge(&nowhere, name, |f| settings::occlusion(occlusion, f));
         }
+        if let Some(fog) = &scene.fog {
+            self.judge(&nowhere, || "fog".into(), |f| settings::fog(fog, f));
+        }
         for (i, light) in scene.lights.iter().enumerate() {
             let name = || named("lights", i, &light.name, &light.place);
             self.judge(&light.place, name, |f| settings::light(light, f));

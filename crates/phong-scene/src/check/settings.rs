@@ -7,6 +7,7 @@ use super::value::values;
 use crate::ambient_occlusion::AmbientOcclusion;
 use crate::camera::Camera;
 use crate::color::Rgb;
+use crate::fog::{Fog, FogKind};
 use crate::light::{Light, LightKind};
 use crate::limits::LARGEST;
 use crate::scene::Image;
@@ -24,6 +25,18 @@ pub(super) fn ambient(color: Rgb, faults: &mut Faults) {
 
 pub(super) fn occlusion(occlusion: &AmbientOcclusion, faults: &mut Faults) {
     values(occlusion, None, faults);
+}
+
+/// Judges fog.
+pub(crate) fn fog(fog: &Fog, faults: &mut Faults) {
+    values(fog, None, faults);
+    if let FogKind::Linear { start, end } = fog.kind
+        && faults.spare(&["start", "end"])
+        && end <= start
+    {
+        let message = format!("`end` must be above `start`, which is {start}; this is {end}");
+        faults.say("end", message);
+    }
 }
 
 /// Judges a camera.

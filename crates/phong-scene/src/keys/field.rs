@@ -7,6 +7,7 @@ use super::value::Value;
 use super::{Key, Table};
 use crate::ambient_occlusion::AmbientOcclusion;
 use crate::camera::Camera;
+use crate::fog::Fog;
 use crate::light::Light;
 use crate::material::Material;
 use crate::scene::Image;
@@ -20,6 +21,7 @@ pub(crate) enum Field {
     None,
     Image(Access<Image>),
     AmbientOcclusion(Access<AmbientOcclusion>),
+    Fog(Access<Fog>),
     Camera(Access<Camera>),
     Light(Access<Light>),
     Texture(Access<Texture>),

@@ -149,9 +149,10 @@ mod tests {
     use crate::keys::shape::SHAPES;
     use crate::keys::{INCLUDE, LIGHT, MATERIAL, TEXTURE};
 
-    const CONCEPTS: [(&str, &str); 7] = [
+    const CONCEPTS: [(&str, &str); 8] = [
         ("ambient_occlusion.rs", include_str!("../ambient_occlusion.rs")),
         ("camera.rs", include_str!("../camera.rs")),
+        ("fog.rs", include_str!("../fog.rs")),
         ("light.rs", include_str!("../light.rs")),
         ("material.rs", include_str!("../material.rs")),
         ("scene.rs", include_str!("../scene.rs")),

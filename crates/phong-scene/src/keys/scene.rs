@@ -8,6 +8,7 @@ use super::shape::{GROUP, SHAPES};
 use super::texture::TEXTURE;
 use super::{Default, Key, Kind, Table};
 use crate::ambient_occlusion::AmbientOcclusion;
+use crate::fog::{Fog, FogDistance, FogKind};
 use crate::limits::Range;
 use crate::scene::{FilterKind, Image};
 use crate::wording::Word;
@@ -50,7 +51,12 @@ pub(crate) static SCENE: Table = Table {
                 "What takes ambient light away: a factor of the ambient term.",
             ),
             Key::new("sky", Kind::NotYet, Default::Said("none"), "A sky that lights the scene."),
-            Key::new("fog", Kind::NotYet, Default::Said("none"), "What fades with distance."),
+            Key::new(
+                "fog",
+                Kind::Table(&FOG),
+                Default::Said("none"),
+                "What is far away fades into a colour.",
+            ),
             Key::new("outline", Kind::NotYet, Default::Said("none"), "Lines around things."),
             Key::new("clip", Kind::NotYet, Default::Said("none"), "What is cut away."),
             Key::new("light", Kind::Tables(&LIGHT), Default::Said("none"), "The lights."),
@@ -196,6 +202,75 @@ pub(crate) static AMBIENT_OCCLUSION: Table = Table {
              `\"auto\"` is a quarter of the diagonal of the box around everything but planes.",
         )
         .of(field!(AmbientOcclusion.distance)),
+    ]],
+};
+
+keyed!(Fog, |_| &FOG);
+
+const LINEAR: &[&str] = &["linear"];
+const EXPONENTIAL: &[&str] = &["exponential", "exponential-squared"];
+
+/// `[fog]`.
+pub(crate) static FOG: Table = Table {
+    name: "fog",
+    doc: "What is far away fades into a colour: the terms count 1 − f, and the term `fog` is f times \
+          the colour.",
+    select: Some("kind"),
+    keys: &[&[
+        Key::new(
+            "kind",
+            Kind::Word(FogKind::WORDS),
+            Default::Word("linear"),
+            "How the share f of the fog grows with the distance d: from 0 at `start` to 1 at `end`; \
+             1 − e^(−density d); or 1 − e^(−(density d)²).",
+        )
+        .of(field!(Fog.kind)),
+        Key::new(
+            "color",
+            Kind::Color,
+            Default::Said("the background's"),
+            "Colour of the fog; of a background that runs down the picture the mean of its two, of \
+             a transparent one black.",
+        )
+        .of(field!(Fog.color)),
+        Key::new(
+            "start",
+            Kind::Number(Range::NOT_NEGATIVE),
+            Default::Number(0.0),
+            "Where it begins, in scene units.",
+        )
+        .of(field!(Fog.kind = FogKind::{Linear}.start))
+        .only(LINEAR),
+        Key::new(
+            "end",
+            Kind::Number(Range::POSITIVE),
+            Default::Required,
+            "Where nothing but fog is seen; above `start`.",
+        )
+        .of(field!(Fog.kind = FogKind::{Linear}.end))
+        .only(LINEAR),
+        Key::new(
+            "density",
+            Kind::Number(Range::POSITIVE),
+            Default::Required,
+            "How dense it is, per scene unit.",
+        )
+        .of(field!(Fog.kind = FogKind::{Exponential | Squared}.density))
+        .only(EXPONENTIAL),
+        Key::new(
+            "distance",
+            Kind::Word(FogDistance::WORDS),
+            Default::Word("radial"),
+            "Whether the distance is that from the eye, or that along the camera's axis alone.",
+        )
+        .of(field!(Fog.distance)),
+        Key::new(
+            "strength",
+            Kind::Number(Fog::STRENGTH),
+            Default::Number(1.0),
+            "The largest share; below 1 what is far away stays visible.",
+        )
+        .of(field!(Fog.strength)),
     ]],
 };
 

@@ -2,8 +2,8 @@
 
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 use phong_scene::{
-    AmbientOcclusion, Background, Camera, CameraKind, ConstantMaterial, Fresnel, Group, GroupId,
-    Image, Light, LightKind, Material, MaterialId, Mesh, Model, NO_INDEX, Object,
+    AmbientOcclusion, Background, Camera, CameraKind, ConstantMaterial, Fog, FogKind, Fresnel,
+    Group, GroupId, Image, Light, LightKind, Material, MaterialId, Mesh, Model, NO_INDEX, Object,
     OcclusionDistance, Points, Rgb, Scene, Shape, Texture, TextureId, TextureKind, TextureRef,
 };
 use proptest::prelude::*;
@@ -248,6 +248,11 @@ prop_compose! {
             image: Image { size, samples, depth, background, ..Image::default() },
             camera: Camera { kind, eye, look_at, up, aperture, focus: None },
             ambient_occlusion: Some(AmbientOcclusion { samples: depth, distance: OcclusionDistance::Units(fov) }),
+            fog: Some(Fog {
+                kind: FogKind::Linear { start: 0.0, end: fov },
+                color: Some(top),
+                ..Fog::default()
+            }),
             ambient, lights, materials, textures, objects, groups,
         }
     }

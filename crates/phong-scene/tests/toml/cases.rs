@@ -39,6 +39,7 @@ cases! {
     every_light
     every_model
     every_shape
+    fog_fades_what_is_far
     groups_come_after_those_they_hold
     inline_and_dotted_tables_are_tables
     meshes_keep_their_normals_or_are_smoothed_or_flat
@@ -92,6 +93,8 @@ cases! {
     every_number_out_of_range_is_told_at_its_place
     every_syntax_error_is_told_and_everything_else_too
     facets_reflect_by_one_rule
+    fog_ends_behind_where_it_starts
+    fog_says_how_dense_it_is
     glass_without_a_mirror_loses_light
     groups_that_hold_one_another_are_told
     names_may_be_of_any_letters

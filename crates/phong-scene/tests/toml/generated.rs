@@ -3,10 +3,10 @@
 use glam::{DAffine3, DMat3, DVec2, DVec3, Vec2, Vec3};
 use phong_scene::{
     AmbientOcclusion, AmbientRule, Background, Camera, CameraKind, Caps, Channel,
-    ConstantMaterial as Material, Cylinders, Dialect, Distribution, FilterKind, Fresnel, Group,
-    GroupId, Image, Light, LightKind, MaterialId, Mesh, Model, NO_INDEX, Object, OcclusionDistance,
-    OpacityMode, Place, Points, Rgb, Scene, ShadowRule, Shadowing, Shape, Texture, TextureId,
-    TextureKind, TextureRef, TextureSpace, Tint, Viewer, WardForm,
+    ConstantMaterial as Material, Cylinders, Dialect, Distribution, FilterKind, Fog, FogDistance,
+    FogKind, Fresnel, Group, GroupId, Image, Light, LightKind, MaterialId, Mesh, Model, NO_INDEX,
+    Object, OcclusionDistance, OpacityMode, Place, Points, Rgb, Scene, ShadowRule, Shadowing,
+    Shape, Texture, TextureId, TextureKind, TextureRef, TextureSpace, Tint, Viewer, WardForm,
 };
 use proptest::prelude::*;
 
@@ -96,11 +96,21 @@ impl Make {
         let (image, camera, ambient) = (self.image(), self.camera(), self.color());
         let distance = self.one(&[OcclusionDistance::Auto, OcclusionDistance::Units(2.5)]);
         let ambient_occlusion = self.flag().then_some(AmbientOcclusion { samples: 9, distance });
+        let kind = self.one(&[
+            FogKind::Linear { start: 0.0, end: 2.5 },
+            FogKind::Linear { start: 1.0, end: 2.5 },
+            FogKind::Exponential { density: 0.1 },
+            FogKind::Squared { density: 0.3 },
+        ]);
+        let distance = self.one(&[FogDistance::Radial, FogDistance::Planar]);
+        let (color, strength) = (self.flag().then(|| self.color()), self.one(&[1.0, 0.5]));
+        let fog = self.flag().then_some(Fog { kind, color, distance, strength });
         Scene {
             image,
             camera,
             ambient,
             ambient_occlusion,
+            fog,
             lights,
             materials,
             textures,

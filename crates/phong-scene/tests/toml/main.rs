@@ -68,6 +68,7 @@ fn summary(scene: &Scene) -> String {
         camera,
         ambient,
         ambient_occlusion,
+        fog,
         lights,
         materials,
         textures,
@@ -79,6 +80,7 @@ fn summary(scene: &Scene) -> String {
         differing(camera, &Camera::default()),
         format!("ambient {ambient:?}"),
     ];
+    lines.extend(fog.map(|fog| format!("{fog:?}")));
     lines.extend(ambient_occlusion.map(|occlusion| format!("{occlusion:?}")));
     lines.extend(lights.iter().map(|light| differing(light, &Light::default())));
     lines.extend(materials.iter().map(|material| differing(material, &Material::default())));

@@ -34,8 +34,8 @@ pub(super) struct Base {
 const NAME: &str = "scene.toml";
 
 /// What can be laid over a scene, by the first word of its keys.
-const PARTS: [&str; 7] =
-    ["image", "camera", "ambient", "ambient_occlusion", "light", "materials", "textures"];
+const PARTS: [&str; 8] =
+    ["image", "camera", "ambient", "ambient_occlusion", "fog", "light", "materials", "textures"];
 
 /// Objects, by the first word of their keys. What is laid over them is more work: the text is read
 /// with it.
@@ -79,6 +79,7 @@ pub(super) fn text(scene: &Scene) -> Result<String, String> {
         camera,
         ambient,
         ambient_occlusion,
+        fog,
         lights,
         materials,
         textures,
@@ -90,6 +91,7 @@ pub(super) fn text(scene: &Scene) -> Result<String, String> {
         camera,
         ambient,
         ambient_occlusion,
+        fog,
         lights,
         materials,
         textures,

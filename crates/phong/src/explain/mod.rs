@@ -18,7 +18,7 @@ use crate::render::{Drawn, RenderOptions, camera_ray};
 use crate::sampling::Sampler;
 use crate::terms::Terms;
 use crate::view::View;
-use crate::witness::{CutReason, Witness};
+use crate::witness::{CutReason, Faded, Witness};
 use record::Recorder;
 
 /// A pixel, explained.
@@ -62,6 +62,8 @@ pub struct RayTold {
     pub dir: Dir3,
     /// What it met.
     pub end: End,
+    /// What fog made of what it brought; `None`: there is none.
+    pub fog: Option<Faded>,
 }
 
 /// Where a ray ends.
@@ -128,7 +130,7 @@ pub struct Surface {
     pub transmission: Option<Onward>,
     /// The ray that goes straight on, where the surface is see-through.
     pub through: Option<Onward>,
-    /// All terms here, summed in the integrator's order.
+    /// All terms here, summed in the integrator's order, before any fog.
     pub terms: Terms,
 }
 
@@ -376,11 +378,15 @@ impl Surface {
 }
 
 impl RayTold {
-    /// All the light it brought.
+    /// All the light it brought, behind fog if there is some.
     pub fn terms(&self) -> Terms {
-        match &self.end {
+        let terms = match &self.end {
             End::Background(background) => Terms { background: *background, ..Terms::default() },
             End::Surface(surface) => surface.terms,
+        };
+        match self.fog {
+            Some(Faded { clear, light, .. }) => terms.behind(clear, light),
+            None => terms,
         }
     }
 }

@@ -11,7 +11,7 @@ use crate::reflectance::Incident;
 use crate::terms::Terms;
 use crate::texture::{Texture, TexturePoint};
 use crate::view::{Occlusion, View};
-use crate::witness::{Branch, Cut, LightContribution, Witness};
+use crate::witness::{Branch, Cut, Faded, LightContribution, Witness};
 
 /// Listens to one ray and all that follow from it.
 pub(super) struct Recorder<'a> {
@@ -43,7 +43,7 @@ impl<'a> Recorder<'a> {
     }
 
     fn tell(&mut self, ray: &Ray, at: Option<(SurfaceInteraction, Material)>, end: End) {
-        let told = RayTold { origin: ray.origin, dir: Dir3::from_unit(ray.dir), end };
+        let told = RayTold { origin: ray.origin, dir: Dir3::from_unit(ray.dir), end, fog: None };
         if let Some(open) = self.open.last_mut() {
             open.told = Some(told);
             open.at = at;
@@ -210,6 +210,12 @@ impl Witness for Recorder<'_> {
             surface.terms.ambient += ambient;
             surface.terms += light.terms;
             surface.lights.push(lit);
+        }
+    }
+
+    fn faded(&mut self, faded: &Faded) {
+        if let Some(told) = self.open.last_mut().and_then(|open| open.told.as_mut()) {
+            told.fog = Some(*faded);
         }
     }
 

@@ -10,6 +10,7 @@
 mod bundle;
 mod crossing;
 mod filtered;
+mod fog;
 mod interactions;
 mod lights;
 mod openness;
@@ -31,6 +32,7 @@ use crate::view::View;
 use crate::witness::{Branch, Cut, CutReason, Witness};
 use bundle::count;
 use crossing::Departure;
+use fog::Way;
 use interactions::Interactions;
 use lights::LightSamples;
 use openness::Openness;
@@ -59,6 +61,8 @@ pub(crate) struct Integrator<'a> {
 pub(crate) struct ScratchBuffer {
     interactions: Interactions,
     openness: Openness,
+    /// How far rays went; empty where there is no fog.
+    ways: Vec<[Way; 8]>,
     lights: LightSamples,
     out: Vec<Radiance8>,
     /// The mirror or refracted rays of this bundle, and the memory for tracing them.
@@ -85,6 +89,8 @@ struct Paths {
     weights: Vec<Rgb>,
     /// Where each starts; empty where no scene asks for it.
     departures: Vec<Departure>,
+    /// How far each has gone in fog; empty where there is none.
+    ways: Vec<Way>,
 }
 
 /// How far rays are followed.
@@ -132,6 +138,7 @@ impl SecondaryRays {
         self.from.clear();
         self.paths.weights.clear();
         self.paths.departures.clear();
+        self.paths.ways.clear();
     }
 
     fn push(&mut self, parent: Parent, path_weight: Rgb, ray: &Ray, sampler: Option<Sampler>) {
@@ -199,12 +206,15 @@ impl Integrator<'_> {
         counts: &mut RayCounts,
         witness: &mut W,
     ) {
-        let ScratchBuffer { interactions, openness, lights, out, deeper } = scratch;
+        let ScratchBuffer { interactions, openness, ways, lights, out, deeper } = scratch;
         if self.is_stopped() {
             out.resize(rays.len(), Radiance8::NONE);
             return;
         }
         interactions.intersect(self, rays, paths, steps.passed, height, out);
+        if let Some(fog) = self.scene.fog() {
+            fog::measure(fog, rays, interactions, paths, ways);
+        }
         openness.begin();
         if let Some(occlusion) = self.scene.occlusion() {
             counts.shadow += self.look_around(occlusion, interactions, samplers, openness);
@@ -256,7 +266,17 @@ impl Integrator<'_> {
                 continue;
             }
             let (secondary, scratch) = &mut **deeper.get_or_insert_default();
-            self.scatter(branch, rays, interactions, samplers, paths, steps, secondary, witness);
+            self.scatter(
+                branch,
+                rays,
+                interactions,
+                samplers,
+                paths,
+                ways,
+                steps,
+                secondary,
+                witness,
+            );
             if secondary.from.is_empty() {
                 continue;
             }
@@ -300,6 +320,9 @@ impl Integrator<'_> {
                 }
             }
         }
+        if let Some(fog) = self.scene.fog() {
+            fog::fade(self.scene, fog, rays, ways, out, witness);
+        }
     }
 
     fn is_stopped(&self) -> bool {
@@ -315,6 +338,7 @@ impl Integrator<'_> {
         interactions: &Interactions,
         samplers: &[Samplers8],
         paths: &Paths,
+        ways: &[[Way; 8]],
         steps: Steps,
         secondary: &mut SecondaryRays,
         witness: &mut W,
@@ -341,6 +365,7 @@ impl Integrator<'_> {
                     continue;
                 }
                 let sampler = samplers.get(i).map(|s| s.get(lane).branch(branch as u32));
+                secondary.paths.ways.extend(ways.get(i).map(|ways| ways[lane].on(branch)));
                 let parent = Parent { ray: (i, lane), weight, fresnel };
                 let mut ray = scattered.ray(lane);
                 if self.scene.coincidences().is_some() {

@@ -14,6 +14,7 @@ pub fn fingerprint(scene: &Scene) -> u32 {
         camera,
         ambient,
         ambient_occlusion,
+        fog,
         lights,
         materials,
         textures,
@@ -22,6 +23,9 @@ pub fn fingerprint(scene: &Scene) -> u32 {
     } = scene;
     let mut sum = Sum(Hasher::new());
     sum.debug(&(camera, ambient));
+    if let Some(fog) = fog {
+        sum.debug(fog);
+    }
     if let Some(occlusion) = ambient_occlusion {
         sum.debug(occlusion);
     }

@@ -23,7 +23,7 @@ pub use join::{Join, JoinError};
 pub use settings::Settings;
 
 /// The first line of every part file: what it is, and the version of its format.
-const MAGIC: &str = "phong part 3\n";
+const MAGIC: &str = "phong part 4\n";
 
 /// The version of the arithmetic. It is raised by every change that moves a bit of any picture, so
 /// that no picture is put together from two of them.

@@ -20,6 +20,7 @@ use crate::camera::Camera;
 use crate::change::Change;
 use crate::color::Rgb;
 use crate::diagnostic::Diagnostic;
+use crate::fog::Fog;
 use crate::format::input::Models;
 use crate::keys::{self, Kind, Table};
 use crate::light::Light;
@@ -43,6 +44,7 @@ pub(super) struct Reader<'a> {
     pub(super) camera: Option<Camera>,
     pub(super) ambient: Rgb,
     pub(super) ambient_occlusion: Option<AmbientOcclusion>,
+    pub(super) fog: Option<Fog>,
     pub(super) lights: Vec<Light>,
     light_count: usize,
     pub(super) materials: Named<Material>,
@@ -88,6 +90,7 @@ impl<'a> Reader<'a> {
             camera: None,
             ambient: Rgb::WHITE,
             ambient_occlusion: None,
+            fog: None,
             lights: Vec::new(),
             light_count: 0,
             materials: Named::new(),
@@ -219,10 +222,10 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// `[image]`, `[ambient]` and `[ambient_occlusion]` where the text has none, and something is laid
+    /// `[image]`, `[ambient]` and the like where the text has none, and something is laid
     /// over them.
     fn settings_not_written(&mut self, document: &DeTable<'_>, head: Spot) {
-        for name in ["image", "ambient", "ambient_occlusion"] {
+        for name in ["image", "ambient", "ambient_occlusion", "fog"] {
             let Some(Kind::Table(table)) = keys::SCENE.find(name, None).map(|key| key.kind) else {
                 continue;
             };
@@ -269,6 +272,7 @@ impl<'a> Reader<'a> {
         match table.name {
             "camera" => self.camera = settings::camera(&values, &mut self.notes),
             "ambient" => self.ambient = values.color("color").unwrap_or(Rgb::WHITE),
+            "fog" => self.fog = settings::fog(&values, &mut self.notes),
             "ambient_occlusion" => {
                 let mut occlusion = AmbientOcclusion::default();
                 self.ambient_occlusion = values.fill(&mut occlusion).map(|()| occlusion);

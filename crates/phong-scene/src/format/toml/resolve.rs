@@ -63,6 +63,7 @@ impl Reader<'_> {
             camera,
             ambient: self.ambient,
             ambient_occlusion: self.ambient_occlusion,
+            fog: self.fog,
             lights: self.lights,
             materials,
             textures,

@@ -4,6 +4,7 @@ use super::notes::Notes;
 use super::table::Values;
 use crate::camera::{Camera, CameraKind};
 use crate::check::settings as judge;
+use crate::fog::Fog;
 use crate::light::{Light, LightKind};
 use crate::scene::Image;
 
@@ -32,6 +33,14 @@ pub(super) fn camera(v: &Values, notes: &mut Notes) -> Option<Camera> {
     }
     let sound = notes.judge(|key| v.spot_of(key), |faults| judge::camera(&camera, faults));
     sound.then_some(camera)
+}
+
+/// `[fog]`; what is wrong with it has been said.
+pub(super) fn fog(v: &Values, notes: &mut Notes) -> Option<Fog> {
+    let mut fog = Fog::default();
+    v.fill(&mut fog)?;
+    let sound = notes.judge(|key| v.spot_of(key), |faults| judge::fog(&fog, faults));
+    sound.then_some(fog)
 }
 
 /// The light that is the `number`th of the scene; what is wrong with it has been said.

@@ -46,6 +46,7 @@ pub(crate) fn write_toml(
         camera,
         ambient,
         ambient_occlusion,
+        fog,
         lights,
         materials,
         textures,
@@ -76,6 +77,12 @@ pub(crate) fn write_toml(
             "camera" => {
                 let kind = table.word_of(&camera);
                 out.setting(&header, table, kind, |key| key.get(&camera));
+            }
+            "fog" => {
+                if let Some(fog) = fog {
+                    let kind = table.word_of(&fog);
+                    out.table(&header, table, kind, |key| key.get(&fog));
+                }
             }
             "ambient_occlusion" => {
                 if let Some(occlusion) = ambient_occlusion {
