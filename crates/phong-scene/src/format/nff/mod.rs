@@ -13,6 +13,9 @@
 //! | `p n`; `pp n` | a polygon, which need not be convex; with normals |
 //! | `#` | a comment, up to the line's end |
 //!
+//! A file without a view is framed as a bare model is, and one without lights lit as one. Words that the format does not have, and the images
+//! that some programs name behind an `f`, are counted in warnings.
+//!
 //! What has no extent, or a number that is none, is left out and counted. A statement that cannot be
 //! read is an error with its line; so is Sense8's format of the same name, which is told by its first word.
 
@@ -42,6 +45,7 @@ pub(crate) fn read(input: &Input<'_>, _: &'static Models) -> Reading {
     let file: Arc<str> = input.path.into();
     let mut diagnostics = Vec::new();
     let mut findings = Findings::default();
+    let mut bare = false;
     let scene = match read_text(input.source, &file, input.limits) {
         Err(error) => {
             let message = || format!("cannot be read: {}", trouble(&error));
@@ -51,7 +55,9 @@ pub(crate) fn read(input: &Input<'_>, _: &'static Models) -> Reading {
         Ok(text) => {
             let mut assembly = Assembly::default();
             statements(&text, &file, input.limits.lenient, &mut assembly, &mut findings);
+            assembly.tell_unknown(&mut findings);
             let room = assembly.has_room(input.limits, &file, &mut findings);
+            bare = assembly.is_bare();
             (room && !findings.any_error()).then(|| assembly.finish(&file, &mut findings))
         }
     };
@@ -64,7 +70,7 @@ pub(crate) fn read(input: &Input<'_>, _: &'static Models) -> Reading {
         diagnostics.extend(scene.check());
     }
     let sound = !diagnostics.iter().any(Diagnostic::is_error);
-    Reading { scene: scene.filter(|_| sound), bare: false, diagnostics }
+    Reading { scene: scene.filter(|_| sound), bare, diagnostics }
 }
 
 fn statements(
@@ -124,16 +130,22 @@ fn statement(words: &mut Words<'_>, assembly: &mut Assembly, place: Place) -> Pa
         }
         b"f" => {
             let base = color(words.three()?);
-            let [diffuse, specular, shine] = words.three()?;
-            let look = Look {
-                base,
-                diffuse,
-                specular,
-                shine,
-                through: words.number()?,
-                ior: words.number()?,
-            };
-            assembly.look(look, place);
+            // Some programs write less, others the name of an image behind it.
+            let line = words.line();
+            let mut numbers = [1.0, 0.0, 1.0, 0.0, 1.0];
+            for number in &mut numbers {
+                let mut ahead = words.clone();
+                match ahead.number() {
+                    Ok(value) if ahead.line() == line => (*number, *words) = (value, ahead),
+                    _ => break,
+                }
+            }
+            if words.is_there() && words.line() == line {
+                assembly.images += 1;
+                words.next_line();
+            }
+            let [diffuse, specular, shine, through, ior] = numbers;
+            assembly.look(Look { base, diffuse, specular, shine, through, ior }, place);
         }
         b"s" => {
             let [x, y, z] = words.three()?;
@@ -158,7 +170,10 @@ fn statement(words: &mut Words<'_>, assembly: &mut Assembly, place: Place) -> Pa
             }
             assembly.polygon(&corners, &normals);
         }
-        other => return Err(words.wrong_word(other, "a statement (`v b l f s c p pp`)")),
+        _ => {
+            assembly.unknown.get_or_insert((0, place)).0 += 1;
+            words.next_line();
+        }
     }
     Ok(())
 }

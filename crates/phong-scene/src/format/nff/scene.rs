@@ -7,10 +7,11 @@ use glam::{DVec3, Vec3};
 
 use crate::camera::{Camera, CameraKind};
 use crate::color::Rgb;
-use crate::diagnostic::Place;
+use crate::diagnostic::{Place, Span};
 use crate::format::faces::Faces;
 use crate::format::text::{Findings, whole};
 use crate::format::triangles::{cut, has_room, tell_small, tidy};
+use crate::frame::Framing;
 use crate::light::{Light, LightKind};
 use crate::limits::{LARGEST, Limits};
 use crate::material::{ConstantMaterial, Material, MaterialId, Model};
@@ -31,6 +32,10 @@ pub(super) struct Assembly {
     /// What is of each of them; the first is of none.
     parts: Vec<Part>,
     left_out: u64,
+    /// How many statements have names that the format does not have, and where the first is.
+    pub(super) unknown: Option<(u64, Place)>,
+    /// How many looks name an image.
+    pub(super) images: u64,
 }
 
 /// Where the picture is taken from.
@@ -157,6 +162,25 @@ impl Assembly {
         part.normal_faces.push(&numbers);
     }
 
+    /// Says how many statements the format does not have; that there are no others is an error.
+    pub(super) fn tell_unknown(&self, findings: &mut Findings) {
+        let Some((count, place)) = &self.unknown else { return };
+        let span = || Span { place: place.clone(), ..Span::default() };
+        if self.parts.is_empty() && self.lamps.is_empty() && !self.viewed {
+            let message = || "the file is no NFF: it has none of its statements".to_owned();
+            findings.error("other files", span, message);
+            return;
+        }
+        let message =
+            || format!("lines that begin with a word which NFF does not have: {count}; not used");
+        findings.warning("statements that NFF does not have", span, message);
+    }
+
+    /// Whether it says nothing of a view and of light.
+    pub(super) fn is_bare(&self) -> bool {
+        !self.viewed && self.lamps.is_empty()
+    }
+
     /// Whether memory suffices for what was read.
     pub(super) fn has_room(
         &self,
@@ -184,8 +208,17 @@ impl Assembly {
             );
             warn("things that are left out", message);
         }
-        if !self.viewed {
-            warn("views", "the file has no view (`v`); the default camera is used".to_owned());
+        if self.images > 0 {
+            let message =
+                format!("fills with an image behind them, which is not drawn: {}", self.images);
+            warn("images", message);
+        }
+        let (viewed, lit) = (self.viewed, !self.lamps.is_empty());
+        if viewed && !lit {
+            warn("lights", "the file has no light (`l`); it is lit as a bare model is".to_owned());
+        }
+        if !viewed && lit {
+            warn("views", "the file has no view (`v`); the camera is automatic".to_owned());
         }
         scene.image.background = Background::Color(self.background);
         let View { from, at, up, angle, size } = self.view;
@@ -209,9 +242,18 @@ impl Assembly {
             *count += 1;
             object.name = format!("{} {count}", object.shape.kind());
         }
-        if scene.objects.is_empty() {
-            let message = || "there is nothing to draw but the background".to_owned();
-            findings.warning("empty scenes", || whole(file), message);
+        if scene.objects.is_empty() && (self.left_out > 0 || self.unknown.is_some()) {
+            let message = || "there is nothing to draw: nothing of the file is left".to_owned();
+            findings.error("empty scenes", || whole(file), message);
+        }
+        if viewed && !lit {
+            scene.light();
+        } else if !viewed {
+            let lights = std::mem::take(&mut scene.lights);
+            scene.frame(&Framing::default());
+            if lit {
+                scene.lights = lights;
+            }
         }
         scene
     }
