@@ -54,7 +54,9 @@ fn the_same_scene_gives_the_same_bytes() {
 #[test]
 fn what_is_wrong_with_the_words_is_said_before_anything_is_read() {
     let folder = given(&[("a.toml", BALLS), ("nan.toml", &BALLS.replace("0.7", "nan"))]);
-    folder.when("convert a.toml b.docx").is_refused(&["b.docx", ".toml, .obj, .ply or .stl"]);
+    folder
+        .when("convert a.toml b.docx")
+        .is_refused(&["b.docx", ".toml, .obj, .ply, .stl, .gltf or .dat"]);
     folder.when("convert a.toml b.nff").is_refused(&["NFF", "not written yet"]);
     folder.when("convert a.toml").is_refused(&["OUT"]);
     folder.when("convert a.toml -").is_refused(&["--to"]);

@@ -122,3 +122,80 @@ fn stl_mesh(bencher: Bencher<'_, '_>) {
     let source = Memory::new().with("a.stl", file).with("a.toml", *scene);
     bencher.counter(size).bench_local(|| read("a.toml", None, &source, &Limits::default()));
 }
+
+/// Half a million triangles with normals in one binary glTF file.
+#[divan::bench(sample_count = 20)]
+fn glb_mesh(bencher: Bencher<'_, '_>) {
+    let vectors: Vec<u8> =
+        grid().flat_map(|p| p.map(|c| c as f32)).flat_map(f32::to_le_bytes).collect();
+    let indices: Vec<u8> = triangles().flatten().flat_map(|i| (i as u32).to_le_bytes()).collect();
+    let (count, corners) = (SIDE * SIDE, indices.len() / 4);
+    let (places, length) = (vectors.len(), 2 * vectors.len() + indices.len());
+    let mut text = format!(
+        "{{\"asset\":{{\"version\":\"2.0\"}},\"meshes\":[{{\"primitives\":[{{\"attributes\":\
+         {{\"POSITION\":0,\"NORMAL\":1}},\"indices\":2}}]}}],\"accessors\":[\
+         {{\"bufferView\":0,\"componentType\":5126,\"type\":\"VEC3\",\"count\":{count}}},\
+         {{\"bufferView\":1,\"componentType\":5126,\"type\":\"VEC3\",\"count\":{count}}},\
+         {{\"bufferView\":2,\"componentType\":5125,\"type\":\"SCALAR\",\"count\":{corners}}}],\
+         \"bufferViews\":[{{\"buffer\":0,\"byteLength\":{places}}},\
+         {{\"buffer\":0,\"byteOffset\":{places},\"byteLength\":{places}}},\
+         {{\"buffer\":0,\"byteOffset\":{},\"byteLength\":{}}}],\
+         \"buffers\":[{{\"byteLength\":{length}}}]}}",
+        2 * places,
+        indices.len(),
+    );
+    while !text.len().is_multiple_of(4) {
+        text.push(' ');
+    }
+    let number = |n: usize| (n as u32).to_le_bytes();
+    let head = [number(2), number(28 + text.len() + length), number(text.len())].concat();
+    let mut file =
+        [&b"glTF"[..], &head, b"JSON", text.as_bytes(), &number(length), b"BIN\0"].concat();
+    file.extend([&vectors[..], &vectors[..], &indices[..]].concat());
+    let size = BytesCount::new(file.len());
+    let source = Memory::new().with("a.glb", file);
+    assert!(read("a.glb", None, &source, &Limits::default()).scene.is_some());
+    bencher.counter(size).bench_local(|| read("a.glb", None, &source, &Limits::default()));
+}
+
+/// A million spheres of four colours, a line each.
+#[divan::bench(sample_count = 20)]
+fn tachyon_spheres(bencher: Bencher<'_, '_>) {
+    let mut text =
+        "BEGIN_SCENE\nRESOLUTION 8 6\nCAMERA ZOOM 1 ASPECTRATIO 1 ANTIALIASING 0 RAYDEPTH 4 \
+                    CENTER 0 0 -9 VIEWDIR 0 0 1 UPDIR 0 1 0 END_CAMERA\n"
+            .to_owned();
+    for c in 0..4 {
+        let _ = writeln!(
+            text,
+            "TEXDEF C{c} AMBIENT 0.1 DIFFUSE 0.7 SPECULAR 0 OPACITY 1 PHONG PLASTIC 0.3 PHONG_SIZE 40 \
+             COLOR 0.{c} 0.1 0.2 TEXFUNC 0"
+        );
+    }
+    for i in 0..1_000_000_u32 {
+        let [x, y, z] = [1, 3, 7].map(|k| f64::from(i * k % 1024) + 0.5);
+        let _ = writeln!(text, "SPHERE CENTER {x:.4} {y:.4} {z:.4} RAD 0.45 C{}", i % 4);
+    }
+    text.push_str("END_SCENE\n");
+    let size = BytesCount::new(text.len());
+    let source = Memory::new().with("a.dat", text.into_bytes());
+    assert!(read("a.dat", None, &source, &Limits::default()).scene.is_some());
+    bencher.counter(size).bench_local(|| read("a.dat", None, &source, &Limits::default()));
+}
+
+/// A million particles of a LAMMPS dump, a line each.
+#[divan::bench(sample_count = 20)]
+fn lammps_dump(bencher: Bencher<'_, '_>) {
+    let mut text =
+        "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1000000\nITEM: BOX BOUNDS pp pp pp\n0 1024\n\
+                    0 1024\n0 1024\nITEM: ATOMS id type x y z\n"
+            .to_owned();
+    for i in 0..1_000_000_u32 {
+        let [x, y, z] = [1, 3, 7].map(|k| f64::from(i * k % 1024) + 0.5);
+        let _ = writeln!(text, "{} {} {x:.4} {y:.4} {z:.4}", i + 1, i % 4 + 1);
+    }
+    let size = BytesCount::new(text.len());
+    let source = Memory::new().with("a.lammpstrj", text.into_bytes());
+    assert!(read("a.lammpstrj", None, &source, &Limits::default()).scene.is_some());
+    bencher.counter(size).bench_local(|| read("a.lammpstrj", None, &source, &Limits::default()));
+}

@@ -121,7 +121,7 @@ pub fn read_changed(
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct ExportOptions {
-    /// The format. Default: [`Format::Toml`]; OBJ, PLY and STL are written as well.
+    /// The format. Default: [`Format::Toml`]; OBJ, PLY, STL, glTF and Tachyon are written as well.
     pub format: Format,
     /// How numbers stand in PLY files.
     pub ply: PlyEncoding,

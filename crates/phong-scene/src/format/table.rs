@@ -133,7 +133,7 @@ static TABLE: [Entry; 14] = [
         tells: Some(gltf::is_gltf),
         bare: true,
         read: Some(Read::Model(gltf::read)),
-        write: None,
+        write: Some(gltf::export::write_gltf),
     },
     Entry {
         format: Format::Pdb,
@@ -187,7 +187,7 @@ static TABLE: [Entry; 14] = [
         tells: Some(tachyon::is_tachyon),
         bare: false,
         read: Some(Read::Scene(tachyon::read)),
-        write: None,
+        write: Some(tachyon::export::write_tachyon),
     },
     Entry {
         format: Format::Nff,

@@ -99,7 +99,7 @@ impl Size {
 }
 
 /// All objects with instances unfolded, each with its placement and the names on the way to it.
-fn each_placed<'s>(
+pub(crate) fn each_placed<'s>(
     objects: &'s [Object],
     groups: &'s [Group],
     to_world: DAffine3,

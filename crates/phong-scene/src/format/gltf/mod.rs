@@ -26,10 +26,12 @@
 //! there, so that one bad mesh among many would leave nothing; it knows no limits.
 
 mod buffer;
+pub(crate) mod export;
 mod json;
 mod material;
 mod nodes;
 mod primitive;
+mod surface;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;

@@ -8,7 +8,7 @@
 //! | `RESOLUTION`, `ANTIALIASING n`, `RAYDEPTH n` | the size; n + 1 samples a pixel; n − 1 bounces |
 //! | `CAMERA`: perspective, with depth of field, orthographic, fisheye | `fov` = 2 atan(½ / zoom); a lens; a height of 1 / zoom; an equidistant fisheye, which is not quite Tachyon's |
 //! | `FRUSTUM` | its height; where it is not symmetric, a warning |
-//! | `BACKGROUND`, `BACKGROUND_GRADIENT` | a colour; a gradient over the picture's height |
+//! | `BACKGROUND`, `BACKGROUND_GRADIENT` | a colour; a gradient between the colours that it has at the picture's upper and lower edge |
 //! | `LIGHT`, `DIRECTIONAL_LIGHT`, `SPOTLIGHT`, `ATTENUATION` | point, distant and spot lights. The visible sphere of a light is not drawn |
 //! | `SPHERE` | spheres in bulk, with their colours |
 //! | `FCYLINDER`; `POLYCYLINDER` | cylinders without caps in bulk; capsules |
@@ -20,7 +20,7 @@
 //! | `TEXDEF`, `TEXALIAS` | names, of which the first definition counts. An unknown one is grey, with a warning |
 //! | `TEXFUNC` 1 to 9, `OUTLINE`, `TRANSMODE R3D` | their constant colour: a warning |
 //! | `SHADER_MODE`: `MEDIUM` and less; `TRANS_VMD` | no shadows; what is seen through is not added to but mixed with the surface |
-//! | ambient occlusion | its light without the occlusion: a warning |
+//! | ambient occlusion | `k_a` grows by `DIFFUSE` times its colour; the file's own ambient light is hidden with it |
 //! | `FOG`, clip groups, `SCALARVOL`, `SCAPE`, `TPOLYFILE`, `MGFFILE` | nothing: a warning that counts them |
 //! | `INCLUDE` | the other file's statements, at this place |
 //!
@@ -32,8 +32,10 @@
 
 mod block;
 mod camera;
+pub(crate) mod export;
 mod scene;
 mod shapes;
+mod sky;
 mod statement;
 mod texture;
 mod vectors;

@@ -8,8 +8,10 @@ use glam::DVec3;
 use super::block::{Named, Things};
 use super::camera::Frame;
 use super::shapes::{Bulk, ring};
+use super::sky::Gradient;
 use super::statement::{Lamp, Mode, Statement};
 use super::texture::{Texture, rgb};
+use crate::ambient_occlusion::{AmbientOcclusion, OcclusionDistance};
 use crate::color::Rgb;
 use crate::diagnostic::{Diagnostic, Place};
 use crate::format::input::Input;
@@ -50,6 +52,7 @@ pub(super) struct Assembly<'a> {
     size: Option<[u64; 2]>,
     frame: Option<Frame>,
     background: Background,
+    gradient: Option<Gradient>,
     mode: Mode,
     /// How many of what is not drawn, in the plural.
     ignored: BTreeMap<&'static str, u64>,
@@ -72,6 +75,7 @@ impl<'a> Assembly<'a> {
             size: None,
             frame: None,
             background: Background::default(),
+            gradient: None,
             mode: Mode::default(),
             ignored: BTreeMap::new(),
             left_out: 0,
@@ -233,10 +237,11 @@ impl<'a> Assembly<'a> {
             }
             Statement::Resolution(size) => self.size = Some(size),
             Statement::Camera(frame) => self.frame = Some(frame),
-            Statement::Background(color) => self.background = Background::Color(rgb(color)),
-            Statement::Gradient { top, bottom } => {
-                self.background = Background::Gradient { top: rgb(top), bottom: rgb(bottom) };
+            Statement::Background(color) => {
+                self.background = Background::Color(rgb(color));
+                self.gradient = None;
             }
+            Statement::Gradient(gradient) => self.gradient = Some(gradient),
             Statement::Mode(mode) => self.mode = mode,
             Statement::Include(name) => {
                 let name = String::from_utf8_lossy(&name);
@@ -298,22 +303,32 @@ impl<'a> Assembly<'a> {
             }
             None => warn("sizes", "the file says no `RESOLUTION`; the default is used".to_owned()),
         }
-        let [width, height] = scene.image.size.map(f64::from);
         if let Some(frame) = &self.frame {
             let most = u64::from(Image::MOST_SAMPLES);
             scene.image.samples = frame.antialiasing.saturating_add(1).min(most) as u32;
             let bounces = frame.depth.saturating_sub(1).min(Image::DEEPEST.into());
             scene.image.depth = bounces as u32;
-            let (camera, told) = frame.camera(width / height);
+            let (camera, told) = frame.camera();
             scene.camera = camera;
             told.into_iter().for_each(|message| warn("cameras", message));
         } else {
             warn("cameras", "the file has no `CAMERA`; the default one is used".to_owned());
         }
+        if let Some(gradient) = &self.gradient {
+            let [top, bottom] = gradient.colors(&scene.camera);
+            scene.image.background = Background::Gradient { top, bottom };
+        }
+        if self.mode.open.is_some() {
+            let samples = self.mode.samples.clamp(1, 1024) as u32;
+            // Its rays end at nothing.
+            let distance = OcclusionDistance::Units(1e6);
+            scene.ambient_occlusion = Some(AmbientOcclusion { samples, distance });
+        }
         scene.lights = self.lights();
         self.shapes(&mut scene);
-        if scene.objects.is_empty() {
-            warn("empty scenes", "there is nothing to draw but the background".to_owned());
+        if scene.objects.is_empty() && self.left_out > 0 {
+            let message = || "there is nothing to draw: nothing of the file is left".to_owned();
+            findings.error("empty scenes", || whole(file), message);
         }
         scene
     }
@@ -341,10 +356,6 @@ impl<'a> Assembly<'a> {
                 self.left_out
             );
             warn("things that are left out", message);
-        }
-        if self.mode.open.is_some() {
-            let message = "ambient occlusion: its light is drawn, as if nothing were in its way";
-            warn("ambient occlusion", message.to_owned());
         }
     }
 

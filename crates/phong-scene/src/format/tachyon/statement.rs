@@ -4,6 +4,7 @@ use glam::{DVec3, Vec3};
 
 use super::block::{Named, Things, Triangle};
 use super::camera::Frame;
+use super::sky::Gradient;
 use super::texture::Texture;
 use crate::format::text::{Fault, Parsed, Words};
 use crate::limits::LARGEST;
@@ -87,10 +88,7 @@ pub(super) enum Statement {
     Resolution([u64; 2]),
     Camera(Frame),
     Background([f32; 3]),
-    Gradient {
-        top: [f32; 3],
-        bottom: [f32; 3],
-    },
+    Gradient(Gradient),
     Mode(Mode),
     Include(Vec<u8>),
     /// What is not drawn, in the plural.
@@ -128,6 +126,8 @@ pub(super) struct Mode {
     pub(super) mixed: bool,
     /// The colour of ambient occlusion.
     pub(super) open: Option<[f32; 3]>,
+    /// The rays of ambient occlusion.
+    pub(super) samples: u64,
     /// What all lights are multiplied by.
     pub(super) rescale: Option<f32>,
 }
@@ -430,18 +430,17 @@ fn lamp(name: &[u8], words: &mut Words<'_>) -> Parsed<Lamp> {
 }
 
 fn gradient(words: &mut Words<'_>) -> Parsed<Statement> {
-    words.some("`SKY_SPHERE`")?;
-    words.keyed("UPDIR")?;
-    words.keyed_number("TOPVAL")?;
-    words.keyed_number("BOTTOMVAL")?;
+    let sphere = words.some("`SKY_SPHERE`")?.eq_ignore_ascii_case(b"sky_sphere");
+    let up = words.keyed_double("UPDIR")?;
+    let values = [words.keyed_number("TOPVAL")?.into(), words.keyed_number("BOTTOMVAL")?.into()];
     words.key("TOPCOLOR")?;
     let top = words.three()?;
     words.key("BOTTOMCOLOR")?;
-    Ok(Statement::Gradient { top, bottom: words.three()? })
+    Ok(Statement::Gradient(Gradient { sphere, up, values, colors: [top, words.three()?] }))
 }
 
 fn mode(words: &mut Words<'_>) -> Parsed<Statement> {
-    let mut mode = Mode::default();
+    let mut mode = Mode { samples: 16, ..Mode::default() };
     loop {
         let word = words.some("`END_SHADER_MODE`")?;
         let is = |key: &str| word.eq_ignore_ascii_case(key.as_bytes());
@@ -455,6 +454,8 @@ fn mode(words: &mut Words<'_>) -> Parsed<Statement> {
             mode.open = Some([1.0; 3]);
         } else if is("AMBIENT_COLOR") {
             mode.open = Some(words.three()?);
+        } else if is("SAMPLES") || is("NUMSAMPLES") {
+            mode.samples = words.whole()?;
         } else if is("RESCALE_DIRECT") {
             mode.rescale = Some(words.number()?);
         }

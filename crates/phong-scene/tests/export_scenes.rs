@@ -1,0 +1,118 @@
+//! Scenes as glTF and as Tachyon files: what comes back, and what is told to be missing.
+
+use phong_scene::{CameraKind, ExportOptions, Format, Limits, Memory, Rgb, Scene, Shape, read};
+
+const SCENE: &str = r#"version = 1
+[image]
+size = [320, 180]
+background = [0.1, 0.2, 0.3]
+[camera]
+eye = [0, 1, 5]
+look_at = [0, 0, 0]
+fov = 50
+[[light]]
+kind = "point"
+position = [3, 4, 5]
+color = [1, 0.5, 0.25]
+[[light]]
+kind = "spot"
+position = [0, 6, 0]
+target = [0, 0, 0]
+cone = 20
+edge = 25
+[materials.red]
+model = "blinn-phong"
+color = [0.8, 0.1, 0.1]
+k_d = 1
+shininess = 30
+[[triangle]]
+points = [[0, 0, 0], [1, 0, 0], [0, 1, 2]]
+normals = [[0, 0, 1], [0, 0, 1], [0, 1, 1]]
+material = "red"
+[groups.two]
+[[groups.two.triangle]]
+points = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+[[instance]]
+group = "two"
+translate = [5, 0, 0]
+[[instance]]
+group = "two"
+scale = 2
+"#;
+
+fn scene(more: &str) -> Scene {
+    let files = Memory::new().with("a.toml", format!("{SCENE}{more}").into_bytes());
+    let reading = read("a.toml", None, &files, &Limits::default());
+    reading.scene.unwrap_or_else(|| panic!("{:?}", reading.diagnostics))
+}
+
+/// The scene that comes back, what is told to be missing, and what was mapped.
+fn again(scene: Scene, format: Format, name: &str) -> (Scene, String, String) {
+    let options = ExportOptions { format, ..ExportOptions::default() };
+    let export = scene.export(&options, name).expect("files");
+    let mut files = Memory::new();
+    for file in &export.files {
+        let mut bytes = Vec::new();
+        file.write(&mut bytes).expect("memory");
+        files = files.with(file.name.as_str(), bytes);
+    }
+    let reading = read(name, None, &files, &Limits::default());
+    let scene = reading.scene.unwrap_or_else(|| panic!("{:?}", reading.diagnostics));
+    let dropped = export.account.dropped.iter().map(|d| format!("{d}\n")).collect();
+    (scene, dropped, export.account.mapped.join("\n"))
+}
+
+#[test]
+fn a_scene_comes_back_from_gltf_with_its_instances_camera_and_lights() {
+    for name in ["b.glb", "b.gltf"] {
+        let (back, dropped, mapped) = again(scene(""), Format::Gltf, name);
+        assert!(dropped.is_empty(), "{dropped}");
+        assert!(mapped.contains("GGX with α² = 2/(n + 2)"), "{mapped}");
+        assert!(
+            matches!(back.camera.kind, CameraKind::Perspective { fov } if (fov - 50.0).abs() < 1e-6)
+        );
+        let bounds = back.bounds();
+        assert!((bounds.max - glam::DVec3::new(6.0, 2.0, 2.0)).length() < 1e-6, "{}", bounds.max);
+        let [lamp, spot] = &back.lights[..] else { panic!("{:?}", back.lights) };
+        assert!((lamp.color.r - 1.0).abs() < 1e-5 && (lamp.color.b - 0.25).abs() < 1e-5);
+        let (at, _) = (spot.kind.position().expect("a place"), spot.kind.direction());
+        assert!((at - glam::DVec3::new(0.0, 6.0, 0.0)).length() < 1e-6);
+        assert_eq!(back.groups.len(), 1);
+        let red = back.materials.iter().find(|m| m.name == "red").expect("a material");
+        assert_eq!(red.color, Rgb::new(0.8, 0.1, 0.1).into());
+    }
+}
+
+#[test]
+fn what_gltf_cannot_hold_is_told() {
+    let ball = "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n";
+    let (_, dropped, _) = again(scene(ball), Format::Gltf, "b.glb");
+    assert!(dropped.contains("so 1 sphere is left out"), "{dropped}");
+}
+
+#[test]
+fn a_scene_comes_back_from_tachyon_as_it_was() {
+    let more = "[[sphere]]\ncenter = [1, 2, 3]\nradius = 0.5\nmaterial = \"red\"\n\
+                [[plane]]\npoint = [0, -1, 0]\nnormal = [0, 1, 0]\n\
+                [[torus]]\ncenter = [0, 0, 0]\naxis = [0, 1, 0]\nradius = 1\ntube = 0.1\n";
+    let (back, dropped, _) = again(scene(more), Format::Tachyon, "b.dat");
+    assert!(dropped.contains("Tachyon holds no tori"), "{dropped}");
+    assert!(
+        matches!(back.camera.kind, CameraKind::Perspective { fov } if (fov - 50.0).abs() < 1e-4)
+    );
+    assert!((back.camera.eye - glam::DVec3::new(0.0, 1.0, 5.0)).length() < 1e-6);
+    assert_eq!((back.image.size, back.image.samples), ([320, 180], 16));
+    assert_eq!(back.lights.len(), 2);
+    let ball = back.objects.iter().find_map(|object| match &object.shape {
+        Shape::Points(points) => Some((points.spheres[0], object.material)),
+        _ => None,
+    });
+    let (ball, material) = ball.expect("a sphere");
+    assert_eq!(ball, [1.0, 2.0, 3.0, 0.5]);
+    assert_eq!(back.materials[material.0 as usize].color, Rgb::new(0.8, 0.1, 0.1).into());
+    let triangles = back.objects.iter().map(|object| match &object.shape {
+        Shape::Mesh(mesh) => mesh.indices.len(),
+        _ => 0,
+    });
+    assert_eq!(triangles.sum::<usize>(), 3);
+}
