@@ -45,6 +45,44 @@ pub struct Camera {
     pub focus: Option<f64>,
 }
 
+impl Camera {
+    /// The camera after `step` of `steps` equal steps once around what it looks at, about the axis through
+    /// `look_at` that points along `axis`: to its right where that is its up. All that it sees stays the
+    /// same but the side; `step` 0 is the camera itself.
+    ///
+    /// ```
+    /// use glam::DVec3;
+    /// use phong_scene::Camera;
+    /// let front = Camera::default();
+    /// assert_eq!(front.turned(DVec3::Y, 1, 4).eye, DVec3::new(5.0, 0.0, 0.0));
+    /// assert_eq!(front.turned(DVec3::Y, 6, 6), front);
+    /// ```
+    #[must_use]
+    pub fn turned(&self, axis: DVec3, step: u32, steps: u32) -> Self {
+        let (step, steps) = (u64::from(step), u64::from(steps.max(1)));
+        let step = step % steps;
+        if step == 0 {
+            return self.clone();
+        }
+        let axis = axis.normalize_or(DVec3::Y);
+        // Quarters are exact.
+        let (sin, cos) = match (4 * step % steps, 4 * step / steps) {
+            (0, 1) => (1.0, 0.0),
+            (0, 2) => (0.0, -1.0),
+            (0, _) => (-1.0, 0.0),
+            _ => libm::sincos(std::f64::consts::TAU * step as f64 / steps as f64),
+        };
+        // By how much a direction changes: nothing along the axis.
+        let change = |v: DVec3| {
+            let across = v - axis * axis.dot(v);
+            across * (cos - 1.0) + axis.cross(across) * sin
+        };
+        let along = self.up.cross(axis).length() <= 1e-12 * self.up.length();
+        let up = if along { self.up } else { self.up + change(self.up) };
+        Self { eye: self.eye + change(self.eye - self.look_at), up, ..self.clone() }
+    }
+}
+
 impl Default for Camera {
     /// From (0, 0, 5) towards the origin, Y up, with a pinhole.
     fn default() -> Self {

@@ -1,5 +1,6 @@
 //! An automatic camera and two lights, so that a bare model looks good without a word.
 
+mod around;
 mod flat;
 
 use std::collections::BTreeMap;
