@@ -12,13 +12,23 @@ pub struct Finishing {
     /// The scene's [`fingerprint`](crate::part::fingerprint()): PNG and EXR files then say which
     /// scene they are of. `None`: they do not.
     pub scene: Option<u32>,
+    /// The checksum of all that the picture depends on
+    /// ([`Settings::checksum`](crate::part::Settings::checksum)): PNG and EXR files then say which
+    /// picture they are ([`picture_of`](crate::image::picture_of)). `None`: they do not.
+    pub picture: Option<u32>,
 }
 
 impl Finishing {
     /// The same, of the scene with this [`fingerprint`](crate::part::fingerprint()).
     #[must_use]
     pub fn of_scene(self, fingerprint: u32) -> Self {
-        Self { scene: Some(fingerprint) }
+        Self { scene: Some(fingerprint), ..self }
+    }
+
+    /// The same, of the picture with this checksum.
+    #[must_use]
+    pub fn of_picture(self, checksum: u32) -> Self {
+        Self { picture: Some(checksum), ..self }
     }
 }
 
@@ -27,12 +37,13 @@ impl Finishing {
 pub struct Finished<'a> {
     film: &'a Film,
     scene: Option<u32>,
+    picture: Option<u32>,
 }
 
 /// Finishes a film's picture.
 pub fn finish<'a>(film: &'a Film, finishing: &Finishing) -> Finished<'a> {
-    let Finishing { scene } = *finishing;
-    Finished { film, scene }
+    let Finishing { scene, picture } = *finishing;
+    Finished { film, scene, picture }
 }
 
 impl<'a> Finished<'a> {
@@ -41,10 +52,16 @@ impl<'a> Finished<'a> {
         self.film
     }
 
-    /// What a file says of its origin: the program with its version, and the scene's fingerprint.
-    pub(crate) fn origin(&self) -> [Option<(&'static str, String)>; 2] {
+    /// What a file says of its origin: the program with its version, the scene's fingerprint, and the
+    /// picture's checksum.
+    pub(crate) fn origin(&self) -> [Option<(&'static str, String)>; 3] {
         let program = concat!("phong ", env!("CARGO_PKG_VERSION")).to_owned();
-        [Some(("Software", program)), self.scene.map(|sum| ("Scene", format!("crc32 {sum:08x}")))]
+        let sum = |sum: u32| format!("crc32 {sum:08x}");
+        [
+            Some(("Software", program)),
+            self.scene.map(|scene| ("Scene", sum(scene))),
+            self.picture.map(|picture| ("Picture", sum(picture))),
+        ]
     }
 
     /// The values of a layer as they are to be seen; `None` if the film has no such layer.

@@ -1,7 +1,7 @@
 //! OpenEXR: every layer of a film as floats, in one part, ZIP-compressed by 16 rows.
 
 use std::collections::HashMap;
-use std::io::{Cursor, Seek, Write};
+use std::io::{Cursor, Read, Seek, Write};
 
 use exr::block::lines::LineRefMut;
 use exr::image::write::samples::{SamplesWriter, WritableSamples};
@@ -86,10 +86,11 @@ pub(super) fn write(
         opaque = vec![1.0; width * film.height() as usize];
         list.push(channel("A".to_owned(), &opaque, 1, 0));
     }
-    let [software, scene] = picture.origin().map(|said| said.map(|(_, text)| text));
+    let [software, scene, whole] = picture.origin().map(|said| said.map(|(_, text)| text));
     let software_name = software.map(Text::new_or_panic);
     let mut attributes = LayerAttributes { software_name, ..LayerAttributes::default() };
-    let own: Vec<_> = sampled(film).chain(scene.map(|sum| ("scene", sum))).collect();
+    let own = sampled(film).chain(scene.map(|sum| ("scene", sum)));
+    let own: Vec<_> = own.chain(whole.map(|sum| ("picture", sum))).collect();
     attributes.other = in_order(&own);
     let layer = Layer::new(
         (width, film.height() as usize),
@@ -106,6 +107,15 @@ pub(super) fn write(
         exr::error::Error::Io(error) => WriteError::Io(error),
         other => WriteError::Unsuitable(format!("OpenEXR: {other}")),
     })
+}
+
+/// The text of an attribute of the first layer; `None`: there is none, or the file cannot be read.
+pub(super) fn said(file: &mut (impl Read + Seek), name: &str) -> Option<String> {
+    let meta = MetaData::read_from_buffered(file, false).ok()?;
+    match meta.headers.first()?.own_attributes.other.get(&Text::new_or_none(name)?)? {
+        AttributeValue::Text(said) => Some(said.to_string()),
+        _ => None,
+    }
 }
 
 /// Attributes as the crate takes them. It writes them in the order of its hash map, which is another

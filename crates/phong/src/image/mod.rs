@@ -1,5 +1,5 @@
 //! Pictures as files: PNG, PFM and OpenEXR, written whole or not at all, and read back; PPM and JPEG
-//! are read too.
+//! are read too. An [`Animation`] is several pictures in one file, an animated PNG or a GIF.
 //!
 //! | | values | layers | exposure | alpha |
 //! |---|---|---|---|---|
@@ -9,10 +9,12 @@
 //!
 //! The same film gives the same bytes on every machine, for any number of threads.
 
+mod animation;
 mod curve;
 #[cfg(feature = "exr")]
 mod exr;
 mod jpeg;
+mod origin;
 mod pfm;
 mod picture;
 mod png;
@@ -28,6 +30,8 @@ use crate::film::LayerKind;
 use crate::finish::Finished;
 
 pub use self::png::srgb8;
+pub use animation::{Animation, AnimationFormat, AnimationOptions};
+pub use origin::picture_of;
 pub use picture::{Lossy, Picture, Plane, ReadError, Transfer};
 pub use save::{Draft, SaveError, WriteSeek, place, remove_abandoned, save};
 

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use phong_scene::Scene;
 
-use super::fingerprint;
+use super::{ARITHMETIC, checksum, fingerprint};
 use crate::aov::Aov;
 use crate::film::{Film, LayerKind, Window};
 use crate::image::{Bits, Encoding};
@@ -59,6 +59,18 @@ impl Settings {
     pub fn scene(&self) -> Option<u32> {
         let (_, sum) = self.picture.iter().find(|(name, _)| name == "scene")?;
         u32::from_str_radix(sum, 16).ok()
+    }
+
+    /// A checksum of all that the picture and its file depend on, the version of the arithmetic
+    /// included, and nothing else: not the share, not the edge of a tile.
+    pub fn checksum(&self) -> u32 {
+        let mut text = format!("arithmetic {ARITHMETIC}\n");
+        for (name, value) in self.lines() {
+            if name != "share" && name != "tile" {
+                let _ = writeln!(text, "{name} {value}");
+            }
+        }
+        checksum(text.as_bytes())
     }
 
     /// A film of this picture without any tile.
