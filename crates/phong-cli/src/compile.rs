@@ -13,10 +13,22 @@ use crate::memory;
 
 /// Makes a scene ready beside which `beside` bytes of memory are needed for something else.
 pub(crate) fn compile(scene: &Scene, args: &InputArgs, beside: u64) -> Result<View, Failure> {
+    compile_for(1, scene, args, beside)
+}
+
+/// The same for so many pictures, which are worth more time for building.
+pub(crate) fn compile_for(
+    pictures: u32,
+    scene: &Scene,
+    args: &InputArgs,
+    beside: u64,
+) -> Result<View, Failure> {
     memory::want(beside)?;
     let limit = Some(memory::limit()).filter(|&limit| limit < u64::MAX);
     let max_bytes = limit.map(|limit| limit - beside);
-    let options = GeometryOptions { max_bytes, ..GeometryOptions::of(scene) };
+    let options = GeometryOptions::of(scene);
+    let rays = options.rays.saturating_mul(pictures.into());
+    let options = GeometryOptions { max_bytes, rays, ..options };
     let geometry = Geometry::new(scene, options).map_err(ViewError::from);
     let view = geometry.and_then(|geometry| View::new(Arc::new(geometry), Look::new(scene)));
     view.map_err(|error| match error {

@@ -7,8 +7,8 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 
 use glam::DVec3;
 use phong_scene::{
-    Batch, BatchReading, Blob, CameraKind, Diagnostic, Folder, Format, Jail, Limits, Memory,
-    Reading, Scene, Severity, Side, Source, closest, path_of, read_stream, trouble,
+    Batch, BatchReading, Blob, CameraKind, Diagnostic, Folder, Format, Framing, Jail, Limits,
+    Memory, Reading, Scene, Severity, Side, Source, closest, path_of, read_stream, trouble,
 };
 
 use crate::args::{InputArgs, View, ViewArgs};
@@ -262,6 +262,30 @@ pub(crate) fn open(args: &InputArgs, quiet: bool) -> Result<Input, Failure> {
     Ok(Input { scene, bare, warnings: diagnostics, files, quiet })
 }
 
+/// How the command line looks at a bare model.
+fn framing(args: &ViewArgs) -> Framing {
+    let default = Framing::default();
+    Framing {
+        side: args.view.map_or(default.side, Side::from),
+        up: args.up.map_or(default.up, DVec3::from_array),
+        eye: args.eye.map(DVec3::from_array),
+        look_at: args.look_at.map(DVec3::from_array),
+        fov: args.fov,
+        color: args.color,
+    }
+}
+
+/// Makes a camera that was looked for ready to go once around what it looks at, in so many steps: a
+/// bare model is then seen from so far that it stays in the picture. The axis that it goes about.
+pub(crate) fn turn_around(input: &mut Input, args: &ViewArgs, steps: u32) -> DVec3 {
+    if !input.bare {
+        return input.scene.camera.up;
+    }
+    let framing = framing(args);
+    input.scene.frame_all_around(&framing, steps);
+    framing.up
+}
+
 /// Looks at a scene as the command line says; a bare model is framed anew for its picture's size.
 pub(crate) fn look(input: &mut Input, args: &ViewArgs) -> Result<(), Failure> {
     let Input { scene, bare, .. } = input;
@@ -275,15 +299,7 @@ pub(crate) fn look(input: &mut Input, args: &ViewArgs) -> Result<(), Failure> {
             .with_help("a scene's camera of kind \"fisheye\" sees up to 360"));
     }
     if bare {
-        let default = phong_scene::Framing::default();
-        let said = scene.frame(&phong_scene::Framing {
-            side: args.view.map_or(default.side, Side::from),
-            up: up.unwrap_or(default.up),
-            eye,
-            look_at,
-            fov: args.fov,
-            color: args.color,
-        });
+        let said = scene.frame(&framing(args));
         if !input.quiet {
             report::diagnostics(&said);
         }

@@ -9,6 +9,7 @@ mod checkpoint;
 mod command;
 mod compile;
 mod failure;
+mod film;
 mod input;
 mod interrupt;
 mod memory;

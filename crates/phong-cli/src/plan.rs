@@ -75,7 +75,20 @@ impl Outputs {
             Self::Part(output) => {
                 output.write(|mut out| part::write(film.film_tiles(), settings, &mut out))
             }
-            Self::Picture(format, files) => write_files(*format, files, film, settings),
+            Self::Picture(format, files) => {
+                write_files(*format, files, film, settings, Finishing::default())
+            }
+        }
+    }
+
+    /// The same, where the files are to say which picture they are.
+    pub(crate) fn write_marked(&mut self, film: &Film, settings: &Settings) -> Result<(), Failure> {
+        match self {
+            Self::Part(_) => self.write(film, settings),
+            Self::Picture(format, files) => {
+                let marked = Finishing::default().of_picture(settings.checksum());
+                write_files(*format, files, film, settings, marked)
+            }
         }
     }
 
@@ -94,10 +107,11 @@ fn write_files(
     files: &mut [(Content, Output)],
     film: &Film,
     settings: &Settings,
+    finishing: Finishing,
 ) -> Result<(), Failure> {
     let finishing = match settings.scene() {
-        Some(sum) => Finishing::default().of_scene(sum),
-        None => Finishing::default(),
+        Some(sum) => finishing.of_scene(sum),
+        None => finishing,
     };
     let (picture, encoding) = (finish(film, &finishing), &settings.encoding);
     files.iter_mut().try_for_each(|(content, output)| {

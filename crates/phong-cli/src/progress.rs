@@ -48,8 +48,8 @@ impl Meter {
         self.bar.reset();
     }
 
-    /// One more tile is done.
-    pub(crate) fn update(&self, progress: Progress) {
+    /// One more tile is done; so many rays were traced before, for other pictures.
+    pub(crate) fn update(&self, progress: Progress, before: u64) {
         if self.bar.is_hidden() {
             return;
         }
@@ -62,7 +62,7 @@ impl Meter {
         self.bar.set_length(progress.samples);
         self.bar.set_position(progress.samples_done);
         let seconds = self.started.elapsed().as_secs_f64();
-        self.bar.set_message(rate(progress.rays.total(), seconds));
+        self.bar.set_message(rate(before + progress.rays.total(), seconds));
     }
 
     /// Leaves no trace.

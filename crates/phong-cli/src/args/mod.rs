@@ -138,6 +138,12 @@ pub(crate) enum Bits {
     Sixteen,
 }
 
+impl Bits {
+    pub(crate) fn is_sixteen(self) -> bool {
+        self == Self::Sixteen
+    }
+}
+
 /// A picture file's format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum OutputFormat {

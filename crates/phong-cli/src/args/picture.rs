@@ -17,6 +17,8 @@ Examples:
   phong render scene.toml -o a.part --tile 0/2     # and 1/2 elsewhere, then: phong merge
   phong render scene.toml -o - | display           # to another program
   phong render scene.toml --size 480x270 --watch      again at every change
+  phong render dragon.ply --turntable 100 -o dragon-%04d.png    a film, a file a picture
+  phong render dragon.ply --turntable 50 -o dragon.gif          the same in one file
   cat scene.toml | phong render - --format toml -o scene.png";
 
 /// A picture of a scene or a bare model
@@ -50,7 +52,33 @@ pub(crate) struct RenderArgs {
     pub(crate) aov: Vec<phong::aov::Aov>,
 
     #[command(flatten)]
+    pub(crate) film: FilmArgs,
+
+    #[command(flatten)]
     pub(crate) work: WorkArgs,
+}
+
+/// Which pictures there are, if more than one.
+#[derive(Debug, clap::Args)]
+#[command(next_help_heading = "Film")]
+pub(crate) struct FilmArgs {
+    /// Turn once around what is seen, in N pictures: a file each, OUT with %d or %04d for its number,
+    /// or all in one, OUT in .gif or .png (animated). With --resume, pictures that are there are kept
+    #[arg(long, value_name = "N", value_parser = values::whole(1_u32, 1_000_000))]
+    #[arg(conflicts_with_all = ["tile", "watch"], allow_hyphen_values = true)]
+    pub(crate) turntable: Option<u32>,
+
+    /// Pictures a second, where all are in one file [default: 25]
+    #[arg(long, value_name = "N", value_parser = values::whole(1_u16, 1000))]
+    #[arg(requires = "turntable", allow_hyphen_values = true)]
+    pub(crate) fps: Option<u16>,
+}
+
+impl FilmArgs {
+    /// Whether there is more than the one picture.
+    pub(crate) fn is_asked_for(&self) -> bool {
+        self.turntable.is_some()
+    }
 }
 
 /// What the picture is; the scene's own settings hold where nothing is said.

@@ -11,6 +11,7 @@ pub(crate) mod convert;
 pub(crate) mod eval;
 pub(crate) mod explain;
 pub(crate) mod figure;
+pub(crate) mod film;
 pub(crate) mod fit;
 pub(crate) mod grade;
 pub(crate) mod info;
@@ -103,6 +104,7 @@ pub(crate) fn run(Cli { command, bounds }: Cli) -> Result<(), Failure> {
 fn run_here(command: Command, bounds: &BoundArgs) -> Result<(), Failure> {
     match command {
         Command::Render(args) if args.work.watch => watch::run(&args),
+        Command::Render(args) if args.film.is_asked_for() => film::run(&args),
         Command::Render(args) => render::run(&args).map(drop),
         Command::Explain(args) => explain::run(&args),
         Command::Figure(args) => figure::run(&args),

@@ -5,7 +5,8 @@ use std::time::Instant;
 
 use phong::film::{LayerKind, Window};
 use phong::part::Settings;
-use phong::render::{Event, Outcome, Rendering};
+use phong::render::{Cancel, Event, Outcome, RenderOptions, Rendering};
+use phong::view::View;
 use phong_lab::measure::memory::peak;
 use phong_lab::tell::diagnostic;
 use serde_json::json;
@@ -46,30 +47,17 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
 
     let beside = || Checkpoint::beside(&plan.output, settings.clone(), &options, quiet);
     let checkpoint = args.work.resume.then(beside);
-    let film = match &checkpoint {
-        Some(checkpoint) => match checkpoint.film() {
-            Err(Failure::Usage { .. }) if args.work.replace => None,
-            film => film?,
-        },
-        None => None,
-    };
     meter.samples();
-    let film = film.unwrap_or_else(|| settings.empty_film());
-    let rendering = Rendering::resume(&scene, &options, film).map_err(|error| {
-        let why = error.to_string();
-        checkpoint.as_ref().map_or(Failure::System(why.clone()), |kept| kept.unusable(&why))
-    })?;
     let listen = |event: Event<'_>| {
         if let Event::Progress(progress) = event {
-            meter.update(progress);
+            meter.update(progress, 0);
         }
     };
-    interrupt::heeding(|cancel| match &checkpoint {
-        Some(checkpoint) => checkpoint.run(&rendering, &listen, cancel),
-        None => rendering.run(&listen, cancel),
-    });
+    let (kept, replace) = (checkpoint.as_ref(), args.work.replace);
+    let Outcome { film, complete, rays } = interrupt::heeding(|cancel| {
+        draw(&scene, &options, &settings, kept, replace, &listen, cancel)
+    })?;
     meter.finish();
-    let Outcome { film, complete, rays } = rendering.finish();
     if !complete {
         return Err(interrupt::failure());
     }
@@ -124,29 +112,57 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
     Ok(input.files().to_vec())
 }
 
+/// Draws a picture, from where its checkpoint has left it; one that cannot be gone on from is an error,
+/// or is replaced.
+pub(super) fn draw(
+    scene: &View,
+    options: &RenderOptions,
+    settings: &Settings,
+    checkpoint: Option<&Checkpoint>,
+    replace: bool,
+    listen: &(dyn Fn(Event<'_>) + Sync),
+    cancel: &Cancel,
+) -> Result<Outcome, Failure> {
+    let film = match checkpoint.map(Checkpoint::film) {
+        Some(Err(Failure::Usage { .. })) if replace => None,
+        Some(film) => film?,
+        None => None,
+    };
+    let film = film.unwrap_or_else(|| settings.empty_film());
+    let rendering = Rendering::resume(scene, options, film).map_err(|error| {
+        let why = error.to_string();
+        checkpoint.map_or(Failure::System(why.clone()), |kept| kept.unusable(&why))
+    })?;
+    match checkpoint {
+        Some(checkpoint) => checkpoint.run(&rendering, listen, cancel),
+        None => rendering.run(listen, cancel),
+    }
+    Ok(rendering.finish())
+}
+
 /// Times of the stages, one after another.
 #[derive(Debug)]
-struct Clock {
+pub(super) struct Clock {
     started: Instant,
     stages: Vec<(&'static str, f64)>,
 }
 
 impl Clock {
-    fn start() -> Self {
+    pub(super) fn start() -> Self {
         Self { started: Instant::now(), stages: Vec::new() }
     }
 
     /// A stage has ended.
-    fn lap(&mut self, stage: &'static str) {
+    pub(super) fn lap(&mut self, stage: &'static str) {
         let before: f64 = self.stages.iter().map(|(_, seconds)| seconds).sum();
         self.stages.push((stage, self.started.elapsed().as_secs_f64() - before));
     }
 
-    fn seconds(&self, stage: &str) -> f64 {
+    pub(super) fn seconds(&self, stage: &str) -> f64 {
         self.stages.iter().find(|(name, _)| *name == stage).map_or(0.0, |(_, seconds)| *seconds)
     }
 
-    fn json(&self) -> serde_json::Value {
+    pub(super) fn json(&self) -> serde_json::Value {
         let mut all: serde_json::Map<_, _> = self
             .stages
             .iter()

@@ -1,0 +1,275 @@
+//! `phong render --turntable N`: the pictures of a film, one after another.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use glam::DVec3;
+use phong::film::{Film, Window};
+use phong::finish::{Finishing, finish};
+use phong::image::{
+    Animation, AnimationFormat, AnimationOptions, Content, Format, WriteError, picture_of,
+};
+use phong::look::Look;
+use phong::part::Settings;
+use phong::render::{Event, Outcome, Progress, RenderOptions};
+use phong::view::View;
+use phong_lab::measure::memory::peak;
+use phong_lab::tell::diagnostic;
+use phong_scene::{Background, Camera};
+use serde_json::json;
+
+use super::render::{Clock, draw};
+use crate::args::RenderArgs;
+use crate::checkpoint::Checkpoint;
+use crate::compile::compile_for;
+use crate::failure::Failure;
+use crate::film::{Names, Target};
+use crate::input::{self, Input};
+use crate::output::{Output, keep_inputs_safe};
+use crate::plan::{Outputs, Plan, not_finite};
+use crate::progress::{Meter, short};
+use crate::{interrupt, memory, report};
+
+/// Draws every picture of the film.
+pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
+    let mut clock = Clock::start();
+    let quiet = args.work.quiet;
+    let pictures = args.film.turntable.unwrap_or(1);
+    let target = Target::new(args, pictures)?;
+    let plan = Plan::new(args)?;
+    // What cannot be written is known before anything is read, let alone rendered.
+    let first = match &target {
+        Target::Files(names) => names.path(0),
+        Target::Animation { path, .. } => path.clone(),
+    };
+    keep_inputs_safe([&Output::create(&first)?], [&args.input.input])?;
+
+    let meter = Meter::new(quiet, "reading");
+    let mut input = input::open(&args.input, quiet)?;
+    let options = plan.settle(args, &mut input)?;
+    let axis = input::turn_around(&mut input, &args.view, pictures);
+    clock.lap("read");
+    let camera = input.scene.camera.clone();
+    let mut film = Filming {
+        args,
+        plan,
+        options,
+        input,
+        first: camera,
+        axis,
+        pictures,
+        view: None,
+        meter,
+        rays: [0; 3],
+        there: 0,
+    };
+    match &target {
+        Target::Files(names) => film.to_files(names)?,
+        Target::Animation { format, path, rate } => film.to_animation(*format, path, *rate)?,
+    }
+    film.meter.finish();
+    clock.lap("draw");
+    film.tell(&target, &clock)
+}
+
+/// A film that is being drawn.
+struct Filming<'a> {
+    args: &'a RenderArgs,
+    plan: Plan,
+    options: RenderOptions,
+    input: Input,
+    /// The camera of the first picture, and the axis that it goes about.
+    first: Camera,
+    axis: DVec3,
+    /// How many pictures there are.
+    pictures: u32,
+    /// The scene of the last picture that was drawn, made ready.
+    view: Option<View>,
+    meter: Meter,
+    /// Rays so far: primary, shadow, secondary.
+    rays: [u64; 3],
+    /// Pictures that were there.
+    there: u32,
+}
+
+impl Filming<'_> {
+    /// Makes the scene that of a picture.
+    fn stand(&mut self, number: u32) -> Settings {
+        let Input { scene, bare, .. } = &mut self.input;
+        scene.camera = self.first.turned(self.axis, number, self.pictures);
+        if *bare {
+            scene.light();
+        }
+        Settings::of(scene, &self.options, self.plan.encoding)
+    }
+
+    /// Draws the picture that the scene is of, with a checkpoint beside its file if there is to be one.
+    fn draw(
+        &mut self,
+        number: u32,
+        settings: &Settings,
+        checkpoint: Option<&Checkpoint>,
+    ) -> Result<Film, Failure> {
+        let scene = &self.input.scene;
+        let view = match self.view.take() {
+            // What rays meet is the same: only the look is another.
+            Some(view) => View::new(Arc::clone(view.geometry()), Look::new(scene))
+                .map_err(|error| Failure::usage(error.to_string()))?,
+            None => {
+                self.meter.stage("building");
+                let bytes = self.options.film_bytes();
+                let view = compile_for(self.pictures, scene, &self.args.input, bytes)?;
+                memory::set_aside(settings.film_bytes())?;
+                self.meter.samples();
+                view
+            }
+        };
+        let before: u64 = self.rays.iter().sum();
+        let listen = |event: Event<'_>| {
+            if let Event::Progress(progress) = event {
+                self.meter.update(self.of_all(number, progress), before);
+            }
+        };
+        let replace = true;
+        let Outcome { film, complete, rays } = interrupt::heeding(|cancel| {
+            draw(&view, &self.options, settings, checkpoint, replace, &listen, cancel)
+        })?;
+        self.view = Some(view);
+        if !complete {
+            return Err(interrupt::failure());
+        }
+        let counts = [rays.primary, rays.shadow, rays.secondary];
+        self.rays.iter_mut().zip(counts).for_each(|(all, more)| *all += more);
+        if let Some(unsound) = not_finite(&film)
+            && !self.input.warnings.iter().any(|told| told.message.contains("infinite or NaN"))
+        {
+            if !self.args.work.quiet {
+                report::diagnostics(std::slice::from_ref(&unsound));
+            }
+            self.input.warnings.push(unsound);
+        }
+        Ok(film)
+    }
+
+    /// How far all pictures are when one is so far.
+    fn of_all(&self, number: u32, progress: Progress) -> Progress {
+        let samples = progress.samples;
+        Progress {
+            samples: samples * u64::from(self.pictures),
+            samples_done: samples * u64::from(number) + progress.samples_done,
+            ..progress
+        }
+    }
+
+    /// Draws a file a picture. With `--resume` those that are there are left as they are.
+    fn to_files(&mut self, names: &Names) -> Result<(), Failure> {
+        let kinds = self.options.layers();
+        for number in 0..self.pictures {
+            let settings = self.stand(number);
+            let path = names.path(number.into());
+            let format = self.args.encoding.output_format;
+            let resume = self.args.work.resume;
+            if resume && is_there(&path, format.map(Format::from), &settings) {
+                self.there += 1;
+                continue;
+            }
+            let mut outputs = Outputs::picture(&path, format, &kinds)?;
+            keep_inputs_safe(outputs.iter(), self.input.files())?;
+            let beside = || {
+                let quiet = self.args.work.quiet;
+                Checkpoint::beside(&path, settings.clone(), &self.options, quiet)
+            };
+            let checkpoint = resume.then(beside);
+            let film = self.draw(number, &settings, checkpoint.as_ref())?;
+            outputs.write_marked(&film, &settings)?;
+            outputs.commit()?;
+            if let Some(checkpoint) = checkpoint {
+                checkpoint.remove();
+            }
+        }
+        Ok(())
+    }
+
+    /// Draws all pictures into one file. Each is encoded when it is drawn, and forgotten.
+    fn to_animation(
+        &mut self,
+        format: AnimationFormat,
+        path: &PathBuf,
+        rate: u16,
+    ) -> Result<(), Failure> {
+        let mut output = Output::create(path)?;
+        keep_inputs_safe([&output], self.input.files())?;
+        let Window { x0, y0, x1, y1 } = self.options.window();
+        let options = AnimationOptions {
+            format,
+            size: [x1 - x0, y1 - y0],
+            pictures: self.pictures,
+            rate,
+            encoding: self.plan.encoding,
+            alpha: self.input.scene.image.background == Background::Transparent,
+        };
+        let mut failed = None;
+        let written = output.write(|out| {
+            let mut animation = Animation::new(out, options)?;
+            for number in 0..self.pictures {
+                let settings = self.stand(number);
+                match self.draw(number, &settings, None) {
+                    Ok(film) => animation.add(&finish(&film, &Finishing::default()))?,
+                    Err(failure) => {
+                        failed = Some(failure);
+                        return Err(WriteError::Unsuitable("a picture is missing".to_owned()));
+                    }
+                }
+            }
+            animation.finish()
+        });
+        if let Some(failure) = failed {
+            return Err(failure);
+        }
+        written?;
+        Output::commit(vec![output])
+    }
+
+    /// Says what was done.
+    fn tell(&self, target: &Target, clock: &Clock) -> Result<(), Failure> {
+        let Self { args, options, pictures, there, .. } = self;
+        if args.work.json {
+            let Window { x0, y0, x1, y1 } = options.window();
+            let [primary, shadow, secondary] = self.rays;
+            return report::json(&json!({
+                "output": target.name(),
+                "pictures": pictures,
+                "skipped": there,
+                "size": [x1 - x0, y1 - y0],
+                "samples": options.samples(),
+                "threads": rayon::current_num_threads(),
+                "seconds": clock.json(),
+                "rays": { "primary": primary, "shadow": shadow, "secondary": secondary },
+                "peak_bytes": peak(),
+                "warnings": self.input.warnings.iter().map(diagnostic).collect::<Vec<_>>(),
+            }));
+        }
+        if !args.work.quiet && (*there > 0 || report::is_watched()) {
+            let were = match there {
+                0 => String::new(),
+                there => format!(", of which {there} were there already"),
+            };
+            let (rays, seconds) = (self.rays.iter().sum::<u64>(), clock.seconds("draw"));
+            report::say(&format!(
+                "{}: {pictures} pictures{were}, {} rays in {seconds:.2} s",
+                target.name(),
+                short(rays as f64),
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// Whether a picture's files are there, by what they say of themselves.
+fn is_there(path: &Path, format: Option<Format>, settings: &Settings) -> bool {
+    let Some(format) = format.or_else(|| Format::of_path(path)) else { return false };
+    let checksum = Some(settings.checksum());
+    let is_of_it =
+        |content: Content| picture_of(&content.path(path)).is_ok_and(|said| said == checksum);
+    Content::of(&settings.layers, format).into_iter().all(is_of_it)
+}
