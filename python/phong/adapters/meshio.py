@@ -11,8 +11,8 @@ import phong
 
 from ._colors import warn
 from ._need import need, wrong_type
+from ._painted import no_array, painted, thickness
 from ._view import View
-from .matplotlib import from_matplotlib_colormap
 
 if TYPE_CHECKING:
     import meshio
@@ -76,10 +76,9 @@ def from_meshio(
     at_points, colors = True, None
     if scalars is not None:
         values, at_points = _array(mesh, scalars)
-        low, high = clim or (None, None)
-        colors = from_matplotlib_colormap(cmap, values, low, high, nan)
+        colors = painted(values, cmap, clim, nan)
     span = float(np.linalg.norm(np.ptp(points, axis=0))) if len(points) else 0.0
-    size = (0.003 * span or 1.0) if radius is None else radius
+    size = thickness(radius, span)
     scene = phong.Scene()
     if len(faces):
         if colors is not None and not at_points:
@@ -90,27 +89,27 @@ def from_meshio(
                 material=material,
             )
         else:
-            used, own = np.unique(faces, return_inverse=True)
+            used, corners = np.unique(faces, return_inverse=True)
             scene.add_mesh(
                 points[used],
-                own.reshape(-1, 3),
+                corners.reshape(-1, 3),
                 colors=color if colors is None else colors[used],
                 material=material,
             )
     if len(lines):
-        painted = color if colors is None else colors[lines[:, 0] if at_points else line_cells]
+        own = color if colors is None else colors[lines[:, 0] if at_points else line_cells]
         scene.add_cylinders(
-            points[lines[:, 0]], points[lines[:, 1]], size, colors=painted, material=material
+            points[lines[:, 0]], points[lines[:, 1]], size, colors=own, material=material
         )
     if len(dots):
-        painted = color if colors is None else colors[dots if at_points else dot_cells]
-        scene.add_spheres(points[dots], size, colors=painted, material=material)
+        own = color if colors is None else colors[dots if at_points else dot_cells]
+        scene.add_spheres(points[dots], size, colors=own, material=material)
     scene.frame(view, up)
     return scene
 
 
 def _array(mesh: meshio.Mesh, name: str) -> tuple[npt.NDArray[np.float64], bool]:
-    """The named numbers, and whether they are of points."""
+    """The named numbers or vectors, and whether they are of points."""
     if name in mesh.point_data:
         values, at_points = np.asarray(mesh.point_data[name], dtype=np.float64), True
     elif name in mesh.cell_data:
@@ -119,9 +118,8 @@ def _array(mesh: meshio.Mesh, name: str) -> tuple[npt.NDArray[np.float64], bool]
             False,
         )
     else:
-        there = ", ".join([*mesh.point_data, *mesh.cell_data]) or "none"
-        raise KeyError(f"{_CALLER}: there is no array {name!r}; there are {there}")
-    return (np.linalg.norm(values, axis=1) if values.ndim == 2 else values), at_points
+        raise no_array(_CALLER, name, [*mesh.point_data, *mesh.cell_data])
+    return values, at_points
 
 
 def _sort(mesh: meshio.Mesh) -> tuple[Ints, Ints, Ints, Ints, Ints, Ints]:

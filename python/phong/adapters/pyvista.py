@@ -11,8 +11,8 @@ import phong
 
 from ._colors import opaque_bytes, warn
 from ._need import need, wrong_type
+from ._painted import lengths, no_array, painted, thickness
 from ._view import View
-from .matplotlib import from_matplotlib_colormap
 
 if TYPE_CHECKING:
     import pyvista
@@ -63,13 +63,9 @@ def from_pyvista(
         there = sorted(
             {name for b in blocks for name in [*b.point_data.keys(), *b.cell_data.keys()]}
         )
-        raise KeyError(
-            f"{_CALLER}: there is no array {scalars!r}; there are {', '.join(there) or 'none'}"
-        )
+        raise no_array(_CALLER, scalars, there)
     corners = np.array(dataset.bounds, dtype=np.float64).reshape(3, 2)
-    size = (
-        0.003 * float(np.linalg.norm(corners[:, 1] - corners[:, 0])) if radius is None else radius
-    )
+    size = thickness(radius, float(np.linalg.norm(corners[:, 1] - corners[:, 0])))
     if clim is None:
         clim = _span(blocks, scalars)
     scene = phong.Scene()
@@ -84,13 +80,9 @@ def from_pyvista(
                 return None
             if values.ndim == 2 and values.shape[1] in (3, 4) and values.dtype == np.uint8:
                 return opaque_bytes(values, caller=_CALLER)
-            if values.ndim == 2:
-                lengths: npt.NDArray[Any] = np.linalg.norm(values, axis=1)
-                values = lengths
-            low, high = clim or (None, None)
-            return from_matplotlib_colormap(cmap, np.asarray(values), low, high, nan)
+            return painted(np.asarray(values), cmap, clim, nan)
 
-        count += _add(scene, surface, scalars, color, paint, size or 1.0, smooth, material)
+        count += _add(scene, surface, scalars, color, paint, size, smooth, material)
     if count == 0:
         raise ValueError(f"{_CALLER}: dataset has no face, no line and no vertex to draw")
     scene.frame(view, up)
@@ -114,7 +106,7 @@ def _span(blocks: list[Any], scalars: str | None) -> tuple[float, float] | None:
         values, _ = _array(block, scalars)
         if values is None or (values.ndim == 2 and values.dtype == np.uint8):
             continue
-        sizes = np.linalg.norm(values, axis=1) if values.ndim == 2 else values
+        sizes = lengths(values)
         finite = np.asarray(sizes, dtype=np.float64)[np.isfinite(sizes)]
         if finite.size:
             low, high = min(low, float(finite.min())), max(high, float(finite.max()))
@@ -157,12 +149,12 @@ def _add(
         normals = None if own is None else np.asarray(own)
         if each and not at_points:
             cells, _ = _array(triangles, scalars)
-            painted = paint(None if cells is None else cells[-len(faces) :])
+            own_colors = paint(None if cells is None else cells[-len(faces) :])
             scene.add_mesh(
                 points[faces].reshape(-1, 3),
                 np.arange(3 * len(faces)).reshape(-1, 3),
                 normals=None if normals is None else normals[faces].reshape(-1, 3),
-                colors=np.repeat(painted, 3, axis=0),
+                colors=np.repeat(own_colors, 3, axis=0),
                 material=material,
                 smooth=smooth,
             )
@@ -178,17 +170,19 @@ def _add(
             )
     if len(lines):
         pairs, cell = lines[:, :2], lines[:, 2] + surface.n_verts
-        painted = colors
+        own_colors = colors
         if each and at_points:
-            painted = np.asarray(colors)[pairs[:, 0]]
+            own_colors = np.asarray(colors)[pairs[:, 0]]
         elif each:
-            painted = np.asarray(colors)[cell]
+            own_colors = np.asarray(colors)[cell]
         scene.add_cylinders(
-            points[pairs[:, 0]], points[pairs[:, 1]], radius, colors=painted, material=material
+            points[pairs[:, 0]], points[pairs[:, 1]], radius, colors=own_colors, material=material
         )
     if len(verts):
-        painted = np.asarray(colors)[verts[:, 0] if at_points else verts[:, 2]] if each else colors
-        scene.add_spheres(points[verts[:, 0]], radius, colors=painted, material=material)
+        own_colors = (
+            np.asarray(colors)[verts[:, 0] if at_points else verts[:, 2]] if each else colors
+        )
+        scene.add_spheres(points[verts[:, 0]], radius, colors=own_colors, material=material)
     if len(triangles.point_data) and "Texture Coordinates" in surface.point_data and values is None:
         warn(_CALLER, "textures are not taken over; colours come of scalars or of color=")
     return len(faces) + len(lines) + len(verts)
