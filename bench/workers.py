@@ -6,11 +6,12 @@
 with the package and Dask installed. Told are seconds and CPU seconds of both, in turn. The ideal is
 half of the program's seconds, and no CPU second more than its own: on a busy machine only the second
 can be relied on. CPU seconds of the cluster are those of both workers, the scheduler and the client
-together, from the call to the file. Both write the same bytes, or it ends in an error.
+together, from the call to the file; what Dask uses in as many seconds without any work is told too,
+for it grows with the seconds that others take from the machine. Both write the same bytes, or it ends
+in an error.
 """
 
 import argparse
-import json
 import resource
 import subprocess
 import sys
@@ -49,6 +50,13 @@ def of_cluster(client, scene: Path, size, samples: int, out: Path) -> tuple[floa
     return wall, used() + sum(client.run(used).values()) - cpu
 
 
+def ticking(client) -> float:
+    """CPU seconds that the cluster uses in a second without work."""
+    cpu, began = used() + sum(client.run(used).values()), time.perf_counter()
+    time.sleep(10)
+    return (used() + sum(client.run(used).values()) - cpu) / (time.perf_counter() - began)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program")
@@ -76,16 +84,16 @@ def main() -> None:
                 # Workers stay; the package is imported before anything is timed.
                 client.run(__import__, "phong.dask")
                 shared.append(of_cluster(client, given.scene, size, samples, b))
+                rate = ticking(client)
             if a.read_bytes() != b.read_bytes():
                 sys.exit("the pictures differ")
-    walls = [one[0] / two[0] / 2 for one, two in zip(alone, shared)]
-    cpus = [two[1] / one[1] for one, two in zip(alone, shared)]
+    print(f"the cluster uses {rate:.3f} CPU seconds a second without work")
     for (wall, cpu), (wall_2, cpu_2) in zip(alone, shared):
         print(
             f"program {wall:7.2f} s, CPU {cpu:7.2f} s   two workers {wall_2:7.2f} s, CPU {cpu_2:7.2f} s"
-            f"   CPU ratio {cpu_2 / cpu:.3f}, of the ideal {wall / wall_2 / 2:.3f}"
+            f"   of the ideal {wall / wall_2 / 2:.3f}, CPU ratio {cpu_2 / cpu:.3f}"
+            f" ({(cpu_2 - rate * wall_2) / cpu:.3f} without what it uses without work)"
         )
-    print(json.dumps({"cpu_ratio": sorted(cpus)[len(cpus) // 2], "of_ideal": sorted(walls)[len(walls) // 2]}))
 
 
 if __name__ == "__main__":
