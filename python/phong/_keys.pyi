@@ -191,10 +191,13 @@ class Texture(Keys):
     ``colors``: A where ⌊x⌋ + ⌊y⌋ + ⌊z⌋ is even, B where it is odd; a coordinate less than 1e-4
         below a border counts as above it.
     ``scale``: Squares a unit. / First of its place: a factor, or one along each axis.
+    ``by``: What it runs by: the distance along `axis`, or that from the place where the texture
+        is. Default: "axis".
     ``axis``: Along which it runs; any length. Default: [0.0, 1.0, 0.0].
-    ``from_``: Where t is 0: a distance along the axis. Default: 0.0.
+    ``from_``: Where t is 0: a distance. Default: 0.0.
     ``to``: Where t is 1. Default: 1.0.
-    ``stops``: Its colours; between two stops they run linearly, beyond the last they stay.
+    ``stops``: Its colours; between two stops they run linearly, beyond the last they stay. A
+        colour map has 33 of them.
     ``space``: The space it lies in. Default: "object".
     ``rotate``: Turns it: right-handed about an axis; or a list of them, in order.
     ``translate``: Then: shifts it. Default: [0.0, 0.0, 0.0].
@@ -209,10 +212,11 @@ class Texture(Keys):
         kind: Literal["checker", "gradient"],
         colors: ArrayLike | None = None,
         scale: float | ArrayLike | None = None,
+        by: Literal["axis", "radius"] | None = None,
         axis: ArrayLike | None = None,
         from_: float | None = None,
         to: float | None = None,
-        stops: ArrayLike | None = None,
+        stops: Literal["viridis", "cividis", "plasma", "inferno", "magma", "turbo", "coolwarm"] | ArrayLike | None = None,
         space: Literal["object", "world", "uv"] | None = None,
         rotate: ArrayLike | None = None,
         translate: ArrayLike | None = None,

@@ -60,7 +60,7 @@ pub use scene::{Background, FilterKind, Group, Image, Object, Reading, Scene};
 pub use shape::{GroupId, Shape};
 pub use source::{Blob, Folder, Jail, Memory, Source, path_of, path_text, read_stream, trouble};
 pub use texture::{
-    Channel, Param, Texture, TextureId, TextureKind, TextureRef, TextureSpace, Textured,
+    Channel, GradientBy, Param, Texture, TextureId, TextureKind, TextureRef, TextureSpace, Textured,
 };
 pub use transform::{cofactor, even_scale};
 pub use wording::closest;

@@ -25,10 +25,11 @@
 //! | `kind` | `checker` or `gradient` | required | What it is. |
 //! | `colors` (checker) | two colours, `[A, B]` | required | A where ⌊x⌋ + ⌊y⌋ + ⌊z⌋ is even, B where it is odd; a coordinate less than 1e-4 below a border counts as above it. |
 //! | `scale` (checker) | a number above 0 | `1` | Squares a unit. |
+//! | `by` (gradient) | `axis` or `radius` | `"axis"` | What it runs by: the distance along `axis`, or that from the place where the texture is. |
 //! | `axis` (gradient) | three numbers, `[x, y, z]`, not all 0 | `[0, 1, 0]` | Along which it runs; any length. |
-//! | `from` (gradient) | a number | `0` | Where t is 0: a distance along the axis. |
+//! | `from` (gradient) | a number | `0` | Where t is 0: a distance. |
 //! | `to` (gradient) | a number | `1` | Where t is 1. |
-//! | `stops` (gradient) | a list of `[t, colour]`, t from 0 to 1 and never falling | required | Its colours; between two stops they run linearly, beyond the last they stay. |
+//! | `stops` (gradient) | a list of `[t, colour]`, t from 0 to 1 and never falling, or a colour map: `viridis`, `cividis`, `plasma`, `inferno`, `magma`, `turbo` or `coolwarm` | required | Its colours; between two stops they run linearly, beyond the last they stay. A colour map has 33 of them. |
 //! | `scale` (gradient) | a number or `[x, y, z]`, none 0 | 1 | First of its place: a factor, or one along each axis. |
 //! | `space` | `object`, `world` or `uv` | `"object"` | The space it lies in. |
 //! | `rotate` | `[ax, ay, az, degrees]`, or a list of them | none | Turns it: right-handed about an axis; or a list of them, in order. |
@@ -142,8 +143,10 @@ pub enum TextureKind {
         /// Squares a unit, > 0.
         scale: f64,
     },
-    /// Colours that run into one another along an axis.
+    /// Colours that run into one another along an axis, or from a point outwards.
     Gradient {
+        /// Which of the two. Default along the axis.
+        by: GradientBy,
         /// Along which; any length but 0.
         axis: DVec3,
         /// The distance along the axis at which t is 0.
@@ -161,6 +164,18 @@ impl Default for TextureKind {
         Self::Checker { colors: [Rgb::WHITE, Rgb::BLACK], scale: 1.0 }
     }
 }
+
+/// What a gradient runs by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum GradientBy {
+    /// The distance along its axis.
+    #[default]
+    Axis,
+    /// The distance from the place where the texture is.
+    Radius,
+}
+
+words!(GradientBy { "axis" = Axis, "radius" = Radius });
 
 /// The space that a texture lies in.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -266,6 +281,7 @@ words!(TextureSpace { "object" = Object, "world" = World, "uv" = Uv });
 words!(TextureKind {
     "checker" = Checker { colors: [Rgb::WHITE, Rgb::BLACK], scale: 1.0 },
     "gradient" = Gradient {
+        by: GradientBy::Axis,
         axis: DVec3::Y,
         from: 0.0,
         to: 1.0,

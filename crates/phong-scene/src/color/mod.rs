@@ -1,5 +1,6 @@
 //! Linear colour and the sRGB transfer curve.
 
+pub(crate) mod maps;
 mod names;
 
 use std::iter::Sum;

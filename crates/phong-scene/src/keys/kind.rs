@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::Table;
+use crate::color::maps;
 use crate::limits::Range;
 use crate::scene::Image;
 use crate::wording::list;
@@ -62,7 +63,7 @@ pub(crate) enum Kind {
     Matrix,
     /// Two colours.
     TwoColors,
-    /// A list of `[t, colour]`, t from 0 to 1 and never falling; at least one.
+    /// A list of `[t, colour]`, t from 0 to 1 and never falling, at least one; or the name of a colour map.
     Stops,
     /// A table.
     Table(&'static Table),
@@ -124,7 +125,10 @@ impl Kind {
             Self::Rotate => "`[ax, ay, az, degrees]`, or a list of them".to_owned(),
             Self::Matrix => "four rows of four numbers".to_owned(),
             Self::TwoColors => "two colours, `[A, B]`".to_owned(),
-            Self::Stops => "a list of `[t, colour]`, t from 0 to 1 and never falling".to_owned(),
+            Self::Stops => format!(
+                "a list of `[t, colour]`, t from 0 to 1 and never falling, or a colour map: {}",
+                list(maps::NAMES.into_iter(), "or")
+            ),
             Self::Table(_) => "a table".to_owned(),
             Self::Tables(_) => "a list of tables".to_owned(),
             Self::Named(_) => "tables by name".to_owned(),

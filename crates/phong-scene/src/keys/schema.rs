@@ -3,6 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use super::{BACKGROUND, BATCH, Default, FILES, Key, Kind, RANGE, SCENE, TEXTURED, Table};
+use crate::color::maps;
 use crate::limits::{LARGEST, Range};
 use crate::scene::Image;
 
@@ -144,7 +145,7 @@ fn kind(kind: Kind) -> Value {
         }
         Kind::Matrix => list(&list(&any_number(), 4), 4),
         Kind::TwoColors => list(&color(LARGEST), 2),
-        Kind::Stops => json!({
+        Kind::Stops => json!({ "anyOf": [{ "enum": maps::NAMES }, {
             "type": "array",
             "minItems": 1,
             "items": {
@@ -153,7 +154,7 @@ fn kind(kind: Kind) -> Value {
                 "minItems": 2,
                 "maxItems": 2,
             },
-        }),
+        }] }),
         Kind::Table(table) => Value::Object(object(table)),
         Kind::Tables(table) => json!({ "type": "array", "items": object(table) }),
         Kind::Named(table) => json!({ "type": "object", "additionalProperties": object(table) }),

@@ -3,7 +3,7 @@
 use super::field::{field, keyed};
 use super::{Default, Key, Kind, Table};
 use crate::limits::Range;
-use crate::texture::{Channel, Texture, TextureKind, TextureSpace};
+use crate::texture::{Channel, GradientBy, Texture, TextureKind, TextureSpace};
 use crate::wording::Word;
 
 keyed!(Texture, |_| &TEXTURE);
@@ -30,6 +30,15 @@ pub(crate) static TEXTURE: Table = Table {
             .of(field!(Texture.kind = TextureKind::{Checker}.scale))
             .only(&["checker"]),
         Key::new(
+            "by",
+            Kind::Word(GradientBy::WORDS),
+            Default::Word("axis"),
+            "What it runs by: the distance along `axis`, or that from the place where the texture \
+             is.",
+        )
+        .of(field!(Texture.kind = TextureKind::{Gradient}.by))
+        .only(&["gradient"]),
+        Key::new(
             "axis",
             Kind::Direction,
             Default::Vector([0.0, 1.0, 0.0]),
@@ -41,7 +50,7 @@ pub(crate) static TEXTURE: Table = Table {
             "from",
             Kind::Number(Range::ANY),
             Default::Number(0.0),
-            "Where t is 0: a distance along the axis.",
+            "Where t is 0: a distance.",
         )
         .of(field!(Texture.kind = TextureKind::{Gradient}.from))
         .only(&["gradient"]),
@@ -52,7 +61,8 @@ pub(crate) static TEXTURE: Table = Table {
             "stops",
             Kind::Stops,
             Default::Required,
-            "Its colours; between two stops they run linearly, beyond the last they stay.",
+            "Its colours; between two stops they run linearly, beyond the last they stay. A colour \
+             map has 33 of them.",
         )
         .of(field!(Texture.kind = TextureKind::{Gradient}.stops))
         .only(&["gradient"]),

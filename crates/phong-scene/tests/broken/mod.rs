@@ -3,8 +3,9 @@
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 use phong_scene::{
     AmbientOcclusion, Background, Camera, CameraKind, ConstantMaterial, Fog, FogKind, Fresnel,
-    Group, GroupId, Image, Light, LightKind, Material, MaterialId, Mesh, Model, NO_INDEX, Object,
-    OcclusionDistance, Points, Rgb, Scene, Shape, Texture, TextureId, TextureKind, TextureRef,
+    GradientBy, Group, GroupId, Image, Light, LightKind, Material, MaterialId, Mesh, Model,
+    NO_INDEX, Object, OcclusionDistance, Points, Rgb, Scene, Shape, Texture, TextureId,
+    TextureKind, TextureRef,
 };
 use proptest::prelude::*;
 
@@ -205,8 +206,8 @@ prop_compose! {
     ) -> Texture {
         let kind = match kind {
             0..20 => TextureKind::Checker { colors: [a, b], scale: scale.into() },
-            20..39 => TextureKind::Gradient { axis, from: 0.0, to: length, stops: vec![(0.0, a), (scale, b)] },
-            _ => TextureKind::Gradient { axis, from: 1.0, to: length, stops: Vec::new() },
+            20..39 => TextureKind::Gradient { by: GradientBy::Radius, axis, from: 0.0, to: length, stops: vec![(0.0, a), (scale, b)] },
+            _ => TextureKind::Gradient { by: GradientBy::Axis, axis, from: 1.0, to: length, stops: Vec::new() },
         };
         Texture { kind, ..Texture::default() }
     }

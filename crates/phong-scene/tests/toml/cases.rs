@@ -23,6 +23,7 @@ cases! {
     a_byte_order_mark_and_line_ends_of_windows_do_no_harm
     a_fisheye_may_see_behind_itself
     a_fisheye_sees_half_of_all_by_default
+    a_gradient_may_follow_a_colour_map
     a_lens_has_an_aperture_and_a_focus
     a_light_may_shine_out_of_a_ball_that_throws_no_shadow
     a_material_called_default_is_that_of_shapes_without_one
@@ -60,6 +61,8 @@ cases! {
     a_camera_must_look_somewhere
     a_camera_within_a_ball_is_a_warning
     a_colour_is_never_negative
+    a_colour_map_that_misleads_is_a_warning
+    a_colour_map_that_there_is_not_is_told
     a_dialect_must_not_contradict_the_model
     a_direction_of_zero_is_none
     a_file_that_is_missing_is_told_where_it_is_named

@@ -4,9 +4,10 @@ use glam::{DAffine3, DMat3, DVec2, DVec3, Vec2, Vec3};
 use phong_scene::{
     AmbientOcclusion, AmbientRule, Background, Camera, CameraKind, Caps, Channel,
     ConstantMaterial as Material, Cylinders, Dialect, Distribution, FilterKind, Fog, FogDistance,
-    FogKind, Fresnel, Group, GroupId, Image, Light, LightKind, MaterialId, Mesh, Model, NO_INDEX,
-    Object, OcclusionDistance, OpacityMode, Place, Points, Rgb, Scene, ShadowRule, Shadowing,
-    Shape, Texture, TextureId, TextureKind, TextureRef, TextureSpace, Tint, Viewer, WardForm,
+    FogKind, Fresnel, GradientBy, Group, GroupId, Image, Light, LightKind, MaterialId, Mesh, Model,
+    NO_INDEX, Object, OcclusionDistance, OpacityMode, Place, Points, Rgb, Scene, ShadowRule,
+    Shadowing, Shape, Texture, TextureId, TextureKind, TextureRef, TextureSpace, Tint, Viewer,
+    WardForm,
 };
 use proptest::prelude::*;
 
@@ -235,7 +236,8 @@ impl Make {
             let stops = [0.0, 0.25, 0.25, 0.3, 1.0].map(|t| (t, self.color()));
             let axis = DVec3::new(self.number(), -2.0, 0.0);
             let from = self.number();
-            TextureKind::Gradient { axis, from, to: from - self.number(), stops: stops.into() }
+            let by = self.one(&[GradientBy::Axis, GradientBy::Radius]);
+            TextureKind::Gradient { by, axis, from, to: from - self.number(), stops: stops.into() }
         };
         Texture {
             name: format!("{} {number}", self.name()),

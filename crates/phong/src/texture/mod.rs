@@ -50,8 +50,8 @@ impl Texture {
                 TextureKind::Checker { colors, scale } => {
                     Pattern::Checker(Checker { colors: *colors, scale: *scale })
                 }
-                TextureKind::Gradient { axis, from, to, stops } => {
-                    Pattern::Gradient(Gradient::new(*axis, *from, *to, stops))
+                TextureKind::Gradient { by, axis, from, to, stops } => {
+                    Pattern::Gradient(Gradient::new((*by, *axis), *from, *to, stops))
                 }
             },
         }

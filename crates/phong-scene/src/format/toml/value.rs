@@ -6,12 +6,12 @@ use toml::de::DeValue;
 
 use super::notes::Notes;
 use super::text::Spot;
-use crate::color::Rgb;
+use crate::color::{Rgb, maps};
 use crate::keys::{Key, Kind, Value, of_word};
 use crate::limits::{LARGEST, Range};
 use crate::scene::{Background, Image};
 use crate::transform::is_regular;
-use crate::wording::{closest, quoted};
+use crate::wording::{closest, list, quoted};
 
 /// What was found, as the end of "…; this is …".
 fn found(value: &DeValue<'_>) -> String {
@@ -254,6 +254,9 @@ impl ValueReader<'_> {
 
     /// At least one `[t, colour]`, t from 0 to 1 and never falling.
     fn stops(&mut self, value: &Spanned<DeValue<'_>>) -> Option<Vec<(f32, Rgb)>> {
+        if let Some(name) = value.get_ref().as_str() {
+            return self.color_map(value, name);
+        }
         let DeValue::Array(items) = value.get_ref() else { return self.mismatch(value) };
         if items.is_empty() {
             return self.wrong(value, "is empty; a gradient has at least one stop");
@@ -282,6 +285,28 @@ impl ValueReader<'_> {
             }
         }
         good.then_some(stops)
+    }
+
+    /// The stops of a colour map.
+    fn color_map(&mut self, value: &Spanned<DeValue<'_>>, name: &str) -> Option<Vec<(f32, Rgb)>> {
+        let spot = self.spot(value);
+        let Some(stops) = maps::named(name) else {
+            let message = format!("there is no colour map {}", quoted(name));
+            let help = match closest(name, maps::NAMES) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => format!("there are {}", list(maps::NAMES.into_iter(), "and")),
+            };
+            self.notes.error(spot, message).help = Some(help);
+            return None;
+        };
+        if name == "turbo" {
+            let message = "the colours of `turbo` rise and fall in brightness: steps are seen where \
+                           the numbers have none";
+            let help =
+                "`viridis` and `cividis` rise evenly, and do in print and to the colour-blind";
+            self.notes.warning(spot, message).help = Some(help.to_owned());
+        }
+        Some(stops)
     }
 
     fn background(&mut self, value: &Spanned<DeValue<'_>>) -> Option<Background> {
