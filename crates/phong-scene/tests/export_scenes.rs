@@ -1,6 +1,8 @@
 //! Scenes as glTF and as Tachyon files: what comes back, and what is told to be missing.
 
-use phong_scene::{CameraKind, ExportOptions, Format, Limits, Memory, Rgb, Scene, Shape, read};
+use phong_scene::{
+    CameraKind, ExportOptions, Fog, FogKind, Format, Limits, Memory, Rgb, Scene, Shape, read,
+};
 
 const SCENE: &str = r#"version = 1
 [image]
@@ -66,7 +68,7 @@ fn again(scene: Scene, format: Format, name: &str) -> (Scene, String, String) {
 fn a_scene_comes_back_from_gltf_with_its_instances_camera_and_lights() {
     for name in ["b.glb", "b.gltf"] {
         let (back, dropped, mapped) = again(scene(""), Format::Gltf, name);
-        assert!(dropped.is_empty(), "{dropped}");
+        assert_eq!(dropped, "warning: glTF holds no settings of a picture (`[image]`)\n");
         assert!(mapped.contains("GGX with α² = 2/(n + 2)"), "{mapped}");
         assert!(
             matches!(back.camera.kind, CameraKind::Perspective { fov } if (fov - 50.0).abs() < 1e-6)
@@ -92,7 +94,7 @@ fn what_gltf_cannot_hold_is_told() {
 
 #[test]
 fn a_scene_comes_back_from_tachyon_as_it_was() {
-    let more = "[[sphere]]\ncenter = [1, 2, 3]\nradius = 0.5\nmaterial = \"red\"\n\
+    let more = "[fog]\nend = 20\ncolor = 0.5\n[[sphere]]\ncenter = [1, 2, 3]\nradius = 0.5\nmaterial = \"red\"\n\
                 [[plane]]\npoint = [0, -1, 0]\nnormal = [0, 1, 0]\n\
                 [[torus]]\ncenter = [0, 0, 0]\naxis = [0, 1, 0]\nradius = 1\ntube = 0.1\n";
     let (back, dropped, _) = again(scene(more), Format::Tachyon, "b.dat");
@@ -103,6 +105,8 @@ fn a_scene_comes_back_from_tachyon_as_it_was() {
     assert!((back.camera.eye - glam::DVec3::new(0.0, 1.0, 5.0)).length() < 1e-6);
     assert_eq!((back.image.size, back.image.samples), ([320, 180], 16));
     assert_eq!(back.lights.len(), 2);
+    let kind = FogKind::Linear { start: 0.0, end: 20.0 };
+    assert_eq!(back.fog, Some(Fog { kind, color: Some(Rgb::grey(0.5)), ..Fog::default() }));
     let ball = back.objects.iter().find_map(|object| match &object.shape {
         Shape::Points(points) => Some((points.spheres[0], object.material)),
         _ => None,

@@ -15,7 +15,7 @@ use crate::format::export::merge::Size;
 use crate::format::export::{Account, File, Writing};
 use crate::light::LightKind;
 use crate::mesh::{Mesh, NO_INDEX};
-use crate::scene::{Object, Scene};
+use crate::scene::{Image, Object, Scene};
 use crate::shape::Shape;
 
 /// The scene as glTF: what the name ends with says whether it is binary.
@@ -35,10 +35,27 @@ pub(crate) fn write_gltf(
         )
     };
     leave_out(&scene, &quiet, "triangles, points and lines", held, account);
+    if !options.bare {
+        let mut lost = Vec::new();
+        if scene.image != Image::default() {
+            lost.push("settings of a picture (`[image]`)");
+        }
+        if scene.ambient != Rgb::WHITE || scene.ambient_occlusion.is_some() {
+            lost.push("ambient light");
+        }
+        if scene.fog.is_some() {
+            lost.push("fog");
+        }
+        for what in lost {
+            account.drop(Diagnostic::warning(format!("glTF holds no {what}"), None));
+        }
+    }
     let mut writer =
         Writer { scene: &scene, root: Map::new(), bytes: Vec::new(), meshes: BTreeMap::new() };
     writer.write(options.bare, account);
     let Writer { mut root, bytes, .. } = writer;
+    // All of it is in the numbers and the text now.
+    drop(scene);
     let bytes = Arc::new(bytes);
     let length = bytes.len();
     if name.to_ascii_lowercase().ends_with(".gltf") {
@@ -150,16 +167,15 @@ impl<'s> Writer<'s> {
             }
             shape => {
                 let key = std::ptr::from_ref(object) as usize;
-                let mesh = match self.meshes.get(&key) {
-                    Some(known) => *known,
-                    None => {
-                        let mesh = self.mesh(object, account);
-                        self.meshes.insert(key, mesh);
-                        mesh
-                    }
+                let mesh = if let Some(known) = self.meshes.get(&key) {
+                    *known
+                } else {
+                    let mesh = self.mesh(object, account);
+                    self.meshes.insert(key, mesh);
+                    mesh
                 };
                 node.insert("mesh".into(), json!(mesh?));
-                place = place * DAffine3::from_translation(origin(shape));
+                place *= DAffine3::from_translation(origin(shape));
             }
         }
         if place != DAffine3::IDENTITY {
@@ -201,16 +217,16 @@ impl<'s> Writer<'s> {
             }
             Shape::Points(points) => {
                 account.carry("point", points.spheres.len());
-                let places =
-                    points.spheres.iter().map(|&[x, y, z, _]| Vec3::new(x, y, z)).collect();
-                vec![self.primitive(0, places, &points.colors, own)]
+                let spheres = points.spheres.iter();
+                let places: Vec<_> = spheres.map(|&[x, y, z, _]| Vec3::new(x, y, z)).collect();
+                vec![self.primitive(0, &places, &points.colors, own)]
             }
             Shape::Cylinders(cylinders) => {
                 account.carry("line", cylinders.segments.len());
                 let ends = cylinders.segments.iter().flatten();
-                let places = ends.map(|&[x, y, z, _]| Vec3::new(x, y, z)).collect();
+                let places: Vec<_> = ends.map(|&[x, y, z, _]| Vec3::new(x, y, z)).collect();
                 let colors: Vec<Rgb> = cylinders.colors.iter().flatten().copied().collect();
-                vec![self.primitive(1, places, &colors, own)]
+                vec![self.primitive(1, &places, &colors, own)]
             }
             _ => return None,
         };
@@ -218,9 +234,9 @@ impl<'s> Writer<'s> {
     }
 
     /// Points or lines.
-    fn primitive(&mut self, mode: u32, places: Vec<Vec3>, colors: &[Rgb], material: u32) -> Value {
+    fn primitive(&mut self, mode: u32, places: &[Vec3], colors: &[Rgb], material: u32) -> Value {
         let mut attributes = Map::new();
-        attributes.insert("POSITION".into(), json!(self.vectors(&places, true)));
+        attributes.insert("POSITION".into(), json!(self.vectors(places, true)));
         if !colors.is_empty() {
             attributes.insert("COLOR_0".into(), json!(self.colors(colors, material)));
         }
@@ -304,7 +320,7 @@ impl<'s> Writer<'s> {
     }
 
     fn vectors(&mut self, vectors: &[Vec3], bounds: bool) -> usize {
-        let all: Vec<f32> = vectors.iter().flat_map(|v| v.to_array()).collect();
+        let all: Vec<f32> = vectors.iter().flat_map(Vec3::to_array).collect();
         let mut accessor = json!({ "type": "VEC3", "count": vectors.len() });
         if bounds {
             let start = (Vec3::INFINITY, Vec3::NEG_INFINITY);
@@ -353,7 +369,7 @@ impl<'s> Writer<'s> {
             }
         };
         let camera_number = self.push("cameras", value);
-        let forward = (camera.look_at - camera.eye).normalize();
+        let forward = (camera.look_at - camera.eye).normalize_or(-glam::DVec3::Z);
         let matrix = looking(camera.eye, forward, camera.up);
         let node = json!({ "name": "camera", "camera": camera_number, "matrix": matrix });
         Some(self.push("nodes", node))

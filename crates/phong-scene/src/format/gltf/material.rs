@@ -106,7 +106,7 @@ pub(super) fn read(at: &At<'_>, file: &Arc<str>, findings: &mut Findings) -> Res
     let mut through = Rgb::grey(1.0 - shown);
     if let Some(glass) = at.extension("KHR_materials_transmission") {
         let weight = unit(glass.number_or("transmissionFactor", 0.0)?) as f32;
-        through = through + Rgb::from([r, g, b].map(|c| c as f32)) * (weight * shown);
+        through += Rgb::from([r, g, b].map(|c| c as f32)) * (weight * shown);
         shown *= 1.0 - weight;
         image(&glass, "transmissionTexture");
     }

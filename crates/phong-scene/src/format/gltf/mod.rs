@@ -329,7 +329,9 @@ impl<'a> Scene<'a, '_> {
             return Ok(());
         }
         if placed.len() == 1 {
-            objects.iter_mut().for_each(|object| object.transform = first);
+            for object in &mut objects {
+                object.transform = first;
+            }
             self.fragment.objects.append(&mut objects);
             return Ok(());
         }

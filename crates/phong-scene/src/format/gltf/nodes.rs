@@ -45,25 +45,20 @@ pub(super) fn drawn<'a>(root: &At<'a>) -> Result<Vec<Node<'a>>> {
         None => root.list("scenes")?.into_iter().next(),
     };
     let mut open: Vec<(usize, DAffine3)> = Vec::new();
-    match scene {
-        Some(scene) => {
-            for node in scene.list("nodes")? {
-                let number = node.index()?;
-                match has_parent.get(number) {
-                    None => return Err(node.fault(format!("there is no node {number}"))),
-                    Some(true) => {
-                        return Err(
-                            node.fault(format!("node {number} has a parent: it is no root"))
-                        );
-                    }
-                    Some(false) => open.push((number, DAffine3::IDENTITY)),
+    if let Some(scene) = scene {
+        for node in scene.list("nodes")? {
+            let number = node.index()?;
+            match has_parent.get(number) {
+                None => return Err(node.fault(format!("there is no node {number}"))),
+                Some(true) => {
+                    return Err(node.fault(format!("node {number} has a parent: it is no root")));
                 }
+                Some(false) => open.push((number, DAffine3::IDENTITY)),
             }
         }
-        None => {
-            let roots = (0..all.len()).filter(|number| !has_parent[*number]);
-            open.extend(roots.map(|number| (number, DAffine3::IDENTITY)));
-        }
+    } else {
+        let roots = (0..all.len()).filter(|number| !has_parent[*number]);
+        open.extend(roots.map(|number| (number, DAffine3::IDENTITY)));
     }
     // The first is drawn first.
     open.reverse();

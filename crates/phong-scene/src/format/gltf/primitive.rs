@@ -193,7 +193,7 @@ impl Reader<'_> {
 
 /// Lines as capsules.
 fn lines(mesh: &Mesh, kept: &[Element]) -> Cylinders {
-    let ends = || kept.iter().map(|element| element.as_slice());
+    let ends = || kept.iter().map(Element::as_slice);
     let places = ends().flatten().map(|i| mesh.positions[*i as usize]);
     let start = (Vec3::INFINITY, Vec3::NEG_INFINITY);
     let (low, high) = places.fold(start, |(low, high), p| (low.min(p), high.max(p)));

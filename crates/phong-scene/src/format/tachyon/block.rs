@@ -89,13 +89,12 @@ impl Things {
         if let Some((_, number)) = self.last.as_ref().filter(|(name, _)| name == word) {
             return *number;
         }
-        let number = match self.names.get(word) {
-            Some(number) => *number,
-            None => {
-                let number = self.name(Named::Name(word.to_vec()), line);
-                self.names.insert(word.to_vec(), number);
-                number
-            }
+        let number = if let Some(number) = self.names.get(word) {
+            *number
+        } else {
+            let number = self.name(Named::Name(word.to_vec()), line);
+            self.names.insert(word.to_vec(), number);
+            number
         };
         self.last = Some((word.to_vec(), number));
         number
@@ -131,7 +130,7 @@ impl Block {
             return Self { head: piece.text.to_vec(), line: piece.line, ..Self::default() };
         };
         let (head, body) = piece.text.split_at(start);
-        let line = piece.line + head.iter().filter(|b| **b == b'\n').count() as u64;
+        let line = piece.line + head.split(|b| *b == b'\n').count() as u64 - 1;
         let mut block = Self { head: head.to_vec(), line: piece.line, ..Self::default() };
         block.statements(body, line, false, file, lenient);
         block

@@ -89,7 +89,7 @@ impl Frame {
                 let [left, right, bottom] = words.three()?.map(f64::from);
                 frame.frustum = Some([left, right, bottom, words.number()?.into()]);
             } else {
-                return Err(words.wrong_word(word, "a key of the camera"));
+                return Err(Words::wrong_word(word, "a key of the camera"));
             }
         }
     }

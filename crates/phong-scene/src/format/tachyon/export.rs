@@ -10,6 +10,7 @@ use super::camera::LENS;
 use crate::camera::CameraKind;
 use crate::color::Rgb;
 use crate::diagnostic::Diagnostic;
+use crate::fog::{FogDistance, FogKind};
 use crate::format::export::flat::{listed, say_unfolded, warning};
 use crate::format::export::merge::{Size, each_placed};
 use crate::format::export::{Account, File, Writing};
@@ -111,6 +112,29 @@ fn head(scene: &Scene, account: &mut Account) -> String {
             let message = "Tachyon holds no transparent background; it is black".to_owned();
             account.drop(Diagnostic::warning(message, None));
         }
+    }
+    if let Some(fog) = &scene.fog {
+        let back = match scene.image.background {
+            Background::Color(back) => back,
+            Background::Gradient { top, bottom } => (top + bottom) * 0.5,
+            Background::Transparent => Rgb::BLACK,
+        };
+        let back = color(fog.color.unwrap_or(back));
+        let (kind, start, end, density) = match fog.kind {
+            FogKind::Linear { start, end } => ("LINEAR", start, end, 1.0),
+            FogKind::Exponential { density } => ("EXP", 0.0, 1.0, density),
+            FogKind::Squared { density } => ("EXP2", 0.0, 1.0, density),
+        };
+        let _ = writeln!(text, "FOG {kind} START {start} END {end} DENSITY {density} COLOR {back}");
+        if fog.distance != FogDistance::Radial || fog.strength < 1.0 {
+            let message = "Tachyon's fog goes by the distance from the eye, and up to the whole";
+            account.drop(Diagnostic::warning(message.to_owned(), None));
+        }
+    }
+    if scene.ambient_occlusion.is_some() {
+        let message =
+            "ambient occlusion is not written: the ambient light is, without it".to_owned();
+        account.drop(Diagnostic::warning(message, None));
     }
     lights(scene, &mut text, account);
     text

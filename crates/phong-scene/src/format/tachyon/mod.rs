@@ -1,4 +1,4 @@
-//! Tachyon scenes (`.dat`), as Tachyon draws them; VMD, OVITO and SageMath write them.
+//! Tachyon scenes (`.dat`), as Tachyon draws them; VMD, OVITO and Sage write them.
 //!
 //! Words count in any case, and where lines break counts for nothing. Tachyon's space is left-handed:
 //! every z is negated as it is read, which gives the very picture that Tachyon gives.
@@ -21,7 +21,8 @@
 //! | `TEXFUNC` 1 to 9, `OUTLINE`, `TRANSMODE R3D` | their constant colour: a warning |
 //! | `SHADER_MODE`: `MEDIUM` and less; `TRANS_VMD` | no shadows; what is seen through is not added to but mixed with the surface |
 //! | ambient occlusion | `k_a` grows by `DIFFUSE` times its colour; the file's own ambient light is hidden with it |
-//! | `FOG`, clip groups, `SCALARVOL`, `SCAPE`, `TPOLYFILE`, `MGFFILE` | nothing: a warning that counts them |
+//! | `FOG`; `FOG_VMD` | linear fog, exponential fog and its square, which begin at the eye; by the distance along the axis |
+//! | clip groups, `SCALARVOL`, `SCAPE`, `TPOLYFILE`, `MGFFILE` | nothing: a warning that counts them |
 //! | `INCLUDE` | the other file's statements, at this place |
 //!
 //! Tachyon samples a pixel at its corner, half a pixel from where ours is. Its `-shade_phong` is a

@@ -8,7 +8,7 @@ use glam::DVec3;
 use super::block::{Named, Things};
 use super::camera::Frame;
 use super::shapes::{Bulk, ring};
-use super::sky::Gradient;
+use super::sky::{Gradient, Haze};
 use super::statement::{Lamp, Mode, Statement};
 use super::texture::{Texture, rgb};
 use crate::ambient_occlusion::{AmbientOcclusion, OcclusionDistance};
@@ -53,6 +53,7 @@ pub(super) struct Assembly<'a> {
     frame: Option<Frame>,
     background: Background,
     gradient: Option<Gradient>,
+    haze: Option<Haze>,
     mode: Mode,
     /// How many of what is not drawn, in the plural.
     ignored: BTreeMap<&'static str, u64>,
@@ -76,6 +77,7 @@ impl<'a> Assembly<'a> {
             frame: None,
             background: Background::default(),
             gradient: None,
+            haze: None,
             mode: Mode::default(),
             ignored: BTreeMap::new(),
             left_out: 0,
@@ -151,7 +153,7 @@ impl<'a> Assembly<'a> {
         }
         let message = || {
             let name = String::from_utf8_lossy(name);
-            format!("there is no texture `{name}` before this line; it is white, as in Tachyon")
+            format!("there is no texture `{name}` before this line; it is grey")
         };
         let span = || crate::diagnostic::Span { place: place.clone(), ..Default::default() };
         findings.warning("textures that are not there", span, message);
@@ -170,7 +172,6 @@ impl<'a> Assembly<'a> {
         let texture = |number: u32| used.get(number as usize).map_or(Texture::DEFAULT, |(_, t)| *t);
         let group = |number: u32| used.get(number as usize).map_or(0, |(group, _)| *group);
         match statement {
-            Statement::Use(_) => {}
             Statement::Define(name, texture) => {
                 if self.textures.contains_key(&name) {
                     *self.ignored.entry(TWICE).or_default() += 1;
@@ -242,6 +243,7 @@ impl<'a> Assembly<'a> {
                 self.gradient = None;
             }
             Statement::Gradient(gradient) => self.gradient = Some(gradient),
+            Statement::Fog(haze) => self.haze = Some(haze),
             Statement::Mode(mode) => self.mode = mode,
             Statement::Include(name) => {
                 let name = String::from_utf8_lossy(&name);
@@ -261,7 +263,7 @@ impl<'a> Assembly<'a> {
                     findings.error("included files", span, message);
                 }
             }
-            Statement::Ignored("") => {}
+            Statement::Use(_) | Statement::Ignored("") => {}
             Statement::Ignored(what) => *self.ignored.entry(what).or_default() += 1,
         }
     }
@@ -310,13 +312,23 @@ impl<'a> Assembly<'a> {
             scene.image.depth = bounces as u32;
             let (camera, told) = frame.camera();
             scene.camera = camera;
-            told.into_iter().for_each(|message| warn("cameras", message));
+            for message in told {
+                warn("cameras", message);
+            }
         } else {
             warn("cameras", "the file has no `CAMERA`; the default one is used".to_owned());
         }
         if let Some(gradient) = &self.gradient {
             let [top, bottom] = gradient.colors(&scene.camera);
             scene.image.background = Background::Gradient { top, bottom };
+        }
+        if let Some(haze) = &self.haze {
+            let (fog, moved) = haze.fog(self.mode.planar);
+            scene.fog = fog;
+            if moved {
+                let message = "fog begins at the eye, and not at `START`".to_owned();
+                warn("fog", message);
+            }
         }
         if self.mode.open.is_some() {
             let samples = self.mode.samples.clamp(1, 1024) as u32;

@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3};
 
 use super::block::{Named, Things, Triangle};
 use super::camera::Frame;
-use super::sky::Gradient;
+use super::sky::{Gradient, Haze};
 use super::texture::Texture;
 use crate::format::text::{Fault, Parsed, Words};
 use crate::limits::LARGEST;
@@ -89,6 +89,7 @@ pub(super) enum Statement {
     Camera(Frame),
     Background([f32; 3]),
     Gradient(Gradient),
+    Fog(Haze),
     Mode(Mode),
     Include(Vec<u8>),
     /// What is not drawn, in the plural.
@@ -124,6 +125,8 @@ pub(super) struct Array {
 pub(super) struct Mode {
     pub(super) no_shadows: bool,
     pub(super) mixed: bool,
+    /// Whether fog goes by the distance along the camera's axis.
+    pub(super) planar: bool,
     /// The colour of ambient occlusion.
     pub(super) open: Option<[f32; 3]>,
     /// The rays of ambient occlusion.
@@ -275,16 +278,7 @@ impl Things {
             b"background" => Statement::Background(words.three()?),
             b"background_gradient" => gradient(words)?,
             b"shader_mode" => mode(words)?,
-            b"fog" => {
-                while !words.has("START") {
-                    words.some("`START`")?;
-                }
-                words.number()?;
-                words.keyed_number("END")?;
-                words.keyed_number("DENSITY")?;
-                words.keyed("COLOR")?;
-                Statement::Ignored("fog")
-            }
+            b"fog" => Statement::Fog(Haze::read(words)?),
             b"include" => Statement::Include(words.some("the name of a file")?.to_vec()),
             b"start_clipgroup" => {
                 words.key("NUMPLANES")?;
@@ -450,6 +444,8 @@ fn mode(words: &mut Words<'_>) -> Parsed<Statement> {
             mode.no_shadows = true;
         } else if is("TRANS_VMD") {
             mode.mixed = true;
+        } else if is("FOG_VMD") {
+            mode.planar = true;
         } else if is("AMBIENT_OCCLUSION") {
             mode.open = Some([1.0; 3]);
         } else if is("AMBIENT_COLOR") {

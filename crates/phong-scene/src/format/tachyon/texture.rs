@@ -21,7 +21,7 @@ pub(super) struct Texture {
 }
 
 impl Texture {
-    /// What Tachyon takes where a name says nothing.
+    /// Where a name says nothing: what Tachyon takes, but grey, so that it is not taken for white paint.
     pub(super) const DEFAULT: Self = Self {
         ambient: 0.1,
         diffuse: 0.9,
@@ -30,7 +30,7 @@ impl Texture {
         phong: 0.0,
         phong_size: 100.0,
         metal: false,
-        color: [1.0; 3],
+        color: [0.8; 3],
         more: false,
     };
 
@@ -125,9 +125,10 @@ impl Texture {
         let sound = |number: f32| if number > 0.0 { number.min(1e6) } else { 0.0 };
         let opacity = sound(self.opacity).min(1.0);
         let share = if mixed { opacity } else { 1.0 };
-        let (dialect, tint) = match self.metal {
-            true => (Dialect::TachyonMetal, Tint::Object),
-            false => (Dialect::Tachyon, Tint::Light),
+        let (dialect, tint) = if self.metal {
+            (Dialect::TachyonMetal, Tint::Object)
+        } else {
+            (Dialect::Tachyon, Tint::Light)
         };
         ConstantMaterial {
             name,

@@ -86,7 +86,7 @@ impl<'a> Words<'a> {
 
     /// What a word that was read should have been.
     #[cold]
-    pub(crate) fn wrong_word(&self, word: &[u8], wanted: &str) -> Fault {
+    pub(crate) fn wrong_word(word: &[u8], wanted: &str) -> Fault {
         let word = String::from_utf8_lossy(&word[..word.len().min(40)]);
         Fault::Wrong(format!("`{word}` stands where {wanted} should"))
     }
@@ -130,12 +130,11 @@ impl<'a> Words<'a> {
         self.is_there();
         let before = self.cursor.clone();
         let number = self.cursor.decimal().and_then(Decimal::to_integer);
-        match number.and_then(|n| u64::try_from(n).ok()) {
-            Some(number) => Ok(number),
-            None => {
-                self.cursor = before;
-                Err(self.wrong("a whole number"))
-            }
+        if let Some(number) = number.and_then(|n| u64::try_from(n).ok()) {
+            Ok(number)
+        } else {
+            self.cursor = before;
+            Err(self.wrong("a whole number"))
         }
     }
 
