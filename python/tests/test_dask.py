@@ -300,15 +300,14 @@ def test_workers_of_different_vector_instructions_give_the_same_bits(
     processes.worker()
     diary = tmp_path / "diary"
     diary.touch()
-    options: dict[str, Any] = {"size": (160, 90), "samples": 16, "progress": False}
     with Client(processes.address, timeout=120) as client:
         client.wait_for_workers(2, timeout=300)
-        levels = client.run(os.environ.get, "PHONG_SIMD").values()
+        levels = client.run(os.getenv, "PHONG_SIMD").values()
         assert sorted(map(str, levels)) == ["None", "scalar"]
         client.register_plugin(kills.Diary(str(diary)))
         for name in THREE:
-            image = phong.dask.render(SCENES / name, client, shares=8, **options)
-            alone = phong.render(SCENES / name, **options)
+            image = phong.dask.render(SCENES / name, client, shares=8, **SMALL)
+            alone = phong.render(SCENES / name, **SMALL)
             assert np.array_equal(np.asarray(image), np.asarray(alone)), name
     lines = [line.split(maxsplit=2) for line in diary.read_text().splitlines()]
     worked = {process for process, what, key in lines if what == "done" and "share" in key}

@@ -30,7 +30,16 @@ def test_the_stub_of_keys_is_that_of_the_table_of_keys() -> None:
 
 def test_every_shape_of_the_text_has_a_class() -> None:
     tables = set(json.loads(_phong.schema())["properties"])
-    tables -= {"version", "image", "ambient", "ambient_occlusion", "fog", "groups", "include", "instance"}
+    tables -= {
+        "version",
+        "image",
+        "ambient",
+        "ambient_occlusion",
+        "fog",
+        "groups",
+        "include",
+        "instance",
+    }
     tables -= {"sky", "outline", "clip"}  # not built yet
     tables -= {"mesh", "points", "cylinders", "molecule"}  # they are made of arrays, or read
     assert tables == set(writer().CLASSES.values())
