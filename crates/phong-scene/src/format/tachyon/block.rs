@@ -4,12 +4,11 @@
 //! surely begins a statement of a kind of which there may be many; the last statement, where it does
 //! not end, is left for the piece after.
 
-use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::statement::{Statement, is_statement};
-use super::texture::Texture;
-use crate::format::text::{Fault, Findings, Parsed, Piece, Words};
+use super::statement::is_statement;
+use super::things::Things;
+use crate::format::text::{Fault, Findings, Piece, Words};
 
 /// The words that a statement of which there may be many begins with.
 const MANY: [(&[u8], &[u8]); 5] = [
@@ -34,93 +33,6 @@ pub(super) struct Block {
     /// The number of its line.
     pub(super) tail_line: u64,
     pub(super) findings: Findings,
-}
-
-/// The textures that things name, by a word or by what it would stand for.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Named {
-    Name(Vec<u8>),
-    Own(Texture),
-}
-
-/// What statements say, those of many kinds apart.
-#[derive(Debug, Default)]
-pub(super) struct Things {
-    /// Middle and radius, and the number of a texture.
-    pub(super) spheres: Vec<([f32; 4], u32)>,
-    /// Both ends, and the number of a texture.
-    pub(super) cylinders: Vec<([[f32; 4]; 2], u32)>,
-    pub(super) triangles: Vec<Triangle>,
-    /// All others, in order, with the line.
-    pub(super) statements: Vec<(u64, Statement)>,
-    /// How many things of many kinds were left out because a number is none that can be drawn.
-    pub(super) left_out: u64,
-    /// How many textures have been named.
-    count: u32,
-    names: HashMap<Vec<u8>, u32>,
-    own: HashMap<([u32; 8], [u32; 3]), u32>,
-    last: Option<(Vec<u8>, u32)>,
-}
-
-/// A triangle.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Triangle {
-    pub(super) corners: [[f32; 3]; 3],
-    pub(super) normals: Option<[[f32; 3]; 3]>,
-    /// The colours of its corners, if they have some.
-    pub(super) colors: Option<[[f32; 3]; 3]>,
-    pub(super) texture: u32,
-}
-
-impl Things {
-    /// The number of the texture that stands here.
-    pub(super) fn texture(&mut self, words: &mut Words<'_>) -> Parsed<u32> {
-        let word = words.some("a texture")?;
-        if word.eq_ignore_ascii_case(b"texture") {
-            let texture = Texture::read(words)?;
-            return Ok(self.own(texture));
-        }
-        Ok(self.named(word, words.line()))
-    }
-
-    /// The number of the texture of this name, which stands on this line.
-    pub(super) fn named(&mut self, word: &[u8], line: u64) -> u32 {
-        // Neighbours are mostly of one texture.
-        if let Some((_, number)) = self.last.as_ref().filter(|(name, _)| name == word) {
-            return *number;
-        }
-        let number = if let Some(number) = self.names.get(word) {
-            *number
-        } else {
-            let number = self.name(Named::Name(word.to_vec()), line);
-            self.names.insert(word.to_vec(), number);
-            number
-        };
-        self.last = Some((word.to_vec(), number));
-        number
-    }
-
-    /// The number of a texture that has no name.
-    pub(super) fn own(&mut self, texture: Texture) -> u32 {
-        if let Some(number) = self.own.get(&texture.key_with_color()) {
-            return *number;
-        }
-        let number = self.name(Named::Own(texture), 0);
-        self.own.insert(texture.key_with_color(), number);
-        number
-    }
-
-    fn name(&mut self, named: Named, line: u64) -> u32 {
-        self.statements.push((line, Statement::Use(named)));
-        self.count += 1;
-        self.count - 1
-    }
-
-    /// Whatever stands behind this word may mean another texture from now on.
-    pub(super) fn define(&mut self, name: &[u8]) {
-        self.names.remove(name);
-        self.last = None;
-    }
 }
 
 impl Block {

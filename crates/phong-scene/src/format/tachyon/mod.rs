@@ -39,6 +39,7 @@ mod shapes;
 mod sky;
 mod statement;
 mod texture;
+mod things;
 mod vectors;
 
 use std::io;

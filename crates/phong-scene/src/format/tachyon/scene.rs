@@ -5,12 +5,11 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::block::{Named, Things};
 use super::camera::Frame;
 use super::shapes::{Bulk, ring};
 use super::sky::{Gradient, Haze};
-use super::statement::{Lamp, Mode, Statement};
 use super::texture::{Texture, rgb};
+use super::things::{Lamp, Mode, Named, Statement, Things};
 use crate::ambient_occlusion::{AmbientOcclusion, OcclusionDistance};
 use crate::color::Rgb;
 use crate::diagnostic::{Diagnostic, Place};

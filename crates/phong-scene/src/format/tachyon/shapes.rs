@@ -4,9 +4,8 @@ use std::f64::consts::TAU;
 
 use glam::{DVec3, Vec3};
 
-use super::block::Triangle;
-use super::statement::Array;
 use super::texture::{Texture, rgb};
+use super::things::{Array, Triangle};
 use crate::color::Rgb;
 use crate::limits::LARGEST;
 use crate::mesh::{Caps, Cylinders, Mesh, NO_INDEX, Points};

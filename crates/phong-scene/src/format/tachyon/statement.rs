@@ -1,11 +1,11 @@
 //! Statements: a name, and what belongs to it.
 
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 
-use super::block::{Named, Things, Triangle};
 use super::camera::Frame;
 use super::sky::{Gradient, Haze};
 use super::texture::Texture;
+use super::things::{Array, Lamp, Mode, Statement, Things, Triangle};
 use crate::format::text::{Fault, Parsed, Words};
 use crate::limits::LARGEST;
 
@@ -45,95 +45,6 @@ const NAMES: [&str; 33] = [
     "outfile",
     "verbose",
 ];
-
-/// A statement of which there are few.
-#[derive(Debug)]
-pub(super) enum Statement {
-    /// The next texture that things name.
-    Use(Named),
-    Define(Vec<u8>, Texture),
-    /// A new name, and what it stands for.
-    Alias(Vec<u8>, Vec<u8>),
-    Light(Lamp),
-    Plane {
-        point: DVec3,
-        normal: DVec3,
-        texture: u32,
-    },
-    Box {
-        min: DVec3,
-        max: DVec3,
-        texture: u32,
-    },
-    Ring {
-        center: DVec3,
-        normal: DVec3,
-        inner: f64,
-        outer: f64,
-        texture: u32,
-    },
-    /// One without ends.
-    Cylinder {
-        center: DVec3,
-        axis: DVec3,
-        radius: f64,
-        texture: u32,
-    },
-    Chain {
-        points: Vec<Vec3>,
-        radius: f32,
-        texture: u32,
-    },
-    Mesh(Array),
-    Resolution([u64; 2]),
-    Camera(Frame),
-    Background([f32; 3]),
-    Gradient(Gradient),
-    Fog(Haze),
-    Mode(Mode),
-    Include(Vec<u8>),
-    /// What is not drawn, in the plural.
-    Ignored(&'static str),
-}
-
-/// A light.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Lamp {
-    /// `None`: it is far away.
-    pub(super) position: Option<DVec3>,
-    pub(super) direction: Option<DVec3>,
-    /// Where a cone's light begins to fall off, and where it ends, degrees.
-    pub(super) falloff: Option<[f64; 2]>,
-    pub(super) attenuation: [f64; 3],
-    pub(super) color: [f32; 3],
-}
-
-/// Many triangles.
-#[derive(Debug, Default)]
-pub(super) struct Array {
-    pub(super) positions: Vec<Vec3>,
-    pub(super) normals: Vec<Vec3>,
-    pub(super) colors: Vec<[f32; 3]>,
-    pub(super) indices: Vec<[u32; 3]>,
-    pub(super) texture: u32,
-    /// How many triangles name a vertex that is not there.
-    pub(super) outside: u64,
-}
-
-/// How all is shaded.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Mode {
-    pub(super) no_shadows: bool,
-    pub(super) mixed: bool,
-    /// Whether fog goes by the distance along the camera's axis.
-    pub(super) planar: bool,
-    /// The colour of ambient occlusion.
-    pub(super) open: Option<[f32; 3]>,
-    /// The rays of ambient occlusion.
-    pub(super) samples: u64,
-    /// What all lights are multiplied by.
-    pub(super) rescale: Option<f32>,
-}
 
 /// Whether a statement begins with this word.
 pub(super) fn is_statement(word: &[u8]) -> bool {

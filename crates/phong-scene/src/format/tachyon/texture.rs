@@ -13,7 +13,7 @@ pub(super) struct Texture {
     pub(super) specular: f32,
     pub(super) opacity: f32,
     pub(super) phong: f32,
-    pub(super) phong_size: f32,
+    pub(super) exponent: f32,
     pub(super) metal: bool,
     pub(super) color: [f32; 3],
     /// Whether it says more than is drawn: a pattern, an image, an outline.
@@ -28,7 +28,7 @@ impl Texture {
         specular: 0.0,
         opacity: 1.0,
         phong: 0.0,
-        phong_size: 100.0,
+        exponent: 100.0,
         metal: false,
         color: [0.8; 3],
         more: false,
@@ -96,17 +96,16 @@ impl Texture {
         if words.has("PHONG") {
             texture.metal = words.some("`PLASTIC` or `METAL`")?.eq_ignore_ascii_case(b"metal");
             texture.phong = words.number()?;
-            texture.phong_size = words.keyed_number("PHONG_SIZE")?;
+            texture.exponent = words.keyed_number("PHONG_SIZE")?;
         }
         Ok(texture)
     }
 
     /// Its numbers as bits, without the colour: what is of one material but for its colour is alike.
     pub(super) fn key(&self) -> [u32; 8] {
-        let Self { ambient, diffuse, specular, opacity, phong, phong_size, metal, more, .. } =
-            *self;
+        let Self { ambient, diffuse, specular, opacity, phong, exponent, metal, more, .. } = *self;
         let [a, d, s, o, p, n] =
-            [ambient, diffuse, specular, opacity, phong, phong_size].map(f32::to_bits);
+            [ambient, diffuse, specular, opacity, phong, exponent].map(f32::to_bits);
         [a, d, s, o, p, n, u32::from(metal), u32::from(more)]
     }
 
@@ -138,7 +137,7 @@ impl Texture {
             k_a: share * (sound(self.ambient) + open * sound(self.diffuse)),
             k_d: share * sound(self.diffuse),
             k_s: share * sound(self.phong),
-            shininess: sound(self.phong_size),
+            shininess: sound(self.exponent),
             reflection: Rgb::grey(share * sound(self.specular)),
             transmission: Rgb::grey(1.0 - opacity),
             ior: 1.0,
