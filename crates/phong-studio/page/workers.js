@@ -43,6 +43,7 @@ class Team {
     this.count = Math.max(1, Math.min(Number(asked) || (navigator.hardwareConcurrency ?? 2), MOST));
     this.open = null; // the newest scene that was asked for
     this.parts = null; // who waits for shares
+    this.exports = Promise.resolve(); // one export after another
     this.ready = prepare().then(
       (kit) => {
         this.kit = kit;
@@ -70,7 +71,7 @@ class Team {
     this.ready.then(() => {
       if (!this.kit) return;
       if (request.do === "open") this.open = request;
-      if (request.do === "export") this.exported(request);
+      if (request.do === "export") this.exports = this.exports.then(() => this.exported(request));
       else this.tell(request, ASKED.has(request.do) ? 1 : this.count);
     });
   }
