@@ -2,6 +2,7 @@
 
 use phong::view::View;
 use phong_scene::Scene;
+use rayon::prelude::*;
 
 use super::GradeError;
 use super::fault::{Change, Fault};
@@ -14,6 +15,9 @@ use super::tone::encode;
 
 /// A mistake is planted only if it is notable in this share of the pixels.
 const LEAST_SEEN: f64 = 0.003;
+
+/// So many pixels are looked at to see whether it is.
+const LOOKED_AT: usize = 1500;
 
 /// So many mistakes are offered to choose from.
 const OFFERED: usize = 8;
@@ -57,12 +61,17 @@ impl Planted {
         let mut hypotheses = at_points(scene, &right);
         // Any background explains any background: as a riddle it says nothing.
         hypotheses.retain(|one| !matches!(one.change, Change::AnyBackground));
-        let least = (LEAST_SEEN * right.points.len() as f64) as usize;
-        let drawn: Vec<Vec<[f32; 3]>> = hypotheses.iter().map(|one| draw(&right, one)).collect();
+        let some = &right.some[..right.some.len().min(LOOKED_AT)];
+        let least = (LEAST_SEEN * some.len() as f64) as usize;
+        let is_seen = |one: &Hypothesis| {
+            let fault = Fault::default().with(&one.change);
+            let off = some.iter().filter(|&&i| differ(level(&right, &fault, i), right.ours[i]));
+            off.count() > least
+        };
+        let shows: Vec<bool> = hypotheses.par_iter().map(is_seen).collect();
         let mut seen: Vec<(&'static Mistake, usize)> = Vec::new();
-        for (i, one) in hypotheses.iter().enumerate() {
-            let is_new = seen.iter().all(|(mistake, _)| mistake.cause != one.mistake.cause);
-            if is_new && apart(&drawn[i], &right.ours) > least {
+        for (i, one) in hypotheses.iter().enumerate().filter(|(i, _)| shows[*i]) {
+            if seen.iter().all(|(mistake, _)| mistake.cause != one.mistake.cause) {
                 seen.push((one.mistake, i));
             }
         }
@@ -76,7 +85,7 @@ impl Planted {
             choices.push(seen.remove(other).0);
         }
         choices.sort_by_key(|mistake| mistake.place());
-        let values = drawn.into_iter().nth(which).unwrap_or_default();
+        let values = draw(&right, &hypotheses[which]);
         Ok(Some(Self { right, hypotheses, mistake, choices, values }))
     }
 
@@ -117,36 +126,35 @@ impl Planted {
 /// The picture as a program with this mistake draws it.
 fn draw(right: &Prepared, hypothesis: &Hypothesis) -> Vec<[f32; 3]> {
     let fault = Fault::default().with(&hypothesis.change);
+    let all = (0..right.points.len()).into_par_iter().with_min_len(256);
+    all.map(|i| level(right, &fault, i)).collect()
+}
+
+/// A pixel of it.
+fn level(right: &Prepared, fault: &Fault, i: usize) -> [f32; 3] {
     let [width, height] = right.size.map(|side| side as usize);
-    let at = |i: usize| {
-        let sum = shade(&right.points[i], &fault, &right.facts);
-        encode(sum.total() * fault.gain, fault.tone)
+    let (x, y) = (i % width, i / width);
+    let from = match fault.layout {
+        Some(Layout::UpsideDown) => (height - 1 - y) * width + x,
+        Some(Layout::LeftRight) => y * width + width - 1 - x,
+        Some(Layout::Turned) => (height - 1 - y) * width + width - 1 - x,
+        Some(Layout::BlueFirst | Layout::Shifted(..)) | None => i,
     };
-    let place = |i: usize| {
-        let (x, y) = (i % width, i / width);
-        match fault.layout {
-            Some(Layout::UpsideDown) => at((height - 1 - y) * width + x),
-            Some(Layout::LeftRight) => at(y * width + width - 1 - x),
-            Some(Layout::Turned) => at((height - 1 - y) * width + width - 1 - x),
-            Some(Layout::BlueFirst) => {
-                let [r, g, b] = at(i);
-                [b, g, r]
-            }
-            Some(Layout::Shifted(..)) | None => at(i),
-        }
-    };
-    (0..right.points.len()).map(place).collect()
+    let sum = shade(&right.points[from], fault, &right.facts);
+    let [r, g, b] = encode(sum.total() * fault.gain, fault.tone);
+    if fault.layout == Some(Layout::BlueFirst) { [b, g, r] } else { [r, g, b] }
 }
 
 /// How many pixels differ notably.
 fn apart(a: &[[f32; 3]], b: &[[f32; 3]]) -> usize {
-    let differs = |(a, b): (&[f32; 3], &[f32; 3])| {
-        a.iter().zip(b).any(|(a, b)| {
-            let off = f64::from((a - b).abs());
-            off > Residual::NOTICED || off.is_nan()
-        })
-    };
-    a.iter().zip(b).filter(|pair| differs(*pair)).count()
+    a.iter().zip(b).filter(|(a, b)| differ(**a, **b)).count()
+}
+
+fn differ(a: [f32; 3], b: [f32; 3]) -> bool {
+    a.iter().zip(b).any(|(a, b)| {
+        let off = f64::from((a - b).abs());
+        off > Residual::NOTICED || off.is_nan()
+    })
 }
 
 /// Numbers that look random and follow from a seed.
