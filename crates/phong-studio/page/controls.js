@@ -56,6 +56,7 @@ export class Controls {
       ...list("materials", words.groups.materials),
       ...list("light", words.groups.light),
       one("ambient", words.groups.ambient),
+      ...(values.ambient_occlusion ? [one("ambient_occlusion", words.groups.ambient_occlusion)] : []),
       one("camera", words.groups.camera),
       one("image", words.groups.image),
     ];
@@ -129,7 +130,10 @@ export class Controls {
       const typed = hold(number, "input", () => {}, (to) => to !== "" && keep(Number(to)));
       this.refresh.push(() => {
         const value = this.value(path, schema);
-        if (typeof value !== "number") return;
+        if (typeof value !== "number") {
+          [slider.value, number.value] = [slider.min, ""];
+          return;
+        }
         if (!held()) {
           if (value > Number(slider.max)) slider.max = 2 * value;
           slider.value = value;

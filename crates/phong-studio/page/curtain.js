@@ -4,7 +4,6 @@
 import { connect } from "./engine.js";
 import { Picture } from "./picture.js";
 import { element } from "./elements.js";
-import { words } from "./words.js";
 
 export class Curtain {
   constructor(frame, slider) {
@@ -37,7 +36,6 @@ export class Curtain {
     this.engine = connect({ hear, take: (frame) => this.picture.tile(frame), gone: () => this.leave() });
     this.camera = values.camera ?? {};
     this.slider.hidden = false;
-    this.slider.setAttribute("aria-label", words.curtain);
     this.place();
   }
 

@@ -10,7 +10,7 @@ export class Teaching {
     this.begin = begin;
     this.sheetRoot = element("div", {});
     this.riddle = element("div", {});
-    this.graded = element("div", { role: "status" });
+    this.graded = element("div", { role: "status", "aria-label": words.verdict });
     const find = element("button", { type: "button", id: "find" }, words.find);
     find.onclick = () => this.plant(crypto.getRandomValues(new Uint32Array(1))[0]);
     const file = element("input", { type: "file", id: "grade-file", accept: ".png,.ppm,.jpg,.jpeg,.pfm,.exr" });

@@ -67,6 +67,7 @@ export const words = {
   drawn: "drawn as",
   begin: "Begin",
   grade: "Grade a picture of this scene (or drop it on the page):",
+  verdict: "What there is to say about the picture",
   grading: (name) => `Grading ${name} …`,
   tooLarge: (name) => `${name} is too large to be graded here: at most 6 MB. phong grade takes larger ones.`,
   passes: "passes",
@@ -104,7 +105,7 @@ export const words = {
   done: (samples) => `Done: ${samples} samples a pixel`,
   stopped: "Stopped",
   broken: "The text cannot be drawn as it is; the picture is the last that could.",
-  groups: { image: "Picture", camera: "Camera", ambient: "Ambient light", light: "Light", materials: "Material" },
+  groups: { image: "Picture", camera: "Camera", ambient: "Ambient light", ambient_occlusion: "Ambient occlusion", light: "Light", materials: "Material" },
 };
 
 // Puts the words in their places.
