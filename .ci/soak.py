@@ -88,6 +88,12 @@ def resident(process):
     return int(pages) * os.sysconf("SC_PAGE_SIZE")
 
 
+def busy(process):
+    """Seconds that processors have worked for a process."""
+    fields = Path(f"/proc/{process.pid}/stat").read_text().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
 def visit(url, name, dice):
     """A client comes, does this and that, and goes. How many pictures were begun."""
     client = Client(url)
@@ -163,13 +169,17 @@ def speed(arguments):
         client.ask(do="look", set={"image.size": [480, 270]})
         client.until("look")
         client.drawn()
-        count, begun = 0, time.monotonic()
+        count, begun, worked = 0, time.monotonic(), busy(studio)
         while time.monotonic() - begun < arguments.seconds:
             client.ask(do="turn", by=[0.01, 0.002])
             client.until("look")
             client.until("pass", picture=client.look["picture"], **{"pass": arguments.full})
             count += 1
-        print(f"{scene.name} at 480 x 270: {count / (time.monotonic() - begun):.1f} pictures a second, to pass {arguments.full}")
+        took, worked = time.monotonic() - begun, busy(studio) - worked
+        print(
+            f"{scene.name} at 480 x 270, to pass {arguments.full}: {count} pictures, {count / took:.1f} a second, "
+            f"{1000 * worked / count:.1f} ms of processors each"
+        )
     finally:
         studio.terminate()
         studio.wait()

@@ -22,7 +22,7 @@ pub(super) struct Exported {
 }
 
 /// The most rays that are traced for a page of explanations: more would keep its reader waiting.
-const MOST_RAYS: u64 = 300_000;
+const MOST_RAYS: u64 = 100_000;
 
 /// Every pixel explained, as `phong explain --html` has it, with as many samples as are soon told.
 fn explained(title: &str, painting: &Painting) -> Result<String, String> {

@@ -6,7 +6,7 @@ use toml_edit::{
 };
 
 /// Tables that are made where a text lacks them; everything else stands in the text, or is not written.
-const MADE: [&str; 3] = ["image", "camera", "ambient"];
+const MADE: [&str; 4] = ["image", "camera", "ambient", "ambient_occlusion"];
 
 /// A scene's text with these values in it, by the paths of their keys; `null` takes a key out.
 ///

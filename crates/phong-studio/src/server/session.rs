@@ -84,6 +84,7 @@ fn can_wait(request: &Request) -> bool {
     matches!(
         request,
         Request::Explain { .. }
+            | Request::Facets { .. }
             | Request::Lobe { .. }
             | Request::Guess { .. }
             | Request::Grade { .. }
