@@ -252,6 +252,19 @@ fn whatever_is_asked_is_answered_and_the_engine_still_draws() {
 }
 
 #[test]
+fn after_a_bad_end_that_nobody_foresaw_the_engine_says_so_and_draws_again() {
+    let mut talk = Talk::of(SCENE);
+    talk.some();
+    talk.with(|engine, emit| engine.broken(emit));
+    assert!(talk.page.last("error")["message"].as_str().unwrap().contains("report"));
+    assert!(!talk.engine.has_work());
+    talk.ask(&json!({ "do": "explain", "id": 1, "pixel": [1, 1] }));
+    assert!(talk.page.last("error")["message"].as_str().unwrap().contains("no picture"));
+    talk.ask(&json!({ "do": "turn", "by": [0.1, 0] }));
+    talk.draw();
+}
+
+#[test]
 fn fifty_clients_at_once_are_served_or_sent_away_and_leave_nothing_behind() {
     let studio = Studio::new();
     let served: usize = std::thread::scope(|scope| {
