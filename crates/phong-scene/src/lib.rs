@@ -42,6 +42,7 @@ pub use color::{ColorError, Rgb, srgb_decode, srgb_encode};
 pub use diagnostic::{Diagnostic, Label, Place, SceneError, Severity, Span};
 pub use fog::{Fog, FogDistance, FogKind};
 pub use format::export::{Account, File, PlyEncoding};
+pub use format::frames::{FrameRange, Frames};
 pub use format::origin::origin_of;
 pub use format::table::Format;
 pub use format::toml::batch::read_batch;

@@ -4,7 +4,7 @@ use crate::change::Change;
 use crate::diagnostic::Diagnostic;
 use crate::fragment::Fragment;
 use crate::limits::Limits;
-use crate::molecule::Drawing;
+use crate::molecule::{Drawing, Topology};
 use crate::scene::Reading;
 use crate::source::Source;
 
@@ -24,6 +24,8 @@ pub(crate) struct Input<'a> {
     pub(crate) drawing: Option<&'a Drawing>,
     /// What is laid over its text.
     pub(crate) changes: &'a [Change],
+    /// Bonds of earlier frames; `None`: there are no frames.
+    pub(crate) topology: Option<&'a Topology>,
 }
 
 /// What of a file is wanted, where it could be read in more than one way.
@@ -49,6 +51,7 @@ impl<'a> Input<'a> {
             wanted: Wanted::Anything,
             drawing: None,
             changes: &[],
+            topology: None,
         }
     }
 }

@@ -5,6 +5,7 @@ mod atoms;
 mod cif;
 pub(crate) mod export;
 mod faces;
+pub(crate) mod frames;
 pub(crate) mod gltf;
 mod gro;
 pub(crate) mod input;
@@ -31,6 +32,7 @@ use crate::change::Change;
 use crate::diagnostic::{Diagnostic, Place, Span};
 use crate::frame::{Framing, frame};
 use crate::limits::Limits;
+use crate::molecule::Topology;
 use crate::scene::{Reading, Scene};
 use crate::source::Source;
 use crate::unpack::Unpacked;
@@ -72,6 +74,18 @@ pub fn read_changed(
     limits: &Limits,
     changes: &[Change],
 ) -> Reading {
+    read_known(path, format, source, limits, changes, None)
+}
+
+/// The same, where bonds of earlier frames may be known.
+fn read_known(
+    path: &str,
+    format: Option<Format>,
+    source: &dyn Source,
+    limits: &Limits,
+    changes: &[Change],
+    topology: Option<&Topology>,
+) -> Reading {
     let place = Place { file: path.into(), ..Place::default() };
     let refused = |message: String, help: String, bare| {
         let span = Span { place: place.clone(), ..Span::default() };
@@ -85,7 +99,7 @@ pub fn read_changed(
         return refused(message, help, false);
     };
     let source = &Unpacked::new(source, limits);
-    let input = Input { changes, ..Input::new(path, source, limits) };
+    let input = Input { changes, topology, ..Input::new(path, source, limits) };
     let read = match format.reader() {
         None => {
             let message = format!("{format} files are programs, which are not read");

@@ -2,6 +2,7 @@
 
 mod around;
 mod flat;
+mod follow;
 
 use std::collections::BTreeMap;
 

@@ -5,7 +5,7 @@ use glam::{DVec3, Vec3};
 use super::bonds::by_radii;
 use super::style::{Drawing, Style};
 use super::wrong::Wrong;
-use super::{Molecule, Selection, names};
+use super::{Molecule, Selection, Topology, names};
 use crate::color::Rgb;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::elements::van_der_waals_radius;
@@ -42,7 +42,13 @@ impl Molecule {
     ///
     /// # Errors
     /// What is wrong with the drawing, or that nothing is left to be drawn; `file` is the file as a whole.
-    pub(crate) fn draw(mut self, drawing: &Drawing, file: &Span) -> Result<Drawn, Box<Diagnostic>> {
+    /// Bonds by covalent radii are those of `topology`, if there is one.
+    pub(crate) fn draw(
+        mut self,
+        drawing: &Drawing,
+        file: &Span,
+        topology: Option<&Topology>,
+    ) -> Result<Drawn, Box<Diagnostic>> {
         let error = |wrong: Wrong, span: &Option<Span>| {
             let error =
                 Diagnostic::error(wrong.message, span.clone().unwrap_or_else(|| file.clone()));
@@ -82,7 +88,17 @@ impl Molecule {
         let bonds = match drawing.style {
             Some(Style::Spacefill) => Vec::new(),
             None if self.len() > FEW => Vec::new(),
-            _ => self.all_bonds(&mut drawn.notes),
+            _ => {
+                let selection = drawing.select.as_ref().map_or("", Selection::text);
+                let found = || by_radii(&self.spheres, &self.elements);
+                let found = || match topology {
+                    Some(topology) => {
+                        topology.bonds([&file.place.file, selection], &self.elements, found)
+                    }
+                    None => found(),
+                };
+                self.all_bonds(found, &mut drawn.notes)
+            }
         };
         let style = drawing.style.unwrap_or(if 2 * bonds.len() >= self.len() && self.len() > 1 {
             Style::BallAndStick
@@ -170,8 +186,12 @@ impl Molecule {
         residues.numbers.iter().map(|number| of[*number as usize]).collect()
     }
 
-    /// The file's own bonds, and those by covalent radii unless the file has all.
-    fn all_bonds(&self, notes: &mut Vec<String>) -> Vec<[u32; 2]> {
+    /// The file's own bonds, and those `found` by covalent radii unless the file has all.
+    fn all_bonds(
+        &self,
+        found: impl FnOnce() -> Vec<[u32; 2]>,
+        notes: &mut Vec<String>,
+    ) -> Vec<[u32; 2]> {
         let mut bonds: Vec<[u32; 2]> = self
             .bonds
             .iter()
@@ -179,7 +199,7 @@ impl Molecule {
             .map(|[a, b]| [*a.min(b), *a.max(b)])
             .collect();
         if !self.all_bonds && self.knows_elements() {
-            bonds.extend(by_radii(&self.spheres, &self.elements));
+            bonds.extend(found());
         }
         bonds.sort_unstable();
         bonds.dedup();

@@ -13,6 +13,7 @@ mod maps;
 mod residue;
 mod select;
 mod style;
+mod topology;
 mod wrong;
 
 #[cfg(test)]
@@ -23,6 +24,7 @@ pub(crate) use column::{Column, Values, Words};
 pub(crate) use maps::ColorMap;
 pub(crate) use select::Selection;
 pub(crate) use style::{Drawing, Spans, Style};
+pub(crate) use topology::Topology;
 
 use glam::DVec3;
 

@@ -99,7 +99,7 @@ fn what_is_wrong_with_a_selection_is_said_at_its_place() {
 }
 
 fn drawn(drawing: &Drawing) -> draw::Drawn {
-    molecule().draw(drawing, &crate::diagnostic::Span::default()).unwrap()
+    molecule().draw(drawing, &crate::diagnostic::Span::default(), None).unwrap()
 }
 
 #[test]

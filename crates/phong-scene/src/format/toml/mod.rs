@@ -35,11 +35,12 @@ use crate::scene::Reading;
 
 /// Reads a scene and what it includes.
 pub(crate) fn read(input: &Input<'_>, models: &'static Models) -> Reading {
-    let Input { path, source, limits, changes, .. } = *input;
+    let Input { path, source, limits, changes, topology, .. } = *input;
     let values: Vec<String> = changes.iter().map(Change::document).collect();
     match text::load(path, source, limits) {
         Ok(text) => {
-            let reader = reader::Reader::new(source, limits, models);
+            let mut reader = reader::Reader::new(source, limits, models);
+            reader.topology = topology;
             let (scene, diagnostics) = reader.read(path, text, changes, &values);
             Reading { scene, bare: false, diagnostics }
         }

@@ -15,8 +15,11 @@ impl Reader<'_> {
         let (Some((file, read)), Some(drawing)) = (self.reader_of(v, path), drawing) else {
             return Vec::new();
         };
-        let input =
-            Input { drawing: Some(&drawing), ..Input::new(&file, self.source, self.limits) };
+        let input = Input {
+            drawing: Some(&drawing),
+            topology: self.topology,
+            ..Input::new(&file, self.source, self.limits)
+        };
         let Some(mut fragment) = self.read_input(v, &input, read) else { return Vec::new() };
         if !fragment.objects.iter().any(|object| ["atoms", "bonds"].contains(&&*object.name)) {
             let help = "atoms are read from PDB, CIF, XYZ, GRO and LAMMPS files";

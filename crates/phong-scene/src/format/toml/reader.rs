@@ -26,6 +26,7 @@ use crate::keys::{self, Kind, Table};
 use crate::light::Light;
 use crate::limits::Limits;
 use crate::material::Material;
+use crate::molecule::Topology;
 use crate::scene::{Image, Scene};
 use crate::source::Source;
 use crate::texture::Texture;
@@ -35,6 +36,8 @@ use crate::wording::quoted;
 pub(super) struct Reader<'a> {
     pub(super) source: &'a dyn Source,
     pub(super) limits: &'a Limits,
+    /// Bonds of earlier frames; `None`: there are no frames.
+    pub(super) topology: Option<&'a Topology>,
     /// Where the readers of models are found.
     pub(super) models: &'static Models,
     pub(super) notes: Notes,
@@ -83,6 +86,7 @@ impl<'a> Reader<'a> {
         Self {
             source,
             limits,
+            topology: None,
             models,
             notes: Notes::default(),
             changes: Changes::default(),
