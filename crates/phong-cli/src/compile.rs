@@ -31,7 +31,24 @@ pub(crate) fn compile_for(
     let options = GeometryOptions { max_bytes, rays, ..options };
     let geometry = Geometry::new(scene, options).map_err(ViewError::from);
     let view = geometry.and_then(|geometry| View::new(Arc::new(geometry), Look::new(scene)));
-    view.map_err(|error| match error {
+    view.map_err(|error| failure(error, args, beside))
+}
+
+/// Makes a scene ready that differs from an earlier one in some objects: what is the same is not built
+/// again.
+pub(crate) fn compile_again(
+    earlier: &View,
+    scene: &Scene,
+    args: &InputArgs,
+) -> Result<View, Failure> {
+    let geometry = earlier.geometry().update(scene).map_err(ViewError::from);
+    let view = geometry.and_then(|geometry| View::new(Arc::new(geometry), Look::new(scene)));
+    view.map_err(|error| failure(error, args, 0))
+}
+
+/// Why a scene cannot be made ready.
+fn failure(error: ViewError, args: &InputArgs, beside: u64) -> Failure {
+    match error {
         ViewError::Geometry(GeometryError::Memory { needed, limit }) => {
             memory::over(needed + beside, limit + beside)
         }
@@ -40,5 +57,5 @@ pub(crate) fn compile_for(
             let span = Span { place, ..Span::default() };
             Failure::Input(vec![Diagnostic::error(error.to_string(), span)])
         }
-    })
+    }
 }

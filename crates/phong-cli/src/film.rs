@@ -103,12 +103,11 @@ impl Target {
                     "write a file a picture, with %04d in its name",
                 )
             }
-            Self::Animation { format, rate, .. } if *rate > format.most_a_second() => refuse(
-                &format!("--fps {rate}: a GIF shows at most {} pictures a second", {
-                    format.most_a_second()
-                }),
-                "write a name in .png, which takes more",
-            ),
+            Self::Animation { format, rate, .. } if *rate > format.most_a_second() => {
+                let most = format.most_a_second();
+                let what = format!("--fps {rate}: a GIF shows at most {most} pictures a second");
+                refuse(&what, "write a name in .png, which takes more")
+            }
             Self::Animation { .. } => Ok(()),
         }
     }

@@ -7,8 +7,9 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 
 use glam::DVec3;
 use phong_scene::{
-    Batch, BatchReading, Blob, CameraKind, Diagnostic, Folder, Format, Framing, Jail, Limits,
-    Memory, Reading, Scene, Severity, Side, Source, closest, path_of, read_stream, trouble,
+    Batch, BatchReading, Blob, CameraKind, Diagnostic, Folder, Format, FrameRange, Frames, Framing,
+    Jail, Limits, Memory, Reading, Scene, Severity, Side, Source, closest, path_of, read_stream,
+    trouble,
 };
 
 use crate::args::{InputArgs, View, ViewArgs};
@@ -79,6 +80,27 @@ fn is_pipe(kind: FileType) -> bool {
 }
 
 impl Files {
+    /// Those of INPUT, none opened yet.
+    fn of(args: &InputArgs) -> Result<Self, Failure> {
+        if args.input == "-" && args.format.is_none() {
+            return Err(Failure::usage("standard input has no name that says what it is")
+                .with_help("say it: `phong ... - --format toml`"));
+        }
+        Ok(Self { input: args.input.clone(), ..Self::default() })
+    }
+
+    /// Those that were opened, each once.
+    fn opened(&self) -> Vec<PathBuf> {
+        let opened = self.opened.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut all = Vec::with_capacity(opened.len());
+        for file in &*opened {
+            if !all.contains(file) {
+                all.push(file.clone());
+            }
+        }
+        all
+    }
+
     /// All that a pipe holds: readers want to know a file's length, and to read it anywhere.
     fn piped<R: Read>(
         &self,
@@ -102,7 +124,7 @@ pub(crate) struct Input {
     pub(crate) warnings: Vec<Diagnostic>,
     files: Vec<PathBuf>,
     /// Whether nothing is told.
-    quiet: bool,
+    pub(crate) quiet: bool,
 }
 
 impl Input {
@@ -208,20 +230,23 @@ fn way_out(path: &Path, error: &io::Error) -> Option<String> {
     }
 }
 
+/// How far reading goes.
+fn limits(args: &InputArgs) -> Limits {
+    Limits { lenient: args.lenient, bytes: memory::limit(), ..Limits::default() }
+}
+
 /// Reads INPUT, and all there is to say about it; the files it is made of.
 pub(crate) fn read(args: &InputArgs) -> Result<(Reading, Vec<PathBuf>), Failure> {
-    let stdin = args.input == "-";
-    if stdin && args.format.is_none() {
-        return Err(Failure::usage("standard input has no name that says what it is")
-            .with_help("say it: `phong ... - --format toml`"));
-    }
-    let files = Files { input: args.input.clone(), ..Files::default() };
-    let default = Limits { lenient: args.lenient, ..Limits::default() };
-    let limits = Limits { bytes: memory::limit(), ..default };
-    let mut reading =
-        phong_scene::read_changed(&args.input, args.format, &files, &limits, &args.set);
+    let files = Files::of(args)?;
+    let limits = limits(args);
+    let reading = phong_scene::read_changed(&args.input, args.format, &files, &limits, &args.set);
+    Ok((judged(args, reading), files.opened()))
+}
+
+/// What was read, by how strict the command line is.
+fn judged(args: &InputArgs, mut reading: Reading) -> Reading {
     // Of a file that cannot be opened nothing else is said.
-    if let ([only], false) = (&mut reading.diagnostics[..], stdin) {
+    if let ([only], false) = (&mut reading.diagnostics[..], args.input == "-") {
         let path = &path_of(&args.input);
         let way_out = hindrance(path).and_then(|error| way_out(path, &error));
         only.help = way_out.or_else(|| only.help.take());
@@ -232,8 +257,48 @@ pub(crate) fn read(args: &InputArgs) -> Result<(Reading, Vec<PathBuf>), Failure>
             reading.scene = None;
         }
     }
-    let opened = files.opened.into_inner().unwrap_or_else(PoisonError::into_inner);
-    Ok((reading, opened))
+    reading
+}
+
+/// Does something with the frames of INPUT's trajectories.
+pub(crate) fn with_frames<T>(
+    args: &InputArgs,
+    range: FrameRange,
+    work: impl FnOnce(&FramesOf<'_>) -> Result<T, Failure>,
+) -> Result<T, Failure> {
+    let files = Files::of(args)?;
+    let limits = limits(args);
+    let frames = Frames::new(&files, &limits, range);
+    work(&FramesOf { args, files: &files, frames })
+}
+
+/// The frames of INPUT's trajectories.
+#[derive(Debug)]
+pub(crate) struct FramesOf<'a> {
+    args: &'a InputArgs,
+    files: &'a Files,
+    frames: Frames<'a>,
+}
+
+impl FramesOf<'_> {
+    /// Reads a frame for use: errors end here, warnings are told unless `quiet`. Notes are for the
+    /// `first` one.
+    pub(crate) fn open(&self, number: u64, first: bool, quiet: bool) -> Result<Input, Failure> {
+        let Self { args, files, frames } = self;
+        let reading = frames.read(number, &args.input, args.format, &args.set);
+        let Reading { scene, bare, mut diagnostics } = judged(args, reading);
+        let Some(scene) = scene else { return Err(Failure::Input(diagnostics)) };
+        diagnostics.retain(|diagnostic| first || !diagnostic.is_note());
+        if !quiet {
+            report::diagnostics(&diagnostics);
+        }
+        Ok(Input { scene, bare, warnings: diagnostics, files: files.opened(), quiet })
+    }
+
+    /// The numbers of those that are wanted, once one was read.
+    pub(crate) fn numbers(&self) -> Result<Vec<u64>, Failure> {
+        Ok(self.frames.numbers()?)
+    }
 }
 
 /// Reads a batch file: errors end here, warnings are told.

@@ -19,6 +19,7 @@ Examples:
   phong render scene.toml --size 480x270 --watch      again at every change
   phong render dragon.ply --turntable 100 -o dragon-%04d.png    a film, a file a picture
   phong render dragon.ply --turntable 50 -o dragon.gif          the same in one file
+  phong render run.xyz --frames 0:1000:10 -o run-%04d.png       frames of a trajectory
   cat scene.toml | phong render - --format toml -o scene.png";
 
 /// A picture of a scene or a bare model
@@ -68,16 +69,23 @@ pub(crate) struct FilmArgs {
     #[arg(conflicts_with_all = ["tile", "watch"], allow_hyphen_values = true)]
     pub(crate) turntable: Option<u32>,
 
+    /// Frames A, A + S, ... below B of a trajectory, counted from 0: 0:100:10, 50: or ::5; or one, 7.
+    /// XYZ, PDB of several models, GRO and LAMMPS dumps, also where a scene names them. Files as for
+    /// --turntable, with the frame's number
+    #[arg(long, value_name = "A:B:S", value_parser = values::frames)]
+    #[arg(conflicts_with_all = ["tile", "watch", "turntable"], allow_hyphen_values = true)]
+    pub(crate) frames: Option<phong_scene::FrameRange>,
+
     /// Pictures a second, where all are in one file [default: 25]
     #[arg(long, value_name = "N", value_parser = values::whole(1_u16, 1000))]
-    #[arg(requires = "turntable", allow_hyphen_values = true)]
+    #[arg(allow_hyphen_values = true)]
     pub(crate) fps: Option<u16>,
 }
 
 impl FilmArgs {
     /// Whether there is more than the one picture.
     pub(crate) fn is_asked_for(&self) -> bool {
-        self.turntable.is_some()
+        self.turntable.is_some() || self.frames.is_some()
     }
 }
 

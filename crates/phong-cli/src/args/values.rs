@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use clap::builder::{OsStringValueParser, TypedValueParser};
 use phong::aov::Aov;
-use phong_scene::{Background, ColorError, Format, Rgb, closest};
+use phong_scene::{Background, ColorError, Format, FrameRange, Rgb, closest};
 
 /// Three numbers.
 pub(crate) type Vec3Arg = [f64; 3];
@@ -161,6 +161,35 @@ where
     }
 }
 
+/// `0:100:10`, from, up to and step, any of them left out; or one number.
+pub(crate) fn frames(text: &str) -> Result<FrameRange, String> {
+    let form = "write A:B:S, frames from A (from 0) up to but without B in steps of S, like 0:100:10, \
+                50: or ::5; or the number of one";
+    let or = |part: Option<&&str>, default: Option<u64>| match part.map(|part| part.trim()) {
+        None | Some("") => Ok(default),
+        Some(number) => number.parse().map(Some).map_err(|_| form.to_owned()),
+    };
+    let parts: Vec<&str> = text.split(':').collect();
+    let (start, end, step) = match parts[..] {
+        [one] if !one.trim().is_empty() => {
+            let start = or(Some(&one), None)?;
+            (start, start.and_then(|start| start.checked_add(1)), None)
+        }
+        [_, _] | [_, _, _] => {
+            (or(parts.first(), None)?, or(parts.get(1), None)?, or(parts.get(2), None)?)
+        }
+        _ => return Err(form.to_owned()),
+    };
+    let (start, step) = (start.unwrap_or(0), step.unwrap_or(1));
+    if step == 0 {
+        return Err("S, the step from frame to frame, must be at least 1".to_owned());
+    }
+    if end.is_some_and(|end| end <= start) {
+        return Err("B must be more than A: frame B is not drawn any more".to_owned());
+    }
+    Ok(FrameRange { start, end, step })
+}
+
 /// The name of an arbitrary output variable.
 pub(crate) fn aov(text: &str) -> Result<Aov, String> {
     let names = Aov::ALL.map(Aov::name);
@@ -277,6 +306,19 @@ mod tests {
         assert!(share("4/4").unwrap_err().contains("last of 4 is 3"));
         assert!(share("0/0").is_err());
         assert!(share("1").is_err());
+    }
+
+    #[test]
+    fn frames_count_from_nought_and_end_before_the_second_number() {
+        let range = |start, end, step| Ok(FrameRange { start, end, step });
+        assert_eq!(frames("2:10:3"), range(2, Some(10), 3));
+        assert_eq!(frames(":5"), range(0, Some(5), 1));
+        assert_eq!(frames("7:"), range(7, None, 1));
+        assert_eq!(frames("::4"), range(0, None, 4));
+        assert_eq!(frames("3"), range(3, Some(4), 1));
+        for wrong in ["", "a", "1:1", "3:2", "0:5:0", "1:2:3:4", "-1:2", "1.5"] {
+            assert!(frames(wrong).is_err(), "{wrong}");
+        }
     }
 
     #[test]

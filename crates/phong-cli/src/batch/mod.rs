@@ -341,7 +341,11 @@ fn options(written: &Written) -> Result<Vec<String>, Box<Diagnostic>> {
         (work.threads.is_some(), "--threads", "write `threads = N`"),
         (work.tile.is_some(), "--tile", "write `shares = N`"),
         (work.watch, "--watch", "leave it out"),
-        (args.film.is_asked_for(), "--turntable", "make `camera.eye` a parameter"),
+        (
+            args.film.is_asked_for(),
+            "--turntable and --frames",
+            "make `camera.eye` a parameter, or draw frames with `phong render`",
+        ),
         (work.json, "--json", "leave it out"),
         (work.quiet, "--quiet", "leave it out: tasks are quiet"),
         (work.resume, "--resume", "leave it out: tasks go on from where they were"),

@@ -1,6 +1,6 @@
-//! `phong render --turntable N`: the pictures of a film, one after another.
+//! `phong render --turntable N` and `--frames A:B:S`: the pictures of a film, one after another.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -15,61 +15,80 @@ use phong::render::{Event, Outcome, Progress, RenderOptions};
 use phong::view::View;
 use phong_lab::measure::memory::peak;
 use phong_lab::tell::diagnostic;
-use phong_scene::{Background, Camera};
+use phong_scene::{Background, Camera, FrameRange, Scene};
 use serde_json::json;
 
 use super::render::{Clock, draw};
 use crate::args::RenderArgs;
 use crate::checkpoint::Checkpoint;
-use crate::compile::compile_for;
+use crate::compile::{compile_again, compile_for};
 use crate::failure::Failure;
 use crate::film::{Names, Target};
-use crate::input::{self, Input};
+use crate::input::{self, FramesOf, Input};
 use crate::output::{Output, keep_inputs_safe};
 use crate::plan::{Outputs, Plan, not_finite};
 use crate::progress::{Meter, short};
 use crate::{interrupt, memory, report};
 
+/// Warnings that are kept for the answer as JSON, at most.
+const MOST_WARNINGS: usize = 1000;
+
 /// Draws every picture of the film.
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
-    let mut clock = Clock::start();
-    let quiet = args.work.quiet;
-    let pictures = args.film.turntable.unwrap_or(1);
+    let clock = Clock::start();
+    match (args.film.frames, args.film.turntable) {
+        (Some(range), _) => {
+            input::with_frames(&args.input, range, |frames| frames_of(args, range, frames, clock))
+        }
+        (None, turntable) => once_around(args, turntable.unwrap_or(1), clock),
+    }
+}
+
+/// Turns once around what is seen.
+fn once_around(args: &RenderArgs, pictures: u32, clock: Clock) -> Result<(), Failure> {
     let target = Target::new(args, pictures)?;
+    let plan = ready(args, &target, 0)?;
+    let meter = Meter::new(args.work.quiet, "reading");
+    let mut input = input::open(&args.input, args.work.quiet)?;
+    let options = plan.settle(args, &mut input)?;
+    let axis = input::turn_around(&mut input, &args.view, pictures);
+    let motion = Motion::Turn { first: input.scene.camera.clone(), axis, pictures };
+    let film =
+        Filming { args, plan, options, input, motion, view: None, meter, rays: [0; 3], there: 0 };
+    film.run(&target, clock)
+}
+
+/// Draws the frames of a trajectory, each seen as the first one is.
+fn frames_of(
+    args: &RenderArgs,
+    range: FrameRange,
+    frames: &FramesOf<'_>,
+    clock: Clock,
+) -> Result<(), Failure> {
+    let quiet = args.work.quiet;
+    let meter = Meter::new(quiet, "reading");
+    let mut input = frames.open(range.start, true, quiet)?;
+    let numbers = frames.numbers()?;
+    let pictures = u32::try_from(numbers.len()).unwrap_or(u32::MAX);
+    let target = Target::new(args, pictures)?;
+    let plan = ready(args, &target, range.start)?;
+    let options = plan.settle(args, &mut input)?;
+    let first = Box::new(input.scene.clone());
+    let motion = Motion::Frames { frames, first, at: range.start, numbers };
+    let film =
+        Filming { args, plan, options, input, motion, view: None, meter, rays: [0; 3], there: 0 };
+    film.run(&target, clock)
+}
+
+/// What the command line decides; what cannot be written is known before anything is drawn.
+fn ready(args: &RenderArgs, target: &Target, number: u64) -> Result<Plan, Failure> {
     let plan = Plan::new(args)?;
-    // What cannot be written is known before anything is read, let alone rendered.
-    let first = match &target {
-        Target::Files(names) => names.path(0),
+    let first = match target {
+        Target::Files(names) => names.path(number),
         Target::Animation { path, .. } => path.clone(),
     };
     keep_inputs_safe([&Output::create(&first)?], [&args.input.input])?;
-
-    let meter = Meter::new(quiet, "reading");
-    let mut input = input::open(&args.input, quiet)?;
-    let options = plan.settle(args, &mut input)?;
-    let axis = input::turn_around(&mut input, &args.view, pictures);
-    clock.lap("read");
-    let camera = input.scene.camera.clone();
-    let mut film = Filming {
-        args,
-        plan,
-        options,
-        input,
-        first: camera,
-        axis,
-        pictures,
-        view: None,
-        meter,
-        rays: [0; 3],
-        there: 0,
-    };
-    match &target {
-        Target::Files(names) => film.to_files(names)?,
-        Target::Animation { format, path, rate } => film.to_animation(*format, path, *rate)?,
-    }
-    film.meter.finish();
-    clock.lap("draw");
-    film.tell(&target, &clock)
+    Ok(plan)
 }
 
 /// A film that is being drawn.
@@ -77,12 +96,9 @@ struct Filming<'a> {
     args: &'a RenderArgs,
     plan: Plan,
     options: RenderOptions,
+    /// The scene of the last picture.
     input: Input,
-    /// The camera of the first picture, and the axis that it goes about.
-    first: Camera,
-    axis: DVec3,
-    /// How many pictures there are.
-    pictures: u32,
+    motion: Motion<'a>,
     /// The scene of the last picture that was drawn, made ready.
     view: Option<View>,
     meter: Meter,
@@ -92,15 +108,71 @@ struct Filming<'a> {
     there: u32,
 }
 
-impl Filming<'_> {
-    /// Makes the scene that of a picture.
-    fn stand(&mut self, number: u32) -> Settings {
-        let Input { scene, bare, .. } = &mut self.input;
-        scene.camera = self.first.turned(self.axis, number, self.pictures);
-        if *bare {
-            scene.light();
+/// What changes from picture to picture.
+enum Motion<'a> {
+    /// The camera goes once around, from its first place about an axis.
+    Turn { first: Camera, axis: DVec3, pictures: u32 },
+    /// The frames of a trajectory, by their numbers; the first one's scene, and which frame was read
+    /// last.
+    Frames { frames: &'a FramesOf<'a>, first: Box<Scene>, at: u64, numbers: Vec<u64> },
+}
+
+impl Motion<'_> {
+    fn pictures(&self) -> u32 {
+        match self {
+            Self::Turn { pictures, .. } => *pictures,
+            Self::Frames { numbers, .. } => u32::try_from(numbers.len()).unwrap_or(u32::MAX),
         }
-        Settings::of(scene, &self.options, self.plan.encoding)
+    }
+
+    /// The number that a picture's file has.
+    fn number(&self, picture: u32) -> u64 {
+        match self {
+            Self::Turn { .. } => picture.into(),
+            Self::Frames { numbers, .. } => numbers[picture as usize],
+        }
+    }
+}
+
+impl Filming<'_> {
+    /// Draws all, and says what was done.
+    fn run(mut self, target: &Target, mut clock: Clock) -> Result<(), Failure> {
+        clock.lap("read");
+        match target {
+            Target::Files(names) => self.to_files(names)?,
+            Target::Animation { format, path, rate } => self.to_animation(*format, path, *rate)?,
+        }
+        self.meter.finish();
+        clock.lap("draw");
+        self.tell(target, &clock)
+    }
+
+    /// Makes the scene that of a picture.
+    fn stand(&mut self, picture: u32) -> Result<Settings, Failure> {
+        let number = self.motion.number(picture);
+        match &mut self.motion {
+            Motion::Turn { first, axis, pictures } => {
+                let Input { scene, bare, .. } = &mut self.input;
+                scene.camera = first.turned(*axis, picture, *pictures);
+                if *bare {
+                    scene.light();
+                }
+            }
+            Motion::Frames { frames, first, at, .. } if *at != number => {
+                let mut next = frames.open(number, false, self.args.work.quiet)?;
+                next.quiet = true;
+                self.plan.settle(self.args, &mut next)?;
+                next.scene.follow(first, next.bare);
+                let mut warnings = std::mem::take(&mut self.input.warnings);
+                warnings.append(&mut next.warnings);
+                warnings.truncate(MOST_WARNINGS);
+                next.warnings = warnings;
+                self.input = next;
+                *at = number;
+            }
+            Motion::Frames { .. } => {}
+        }
+        Ok(Settings::of(&self.input.scene, &self.options, self.plan.encoding))
     }
 
     /// Draws the picture that the scene is of, with a checkpoint beside its file if there is to be one.
@@ -111,14 +183,18 @@ impl Filming<'_> {
         checkpoint: Option<&Checkpoint>,
     ) -> Result<Film, Failure> {
         let scene = &self.input.scene;
-        let view = match self.view.take() {
+        let pictures = self.motion.pictures();
+        let view = match (self.view.take(), &self.motion) {
             // What rays meet is the same: only the look is another.
-            Some(view) => View::new(Arc::clone(view.geometry()), Look::new(scene))
-                .map_err(|error| Failure::usage(error.to_string()))?,
-            None => {
+            (Some(view), Motion::Turn { .. }) => {
+                View::new(Arc::clone(view.geometry()), Look::new(scene))
+                    .map_err(|error| Failure::usage(error.to_string()))?
+            }
+            (Some(view), Motion::Frames { .. }) => compile_again(&view, scene, &self.args.input)?,
+            (None, _) => {
                 self.meter.stage("building");
                 let bytes = self.options.film_bytes();
-                let view = compile_for(self.pictures, scene, &self.args.input, bytes)?;
+                let view = compile_for(pictures, scene, &self.args.input, bytes)?;
                 memory::set_aside(settings.film_bytes())?;
                 self.meter.samples();
                 view
@@ -155,7 +231,7 @@ impl Filming<'_> {
     fn of_all(&self, number: u32, progress: Progress) -> Progress {
         let samples = progress.samples;
         Progress {
-            samples: samples * u64::from(self.pictures),
+            samples: samples * u64::from(self.motion.pictures()),
             samples_done: samples * u64::from(number) + progress.samples_done,
             ..progress
         }
@@ -164,21 +240,23 @@ impl Filming<'_> {
     /// Draws a file a picture. With `--resume` those that are there are left as they are.
     fn to_files(&mut self, names: &Names) -> Result<(), Failure> {
         let kinds = self.options.layers();
-        for number in 0..self.pictures {
-            let settings = self.stand(number);
-            let path = names.path(number.into());
+        for number in 0..self.motion.pictures() {
+            let settings = self.stand(number)?;
+            let path = names.path(self.motion.number(number));
             let format = self.args.encoding.output_format;
             let resume = self.args.work.resume;
+            let beside = || {
+                let quiet = self.args.work.quiet;
+                Checkpoint::beside(&path, settings.clone(), &self.options, quiet)
+            };
             if resume && is_there(&path, format.map(Format::from), &settings) {
+                // It stays where a run was killed just before it would have gone.
+                beside().remove();
                 self.there += 1;
                 continue;
             }
             let mut outputs = Outputs::picture(&path, format, &kinds)?;
             keep_inputs_safe(outputs.iter(), self.input.files())?;
-            let beside = || {
-                let quiet = self.args.work.quiet;
-                Checkpoint::beside(&path, settings.clone(), &self.options, quiet)
-            };
             let checkpoint = resume.then(beside);
             let film = self.draw(number, &settings, checkpoint.as_ref())?;
             outputs.write_marked(&film, &settings)?;
@@ -194,7 +272,7 @@ impl Filming<'_> {
     fn to_animation(
         &mut self,
         format: AnimationFormat,
-        path: &PathBuf,
+        path: &Path,
         rate: u16,
     ) -> Result<(), Failure> {
         let mut output = Output::create(path)?;
@@ -203,7 +281,7 @@ impl Filming<'_> {
         let options = AnimationOptions {
             format,
             size: [x1 - x0, y1 - y0],
-            pictures: self.pictures,
+            pictures: self.motion.pictures(),
             rate,
             encoding: self.plan.encoding,
             alpha: self.input.scene.image.background == Background::Transparent,
@@ -211,9 +289,9 @@ impl Filming<'_> {
         let mut failed = None;
         let written = output.write(|out| {
             let mut animation = Animation::new(out, options)?;
-            for number in 0..self.pictures {
-                let settings = self.stand(number);
-                match self.draw(number, &settings, None) {
+            for number in 0..self.motion.pictures() {
+                let drawn = self.stand(number);
+                match drawn.and_then(|settings| self.draw(number, &settings, None)) {
                     Ok(film) => animation.add(&finish(&film, &Finishing::default()))?,
                     Err(failure) => {
                         failed = Some(failure);
@@ -232,7 +310,8 @@ impl Filming<'_> {
 
     /// Says what was done.
     fn tell(&self, target: &Target, clock: &Clock) -> Result<(), Failure> {
-        let Self { args, options, pictures, there, .. } = self;
+        let Self { args, options, there, .. } = self;
+        let pictures = self.motion.pictures();
         if args.work.json {
             let Window { x0, y0, x1, y1 } = options.window();
             let [primary, shadow, secondary] = self.rays;

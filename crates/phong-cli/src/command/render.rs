@@ -26,6 +26,11 @@ use crate::report;
 /// Draws the picture; tells the files that the scene was read from.
 pub(crate) fn run(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
     let mut clock = Clock::start();
+    if args.film.fps.is_some() {
+        return Err(
+            Failure::usage("--fps is for films").with_help("give --turntable N or --frames A:B:S")
+        );
+    }
     let plan = Plan::new(args)?;
     let quiet = args.work.quiet;
     // What cannot be written is known before anything is read, let alone rendered.
