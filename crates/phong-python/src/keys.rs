@@ -162,8 +162,8 @@ impl Text {
     /// Textures that a table may name: those that it names are taken.
     pub(crate) fn know_textures(&mut self, known: Table, table: &Table) {
         let named = |name: &str| {
-            let names = table.values().filter_map(|value| value.get("texture")?.as_str());
-            names.into_iter().any(|other| other == name)
+            let mut names = table.values().filter_map(|value| value.get("texture")?.as_str());
+            names.any(|other| other == name)
         };
         for (name, texture) in known.into_iter().filter(|(name, _)| named(name)) {
             self.textures.entry(name).or_insert(texture);
