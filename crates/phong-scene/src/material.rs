@@ -565,7 +565,7 @@ pub enum OpacityMode {
     /// Not at all.
     #[default]
     Plain,
-    /// It grows from `(½ − ½ cos(π opacity))²`, seen from the front, to 1 at the rim: VMD, Raster3D.
+    /// It grows from `(½ − ½ cos(π opacity))²`, seen from the front, to 1 at the rim: VMD, `Raster3D`.
     Angle,
 }
 

@@ -63,11 +63,12 @@ impl ValueReader<'_> {
                 Some(n) if (min..=max).contains(&n) => Some(Value::Integer(n)),
                 _ => self.mismatch(value),
             },
-            Kind::Number(range) => self.in_range(value, &range).map(Value::Number),
             Kind::NumberOr(_, word) if value.get_ref().as_str() == Some(word) => {
                 Some(Value::Word(word))
             }
-            Kind::NumberOr(range, _) => self.in_range(value, &range).map(Value::Number),
+            Kind::Number(range) | Kind::NumberOr(range, _) => {
+                self.in_range(value, &range).map(Value::Number)
+            }
             Kind::Point => self.numbers(value).map(|v| Value::Vector(v.into())),
             Kind::Direction => self.direction(value).map(Value::Vector),
             Kind::Reflectance => self.color(value, 1.0).map(Value::Color),
