@@ -112,9 +112,9 @@ impl Planted {
     /// Whether a mistake of that name is in the picture: the one that was planted, or one that makes
     /// the same picture of this scene.
     pub fn is_it(&self, cause: &str) -> bool {
-        let ways = self.hypotheses.iter().filter(|one| one.mistake.cause == cause);
+        let mut ways = self.hypotheses.iter().filter(|one| one.mistake.cause == cause);
         cause == self.mistake.cause
-            || ways.into_iter().any(|one| apart(&draw(&self.right, one), &self.values) == 0)
+            || ways.any(|one| apart(&draw(&self.right, one), &self.values) == 0)
     }
 
     /// The mistake of that name, planted or not.

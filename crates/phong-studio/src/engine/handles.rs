@@ -67,16 +67,9 @@ pub(super) fn spots(scene: &Scene, text: Option<&str>, middles: &[DVec3]) -> Vec
         let mut numbers: Vec<(&str, usize)> = Vec::new();
         for (object, &middle) in scene.objects.iter().zip(middles) {
             let kind = object.shape.kind();
-            let number = match numbers.iter_mut().find(|(other, _)| *other == kind) {
-                Some((_, number)) => {
-                    *number += 1;
-                    *number
-                }
-                None => {
-                    numbers.push((kind, 1));
-                    1
-                }
-            };
+            let number = 1 + numbers.iter().find(|(other, _)| *other == kind).map_or(0, |n| n.1);
+            numbers.retain(|(other, _)| *other != kind);
+            numbers.push((kind, number));
             all.extend(Spot::of_object(object, kind, number, middle));
         }
         // Files may bring objects as well; then the numbers are not those of the text.

@@ -41,18 +41,13 @@ fn a_planted_mistake_is_found_among_its_choices_and_the_right_picture_comes_back
 }
 
 #[test]
-fn the_same_seed_plants_the_same_mistake_and_a_large_picture_is_made_smaller() {
+fn the_same_seed_plants_the_same_mistake() {
     let mut talk = Talk::of(SCENE);
     let ask = |talk: &mut Talk| -> Value {
         talk.ask(&json!({ "do": "mistake", "seed": 9 }));
         talk.page.last("mistake")["choices"].clone()
     };
     assert_eq!(ask(&mut talk), ask(&mut talk));
-    talk.ask(&json!({ "do": "look", "set": { "image.size": [4000, 10] } }));
-    talk.ask(&json!({ "do": "look", "set": { "image.size": [160_000, 1] } }));
-    talk.ask(&json!({ "do": "mistake", "seed": 9 }));
-    let size = &talk.page.last("look")["size"];
-    assert!(size[0].as_u64().unwrap() * size[1].as_u64().unwrap() <= 150_000, "{size}");
 }
 
 #[test]
@@ -97,9 +92,9 @@ fn base64(bytes: &[u8]) -> String {
     let group = |three: &[u8]| {
         let number =
             three.iter().fold(0_u32, |n, b| n << 8 | u32::from(*b)) << (8 * (3 - three.len()));
-        let digit = |i: usize| match i <= three.len() {
-            true => char::from(DIGITS[(number >> (18 - 6 * i)) as usize & 63]),
-            false => '=',
+        let digit = |i: usize| {
+            let letter = char::from(DIGITS[(number >> (18 - 6 * i)) as usize & 63]);
+            if i <= three.len() { letter } else { '=' }
         };
         (0..4).map(digit).collect::<String>()
     };
