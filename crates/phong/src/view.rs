@@ -34,6 +34,7 @@ use varied::Varied;
 
 /// A geometry and its look together. Made in no time, immutable, and shared freely between threads.
 #[derive(Clone, Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "each is asked for by itself, ray by ray")]
 pub struct View {
     geometry: Arc<Geometry>,
     look: Look,
