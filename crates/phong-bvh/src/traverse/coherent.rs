@@ -41,6 +41,7 @@ impl Entry {
 
 /// Memory for a group.
 pub(super) struct Group {
+    pause: Pause,
     columns: Columns,
     sheared: Sheared,
     entries: Entries,
@@ -48,8 +49,44 @@ pub(super) struct Group {
 
 impl Group {
     /// No rays.
-    pub(super) const EMPTY: Self =
-        Self { columns: Columns::EMPTY, sheared: Sheared::EMPTY, entries: [Entry::NONE; _] };
+    pub(super) const EMPTY: Self = Self {
+        pause: Pause::NONE,
+        columns: Columns::EMPTY,
+        sheared: Sheared::EMPTY,
+        entries: [Entry::NONE; _],
+    };
+}
+
+/// How many groups are left out after some that gave up: where one ray spreads too far from the next, the
+/// groups that follow mostly do as well. It changes how soon rays are traced and never what they hit.
+#[derive(Clone, Copy)]
+struct Pause {
+    /// Groups to leave out.
+    left: u32,
+    /// How many were left out when the last one gave up; 0: it did not.
+    last: u32,
+}
+
+impl Pause {
+    /// None are left out.
+    const NONE: Self = Self { left: 0, last: 0 };
+    /// The most that are left out in a row.
+    const MOST: u32 = 15;
+
+    /// Whether the next group is left out.
+    #[inline(always)]
+    fn skips(&mut self) -> bool {
+        let skips = self.left > 0;
+        self.left -= u32::from(skips);
+        skips
+    }
+
+    /// Takes note of whether a group reached its end.
+    #[inline(always)]
+    fn note(&mut self, done: bool) {
+        self.last = if done { 0 } else { (2 * self.last + 1).min(Self::MOST) };
+        self.left = self.last;
+    }
 }
 
 /// Nodes and leaves to visit.
@@ -93,11 +130,13 @@ impl<E: Query, C: Content> Kernel for Groups<'_, E, C> {
                 for (left, taken) in left.iter_mut().zip(packets.lanes) {
                     *left &= !taken;
                 }
-                if packets.count() < FEWEST || !is_coherent(simd, &packets) {
+                if packets.count() < FEWEST || !is_coherent(simd, &packets) || group.pause.skips() {
                     continue;
                 }
                 let together = Together::<E, C> { world, root, packets, content: PhantomData };
-                if together.run(simd, query, group) {
+                let done = together.run(simd, query, group);
+                group.pause.note(done);
+                if done {
                     for (lanes, done) in lanes.iter_mut().zip(packets.lanes) {
                         *lanes &= !done;
                     }
@@ -168,7 +207,7 @@ impl<E: Query, C: Content> Together<'_, E, C> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S, query: &mut E, group: &mut Group) -> bool {
         let Self { world, root, packets, .. } = self;
-        let Group { columns, sheared, entries } = group;
+        let Group { columns, sheared, entries, .. } = group;
         columns.fill(simd, &packets);
         for (packet, rays) in packets.rays.iter().enumerate() {
             let t_max = query.t_max(rays, packets.first_eight + packet);
