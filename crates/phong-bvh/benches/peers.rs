@@ -7,7 +7,8 @@
 //! ```
 //!
 //! Scenes: `bunny` (3.7 k triangles) `dragon` (871 k) `terrain` (2.1 M) `sticks` (360 k thin ones),
-//! `spheres` (1 M) `clusters` (1 M of mixed radii) `bonds` (1 M capsules, ours alone). Rays: `primary` (1024², in 8 × 8 tiles), `shadow`
+//! `spheres` (1 M) `clusters` (1 M of mixed radii); ours alone: `bonds` (1 M capsules) `rods` (the same with flat
+//! ends) `chains` (1 M bonds of molecules) `beads` (as many balls in their places). Rays: `primary` (1024², in 8 × 8 tiles), `shadow`
 //! (to two point lights), `ao` (eight cosine rays a hit), `bounce` (one), `shuffled` (those in no
 //! order). Naming some runs only those. `--quick` takes 256² pixels and 64 k rays a set, fewer
 //! rounds, no `COMPACT` build: for the ratio's first digit, in seconds. `--bundle N` sets how many
@@ -20,6 +21,8 @@
 //!
 //! ```text
 //! BUILD  <scene> <DEFAULT|COMPACT> <ratio> <our bytes per primitive> <their bytes per primitive> <our ms>
+//! OURS   <scene> <rays> <our ns per ray, one by one> <in bundles> (without a peer)
+//! COUNT  <scene> <rays> <nodes a ray for the closest hit> <leaves> (without a peer)
 //! RATIO  <scene> <rays> <peer> <single> <bundle> <their ns per ray>
 //! DIFFER <scene> <rays> <share of rays for which the answers differ> [<ours right> <theirs right> <of>]
 //! ```
@@ -261,6 +264,13 @@ impl Contest<'_> {
             println!("DIFFER {name} {rays} {share:.6}{}", self.judged(&differing));
         }
         if peers.is_empty() {
+            let some = || self.set.rays.iter().step_by(count.div_ceil(1 << 14).max(1));
+            let costs = some().map(|ray| self.bvh.intersect_counted(ray).1);
+            let (nodes, leaves) = costs.fold((0, 0), |(nodes, leaves), cost| {
+                (nodes + cost.nodes, leaves + cost.primitives)
+            });
+            let a_ray = |of: u32| f64::from(of) / some().count() as f64;
+            println!("COUNT  {name} {rays} {:.1} {:.1}", a_ray(nodes), a_ray(leaves));
             println!("OURS   {name} {rays} {:.0} {:.0} ns per ray", ns(single), ns(bundle));
         }
     }

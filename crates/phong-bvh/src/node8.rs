@@ -5,7 +5,7 @@
 //! | node | 8 | lo x, hi x, lo y, hi y, lo z, hi z, [`Ref`], – |
 //! | triangles | 10 | x, y, z of the three corners; number |
 //! | spheres | 5 | x, y, z, radius; number |
-//! | cylinders | 9 | x, y, z of the first end; the same of half the way to the second; the two radii, whose signs tell the ends; number |
+//! | cylinders | 10 | x, y, z of the first end; the same of half the way to the second; how near a ray may miss; the two radii, whose signs tell the ends; number |
 //! | solid | 1 | number, index of its geometry, – |
 //! | indexed triangles | 2 | number within its geometry; index of its geometry; none: 2³² − 1 |
 //!

@@ -1,4 +1,4 @@
-//! What is traced: two scanned meshes and five made by rule, the same on every machine.
+//! What is traced: two scanned meshes and eight made by rule, the same on every machine.
 
 use std::{fs, io, path::Path};
 
@@ -6,8 +6,10 @@ use glam::Vec3;
 use phong_bvh::{Caps, Cylinder, Primitives, Sphere};
 
 /// The names of all scenes.
-pub(crate) const NAMES: [&str; 7] =
-    ["bunny", "dragon", "terrain", "sticks", "spheres", "clusters", "bonds"];
+pub(crate) const NAMES: [&str; 10] = [
+    "bunny", "dragon", "terrain", "sticks", "spheres", "clusters", "bonds", "rods", "chains",
+    "beads",
+];
 
 /// A scene by name; the meshes are read from `folder`.
 pub(crate) fn load(name: &str, folder: &Path) -> io::Result<Primitives> {
@@ -17,7 +19,10 @@ pub(crate) fn load(name: &str, folder: &Path) -> io::Result<Primitives> {
         "sticks" => sticks(30_000),
         "spheres" => uniform(1_000_000),
         "clusters" => clustered(1_000_000),
-        "bonds" => bonds(1_000_000),
+        "bonds" => bonds(1_000_000, Caps::Round),
+        "rods" => bonds(1_000_000, Caps::Flat),
+        "chains" => chains(1_000, 1_000).0,
+        "beads" => chains(1_000, 1_000).1,
         _ => panic!("there is no scene {name}"),
     })
 }
@@ -165,12 +170,36 @@ fn clustered(count: u32) -> Primitives {
 
 /// Capsules all over a cube, every way up, and about eight radii long between the middles of their
 /// ends, as bonds are. Half as thick as the spheres of [`uniform`], they hide about as much.
-fn bonds(count: u32) -> Primitives {
+fn bonds(count: u32, caps: Caps) -> Primitives {
     let mut random = Random(1);
     let bond = |_| {
         let (middle, radius) = (random.cube(), 0.002 * (0.5 + random.unit()));
         let half = 0.008 * random.direction();
         Cylinder { from: middle - half, radius, to: middle + half, radius_to: radius }
     };
-    Primitives::cylinders((0..count).map(bond).collect::<Vec<_>>(), Caps::Round)
+    Primitives::cylinders((0..count).map(bond).collect::<Vec<_>>(), caps)
+}
+
+/// Molecules as sticks, and the same as balls: chains of atoms, each bond at the tetrahedral angle to the one
+/// before. Sticks are as thick as drawings have them, an eighth of their length; the balls, one a bond, hide
+/// as much: π R² is half of π times radius times length, what a stick hides on average.
+fn chains(count: u32, length: u32) -> (Primitives, Primitives) {
+    const LONG: f32 = 0.016;
+    const RADIUS: f32 = LONG / 8.0;
+    let mut random = Random(4);
+    let (mut sticks, mut balls) = (Vec::new(), Vec::new());
+    for _ in 0..count {
+        let (mut from, mut along) = (random.cube(), random.direction());
+        for _ in 0..length {
+            let across = along.cross(random.direction()).normalize_or(Vec3::X);
+            along = (along / 3.0 + 0.942_809 * across).normalize_or(Vec3::X);
+            // Chains stay in the cube.
+            along = Vec3::select(from.abs().cmpgt(Vec3::ONE), -along.abs() * from.signum(), along);
+            let to = from + LONG * along;
+            sticks.push(Cylinder { from, radius: RADIUS, to, radius_to: RADIUS });
+            balls.push(Sphere { center: from, radius: (0.5 * RADIUS * LONG).sqrt() });
+            from = to;
+        }
+    }
+    (Primitives::cylinders(sticks, Caps::Round), Primitives::spheres(balls))
 }

@@ -18,16 +18,21 @@
 //! cylinder are far beyond the ends, and the sphere decides. Where the segment has no length, h = 0,
 //! the side is the sphere.
 //!
-//! One lane and eight lanes take the same steps in f32, so they agree bit for bit. Errors are as if the
-//! ray had been moved by a few roundings of the middle's distance and of the segment's length.
+//! **Most lines miss widely**, which [`segment`](super::segment) knows sooner than this does. So a ray asks that
+//! of eight cylinders first. What is left takes the same steps in one lane and in eight, in f32, so they agree bit
+//! for bit. Errors are as if the ray had been moved by a few roundings of the middle's distance and of the
+//! segment's length.
 //!
 //! **Blocks.** Eight capsules share a block with what has two radii, flat ends or none
-//! ([`tapered`](super::tapered)). For these lanes the kernel only says which rays pass so far from
-//! the axis that they are missed; the others are met one by one, in f64.
+//! ([`tapered`](super::tapered)). These lie within a capsule, so the same first question is asked of them; what is
+//! left is met in f64.
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 
-use super::sphere::{Closest, Closest8};
+use super::{
+    segment::{self, misses},
+    sphere::{Closest, Closest8},
+};
 use crate::{Caps, Cylinder, node8::Row};
 
 /// Divisors are no less.
@@ -58,12 +63,14 @@ pub(crate) struct At {
 
 /// Where a ray meets a capsule, or none.
 pub(crate) fn intersect(ray: &Closest, capsule: &Cylinder) -> Option<At> {
+    let [x, y, z, hx, hy, hz, reach, radius, _] = lane(capsule, Caps::Round);
     let [ox, oy, oz] = ray.origin;
+    let c = [x - ox + hx, y - oy + hy, z - oz + hz];
+    if misses(ray.dir, ray.scale, c, [hx, hy, hz], reach) {
+        return None;
+    }
     let [dx, dy, dz] = ray.dir;
-    let [x, y, z] = capsule.from.to_array();
-    let [hx, hy, hz] = half(capsule);
-    let radius = capsule.radius;
-    let [cx, cy, cz] = [x - ox + hx, y - oy + hy, z - oz + hz];
+    let [cx, cy, cz] = c;
     let b = (cx * dx + cy * dy + cz * dz) * ray.scale;
     let [fx, fy, fz] = [cx - b * dx, cy - b * dy, cz - b * dz];
     let hh = hx * hx + hy * hy + hz * hz;
@@ -102,18 +109,36 @@ pub(crate) fn intersect(ray: &Closest, capsule: &Cylinder) -> Option<At> {
     (at.t > ray.t_min && at.t < ray.t_max).then_some(at)
 }
 
-/// Eight cylinders: x, y, z of the first end, the same of [`half`], the two radii, then their numbers.
-/// The sign of the first radius is negative where the ends are flat, that of the second where the
-/// cylinder is open, so that both are the same number in capsules alone.
-pub(crate) const BLOCK: usize = 9;
+/// Eight cylinders: x, y, z of the first end, the same of [`half`], how far [`misses`] has to look, the two
+/// radii, then their numbers. The sign of the first radius is negative where the ends are flat, that of the
+/// second where the cylinder is open, so that both are the same number in capsules alone.
+pub(crate) const BLOCK: usize = 10;
 
 /// A cylinder as the first numbers of one lane of a block.
 pub(crate) fn lane(cylinder: &Cylinder, caps: Caps) -> [f32; BLOCK - 1] {
     let [x, y, z] = cylinder.from.to_array();
-    let [hx, hy, hz] = half(cylinder);
+    let h @ [hx, hy, hz] = half(cylinder);
+    let reach = segment::reach(cylinder.radius.max(cylinder.radius_to), h);
     let radius = if caps == Caps::Flat { -cylinder.radius } else { cylinder.radius };
     let radius_to = if caps == Caps::Open { -cylinder.radius_to } else { cylinder.radius_to };
-    [x, y, z, hx, hy, hz, radius, radius_to]
+    [x, y, z, hx, hy, hz, reach, radius, radius_to]
+}
+
+/// The cylinders of a block that a ray may meet, a bit each.
+#[inline(always)]
+pub(crate) fn may_meet<S: Simd>(simd: S, ray: &Closest8<S>, block: &[Row; BLOCK]) -> u32 {
+    let [ox, oy, oz] = ray.origin;
+    let h @ [hx, hy, hz] = [row(simd, block, 3), row(simd, block, 4), row(simd, block, 5)];
+    let cx = row(simd, block, 0) - ox + hx;
+    let cy = row(simd, block, 1) - oy + hy;
+    let cz = row(simd, block, 2) - oz + hz;
+    let misses = misses(ray.dir, ray.scale, [cx, cy, cz], h, row(simd, block, 6));
+    !misses.to_bitmask() as u32 & 0xff
+}
+
+#[inline(always)]
+fn row<S: Simd>(simd: S, block: &[Row; BLOCK], row: usize) -> f32x8<S> {
+    f32x8::load_array_ref(simd, &block[row].0)
 }
 
 /// Which lanes of a block a ray meets.
@@ -136,18 +161,26 @@ impl CapsuleHits {
     }
 }
 
-/// A ray against the eight cylinders of a block: a function of its own for each level.
-pub(crate) fn intersect8<S: Simd>(simd: S, ray: &Closest8<S>, block: &[Row; BLOCK]) -> CapsuleHits {
-    simd.vectorize(
-        #[inline(always)]
-        || intersect8_at(simd, ray, block),
-    )
-}
-
+/// A ray against those of the cylinders of a block that it [may meet](may_meet).
+///
+/// All that may be asked for is computed at once, rather than one after the other: what the processor would
+/// have to guess costs more than what is for nothing.
 #[inline(always)]
-fn intersect8_at<S: Simd>(simd: S, ray: &Closest8<S>, block: &[Row; BLOCK]) -> CapsuleHits {
-    let zero = f32x8::splat(simd, 0.0);
-    let one = f32x8::splat(simd, 1.0);
+pub(crate) fn intersect8<S: Simd>(
+    simd: S,
+    ray: &Closest8<S>,
+    block: &[Row; BLOCK],
+    may: u32,
+) -> CapsuleHits {
+    let (zero, one) = (f32x8::splat(simd, 0.0), f32x8::splat(simd, 1.0));
+    let radius = row(simd, block, 7);
+    let capsule = radius.simd_eq(row(simd, block, 8));
+    let may = mask32x8::from_bitmask(simd, may.into());
+    let open = (may & !capsule).to_bitmask() as u32;
+    let may = may & capsule;
+    if !may.any_true() {
+        return CapsuleHits { hit: 0, second_half: 0, open, t: [0.0; 8] };
+    }
     let [ox, oy, oz] = ray.origin;
     let [dx, dy, dz] = ray.dir;
     let (hx, hy, hz) = (row(simd, block, 3), row(simd, block, 4), row(simd, block, 5));
@@ -174,45 +207,25 @@ fn intersect8_at<S: Simd>(simd: S, ray: &Closest8<S>, block: &[Row; BLOCK]) -> C
     let qx = gx - c * ex;
     let qy = gy - c * ey;
     let qz = gz - c * ez;
-    let qq = qx * qx + qy * qy + qz * qz;
-    let (radius, radius_to) = (row(simd, block, 6), row(simd, block, 7));
     let square = radius * radius;
-    let inside = square - qq;
-    let capsule = radius.simd_eq(radius_to);
-    let mut open = 0;
-    if !capsule.all_true() {
-        // Beyond all that rounding can do here.
-        let far = cx.abs() + cy.abs() + cz.abs() + hx.abs() + hy.abs() + hz.abs();
-        let reach = radius.abs().max(radius_to.abs()) * 1.001 + far * 1e-5;
-        open = (!capsule & qq.simd_le(reach * reach)).to_bitmask() as u32;
-    }
-    let may = capsule & inside.simd_ge(zero);
-    if !may.any_true() {
-        return CapsuleHits { hit: 0, second_half: 0, open, t: [0.0; 8] };
-    }
+    let inside = square - (qx * qx + qy * qy + qz * qz);
+    let may = may & inside.simd_ge(zero);
     let reach = (inside.max(zero) * per_ee).sqrt();
-    let line = Line { dir: ray.dir, scale: ray.scale, b, f: [fx, fy, fz], dh, fh };
-    let lanes = Capsules8 { h: [hx, hy, hz], hh, square, may };
-    let (met, enter, second_half) = crossing(simd, &line, &lanes, c - reach, -1.0);
+    let line = Line { dir: ray.dir, scale: ray.scale, b, dh, fh, hh };
+    let ends = [
+        Ball::met(simd, &line, [fx - hx, fy - hy, fz - hz], square),
+        Ball::met(simd, &line, [fx + hx, fy + hy, fz + hz], square),
+    ];
+    let (met, enter, second_half) = crossing(simd, &line, &ends, c - reach, -1.0);
+    let (leaves, leave, behind) = crossing(simd, &line, &ends, c + reach, 1.0);
+    let met = may & met;
     let first = met & enter.simd_gt(ray.t_min);
-    let (mut hit, mut t) = (first & enter.simd_lt(ray.t_max), enter);
-    let mut second_half = second_half.to_bitmask() as u32;
-    if (met & !first).any_true() {
-        // Some lines go in where the ray does not count it: it may start within.
-        let inside = met & !first;
-        let (met, leave, behind) = crossing(simd, &line, &lanes, c + reach, 1.0);
-        let second = inside & met & leave.simd_gt(ray.t_min) & leave.simd_lt(ray.t_max);
-        hit |= second;
-        t = first.select(enter, leave);
-        let first = first.to_bitmask() as u32;
-        second_half = second_half & first | behind.to_bitmask() as u32 & !first;
-    }
-    CapsuleHits { hit: hit.to_bitmask() as u32, second_half, open, t: t.to_array() }
-}
-
-#[inline(always)]
-fn row<S: Simd>(simd: S, block: &[Row; BLOCK], row: usize) -> f32x8<S> {
-    f32x8::load_array_ref(simd, &block[row].0)
+    // Some lines go in where the ray does not count it: it may start within.
+    let inside = met & !first & leaves & leave.simd_gt(ray.t_min);
+    let t = first.select(enter, leave);
+    let hit = ((first | inside) & t.simd_lt(ray.t_max)).to_bitmask() as u32;
+    let second_half = (first & second_half | !first & behind).to_bitmask() as u32;
+    CapsuleHits { hit, second_half, open, t: t.to_array() }
 }
 
 /// The line of a ray as eight capsules see it.
@@ -220,59 +233,59 @@ struct Line<S: Simd> {
     dir: [f32x8<S>; 3],
     /// 1 / d·d.
     scale: f32x8<S>,
-    /// Where it is closest to the middle, and the way from there to the middle.
+    /// Where it is closest to the middle.
     b: f32x8<S>,
-    f: [f32x8<S>; 3],
-    /// d·h and f·h.
+    /// d·h, f·h and h·h.
     dh: f32x8<S>,
     fh: f32x8<S>,
+    hh: f32x8<S>,
 }
 
-/// What else of eight capsules a crossing depends on.
-struct Capsules8<S: Simd> {
-    h: [f32x8<S>; 3],
-    /// h·h.
-    hh: f32x8<S>,
-    /// The radius squared.
-    square: f32x8<S>,
-    /// Those whose endless cylinder is crossed.
-    may: mask32x8<S>,
+/// Where a line crosses the spheres around one end of eight capsules, counted from `b`.
+struct Ball<S: Simd> {
+    /// Whether it does.
+    met: mask32x8<S>,
+    /// In the middle between the two crossings.
+    middle: f32x8<S>,
+    /// How far from there each is.
+    reach: f32x8<S>,
+}
+
+impl<S: Simd> Ball<S> {
+    /// `v` leads to the end from where the line is closest to the middle.
+    #[inline(always)]
+    fn met(simd: S, line: &Line<S>, [vx, vy, vz]: [f32x8<S>; 3], square: f32x8<S>) -> Self {
+        let &Line { dir: [dx, dy, dz], scale, .. } = line;
+        let k = (vx * dx + vy * dy + vz * dz) * scale;
+        let wx = vx - k * dx;
+        let wy = vy - k * dy;
+        let wz = vz - k * dz;
+        let inside = square - (wx * wx + wy * wy + wz * wz);
+        let zero = f32x8::splat(simd, 0.0);
+        let reach = (inside.max(zero) * scale).sqrt();
+        Self { met: inside.simd_ge(zero), middle: k, reach }
+    }
 }
 
 /// The crossing on one side, given where the endless cylinder is crossed there, counted from `b`: which
-/// capsules are, where, and which of them in the half of the second end.
+/// capsules are, if their endless cylinders are, where, and which in the half of the second end.
 ///
 /// No closure: that would be compiled without the level's instructions.
 #[inline(always)]
 fn crossing<S: Simd>(
     simd: S,
     line: &Line<S>,
-    lanes: &Capsules8<S>,
+    [first, second]: &[Ball<S>; 2],
     t: f32x8<S>,
     side: f32,
 ) -> (mask32x8<S>, f32x8<S>, mask32x8<S>) {
-    let &Line { dir: [dx, dy, dz], scale, b, f: [fx, fy, fz], dh, fh } = line;
-    let &Capsules8 { h: [hx, hy, hz], hh, square, may } = lanes;
-    let (zero, one) = (f32x8::splat(simd, 0.0), f32x8::splat(simd, 1.0));
-    let along = t * dh - fh;
-    let on_side = along.abs().simd_le(hh);
-    let second_half = along.simd_gt(zero);
-    let t = b + t;
-    if (on_side | !may).all_true() {
-        return (may, t, second_half);
-    }
-    let end = second_half.select(one, zero - one);
-    let vx = fx + end * hx;
-    let vy = fy + end * hy;
-    let vz = fz + end * hz;
-    let k = (vx * dx + vy * dy + vz * dz) * scale;
-    let wx = vx - k * dx;
-    let wy = vy - k * dy;
-    let wz = vz - k * dz;
-    let inside = square - (wx * wx + wy * wy + wz * wz);
-    let reach = (inside.max(zero) * scale).sqrt();
-    let on_end = b + (k + reach * side);
-    (may & (on_side | inside.simd_ge(zero)), on_side.select(t, on_end), second_half)
+    let along = t * line.dh - line.fh;
+    let on_side = along.abs().simd_le(line.hh);
+    let second_half = along.simd_gt(f32x8::splat(simd, 0.0));
+    let on_first = first.middle + first.reach * side;
+    let on_second = second.middle + second.reach * side;
+    let t = line.b + on_side.select(t, second_half.select(on_second, on_first));
+    (on_side | second_half & second.met | !second_half & first.met, t, second_half)
 }
 
 #[cfg(test)]

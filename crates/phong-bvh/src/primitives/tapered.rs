@@ -42,7 +42,7 @@ impl Tapered {
 
     /// From the numbers of one lane of a block: the same.
     pub(crate) fn of_lane(numbers: [f32; capsule::BLOCK - 1]) -> Self {
-        let [x, y, z, hx, hy, hz, radius, radius_to] = numbers.map(f64::from);
+        let [x, y, z, hx, hy, hz, _, radius, radius_to] = numbers.map(f64::from);
         let caps = match (radius < 0.0, radius_to < 0.0) {
             (true, _) => Caps::Flat,
             (_, true) => Caps::Open,

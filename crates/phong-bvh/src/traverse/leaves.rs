@@ -7,11 +7,11 @@ use fearless_simd::{Simd, prelude::*};
 
 use super::{Best, World};
 use crate::{
-    Primitives, lanes,
+    Primitives,
     local::Ray,
     node8::{Kind, Ref, Row, rows},
     primitives::{
-        capsule::{self, At, CapsuleHits},
+        capsule,
         sphere::{self, Closest, Closest8},
         tapered::Tapered,
         triangle::{self, Shear, Shear8},
@@ -163,8 +163,10 @@ impl<S: Simd> Leaves<S> for Spheres<S> {
     }
 }
 
-/// A ray prepared for cylinders: as for spheres. Leaves are functions of their own for each level:
-/// inlined into every traversal they made compiling the crate take far longer.
+/// A ray prepared for cylinders: as for spheres.
+///
+/// What comes after the question that most rays fail is a function of its own for each level: inlined into
+/// every traversal it made compiling the crate take far longer.
 #[derive(Clone, Copy)]
 pub(super) struct Cylinders<S: Simd> {
     closest8: Closest8<S>,
@@ -176,47 +178,79 @@ impl<S: Simd> Leaves<S> for Cylinders<S> {
         Self { closest8: Closest8::new(simd, &Closest::new(ray)) }
     }
 
-    #[inline(never)]
+    #[inline(always)]
     fn offer(&self, simd: S, world: &World<'_>, ray: &Ray, leaf: Ref, best: &mut Best) {
-        let block: &[Row; capsule::BLOCK] = rows(world.rows, leaf.row());
-        let met = capsule::intersect8(simd, &self.closest8, block);
-        let mut offer = |lane: usize, at: At| {
-            best.offer_cylinder(at, block[capsule::BLOCK - 1].bits(lane));
-        };
-        let mut hit = met.hit;
-        while hit != 0 {
-            let lane = hit.trailing_zeros() as usize & 7;
-            hit &= hit - 1;
-            offer(lane, met.at(lane));
-        }
-        if met.open != 0 {
-            tapered(block, met.open, ray, &mut offer);
+        let block = rows(world.rows, leaf.row());
+        let may = capsule::may_meet(simd, &self.closest8, block);
+        if may != 0 {
+            self.offer_lanes(simd, ray, block, may, best);
         }
     }
 
-    #[inline(never)]
+    #[inline(always)]
     fn any(&self, simd: S, world: &World<'_>, ray: &Ray, leaf: Ref) -> bool {
-        let block: &[Row; capsule::BLOCK] = rows(world.rows, leaf.row());
-        let CapsuleHits { hit, open, .. } = capsule::intersect8(simd, &self.closest8, block);
-        let mut any = hit != 0;
-        if !any && open != 0 {
-            tapered(block, open, ray, &mut |_, _| any = true);
-        }
-        any
+        let block = rows(world.rows, leaf.row());
+        let may = capsule::may_meet(simd, &self.closest8, block);
+        may != 0 && self.any_lane(simd, ray, block, may)
     }
 }
 
-/// Tells which of the lanes `open`, which are no capsules, a ray meets, and where.
+impl<S: Simd> Cylinders<S> {
+    /// Offers the hits among the lanes `may`.
+    fn offer_lanes(
+        &self,
+        simd: S,
+        ray: &Ray,
+        block: &[Row; capsule::BLOCK],
+        may: u32,
+        best: &mut Best,
+    ) {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let met = capsule::intersect8(simd, &self.closest8, block, may);
+                let mut hit = met.hit;
+                while hit != 0 {
+                    let lane = hit.trailing_zeros() as usize & 7;
+                    hit &= hit - 1;
+                    best.offer_cylinder(met.at(lane), block[capsule::BLOCK - 1].bits(lane));
+                }
+                if met.open != 0 {
+                    offer_tapered(ray, block, met.open, best);
+                }
+            },
+        );
+    }
+
+    /// Whether anything is hit among the lanes `may`.
+    fn any_lane(&self, simd: S, ray: &Ray, block: &[Row; capsule::BLOCK], may: u32) -> bool {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let met = capsule::intersect8(simd, &self.closest8, block, may);
+                met.hit != 0
+                    || met.open != 0 && {
+                        let mut best = Best::new(ray.t_max);
+                        offer_tapered(ray, block, met.open, &mut best);
+                        best.0.is_some()
+                    }
+            },
+        )
+    }
+}
+
+/// Offers the hits among lanes of a block that hold no capsules. An unused lane has no number, and repeats the
+/// first.
 #[inline(never)]
-fn tapered(block: &[Row; capsule::BLOCK], open: u32, ray: &Ray, found: &mut dyn FnMut(usize, At)) {
-    for lane in lanes(open) {
-        // An unused lane repeats the first.
-        if block[capsule::BLOCK - 1].bits(lane) == u32::MAX {
+fn offer_tapered(ray: &Ray, block: &[Row; capsule::BLOCK], lanes: u32, best: &mut Best) {
+    for lane in crate::lanes(lanes) {
+        let number = block[capsule::BLOCK - 1].bits(lane);
+        if number == u32::MAX {
             break;
         }
         let numbers = std::array::from_fn(|row| block[row].0[lane]);
         if let Some(at) = Tapered::of_lane(numbers).intersect(ray) {
-            found(lane, at);
+            best.offer_cylinder(at, number);
         }
     }
 }
