@@ -242,16 +242,17 @@
       if (!this.told) this.draw();
     }
 
-    async draw() {
-      if (this.asking) return (this.again = true);
-      this.asking = true;
-      this.told = await stage.ask({ do: "facets", theta: this.theta, count: this.count });
-      this.asking = false;
-      this.show(this.told);
-      if (this.again) {
-        this.again = false;
-        this.draw();
-      }
+    // Draws as many facets as are asked for; while one answer is waited for, the newest wish is kept.
+    draw() {
+      this.drawing ??= this.drawn().finally(() => (this.drawing = null));
+      return this.drawing;
+    }
+
+    async drawn() {
+      do {
+        this.told = await stage.ask({ do: "facets", theta: this.theta, count: this.count });
+        this.show(this.told);
+      } while (this.told.count !== this.count);
     }
 
     show({ counted, lobe, count, error }) {
@@ -273,8 +274,8 @@
     }
 
     async check(_, most) {
-      this.hold();
-      return [this.told?.error <= Number(most), words.facets(this.told?.count, short(this.told?.error ?? 1))];
+      await this.draw();
+      return [this.told.error <= Number(most), words.facets(this.told.count, short(this.told.error))];
     }
   }
 

@@ -12,7 +12,7 @@ addEventListener("activate", (event) => event.waitUntil(clients.claim()));
 async function store() {
   const { files } = await (await fetch("files.json")).json();
   const cache = await caches.open(NAME);
-  await cache.addAll(["./", ...files]);
+  await cache.addAll(["./", "files.json", ...files]);
 }
 
 addEventListener("fetch", (event) => {
