@@ -228,7 +228,9 @@ impl<'a> Lines<'a> {
     /// Goes to the next line, and adds it to a section; whether there is one.
     fn read_into(&mut self, section: &mut Section) -> io::Result<bool> {
         let line = self.next()?;
-        line.into_iter().for_each(|line| section.add(line));
+        if let Some(line) = line {
+            section.add(line);
+        }
         Ok(line.is_some())
     }
 
