@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use phong::image::AnimationFormat;
 
-use crate::args::{OutputFormat, RenderArgs};
+use crate::args::{Bits, OutputFormat, RenderArgs};
 use crate::failure::Failure;
 use crate::input;
 
@@ -97,12 +97,10 @@ impl Target {
                 "--terms and --aov are layers, which a file that moves has not",
                 "write a file a picture, with %04d in its name",
             ),
-            Self::Animation { .. } if args.encoding.bits.is_some_and(|bits| bits.is_sixteen()) => {
-                refuse(
-                    "--bits 16: a file that moves has 8 bits a channel",
-                    "write a file a picture, with %04d in its name",
-                )
-            }
+            Self::Animation { .. } if args.encoding.bits.is_some_and(Bits::is_sixteen) => refuse(
+                "--bits 16: a file that moves has 8 bits a channel",
+                "write a file a picture, with %04d in its name",
+            ),
             Self::Animation { format, rate, .. } if *rate > format.most_a_second() => {
                 let most = format.most_a_second();
                 let what = format!("--fps {rate}: a GIF shows at most {most} pictures a second");

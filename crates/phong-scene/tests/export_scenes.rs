@@ -60,8 +60,8 @@ fn again(scene: Scene, format: Format, name: &str) -> (Scene, String, String) {
     }
     let reading = read(name, None, &files, &Limits::default());
     let scene = reading.scene.unwrap_or_else(|| panic!("{:?}", reading.diagnostics));
-    let dropped = export.account.dropped.iter().map(|d| format!("{d}\n")).collect();
-    (scene, dropped, export.account.mapped.join("\n"))
+    let lines: Vec<String> = export.account.dropped.iter().map(|d| format!("{d}\n")).collect();
+    (scene, lines.concat(), export.account.mapped.join("\n"))
 }
 
 #[test]

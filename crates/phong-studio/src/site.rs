@@ -69,7 +69,7 @@ pub fn files(
     let mut files: Vec<SiteFile> = page::FILES.iter().map(static_file).collect();
     let mut known = serde_json::Map::new();
     for (path, bytes) in taken {
-        let is_outside = |part| part == ".." || part == "";
+        let is_outside = |part: &str| part == ".." || part.is_empty();
         if path.split('/').any(is_outside) || path.contains(['\\', ':']) {
             return Err(SiteError::Outside(path));
         }
@@ -155,7 +155,9 @@ mod tests {
         let page = files.iter().find(|file| file.path == "index.html").unwrap();
         let page = String::from_utf8(page.bytes.clone()).unwrap();
         assert!(page.contains("data-engine=\"worker\"") && page.contains("'wasm-unsafe-eval'"));
-        for file in files.iter().filter(|file| file.path.ends_with(".js")) {
+        let is_script =
+            |path: &str| path.rsplit_once('.').is_some_and(|(_, ending)| ending == "js");
+        for file in files.iter().filter(|file| is_script(&file.path)) {
             let text = String::from_utf8(file.bytes.clone()).unwrap();
             assert!(!text.contains("https://"), "{}", file.path);
         }

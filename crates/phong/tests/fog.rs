@@ -51,7 +51,7 @@ fn each_kind_grows_with_the_distance_as_it_says() {
     near(with("start = 20\nend = 25"), 0.0, 0.8, 0.5);
     near(with("end = 3"), 1.0, 0.8, 0.5);
     near(with("end = 3\nstrength = 0.75"), 0.75, 0.8, 0.5);
-    let e = |x: f32| 1.0 - (-x).exp();
+    let e = |x: f32| 1.0 - libm::expf(-x);
     near(with("kind = \"exponential\"\ndensity = 0.07"), e(0.7), 0.8, 0.5);
     near(with("kind = \"exponential-squared\"\ndensity = 0.07"), e(0.49), 0.8, 0.5);
 }

@@ -58,7 +58,7 @@ fn what_is_behind_counts_what_of_the_surface_is_not_there() {
 fn a_ray_passes_many_surfaces_whatever_the_depth() {
     let many: String =
         (0..40).map(|i| sheet("opacity = 0", 0.1 * f64::from(i), &format!("m{i}"))).collect();
-    near(&format!("{}depth = 0\n{WALL}{many}", HEAD), 0.5);
+    near(&format!("{HEAD}depth = 0\n{WALL}{many}"), 0.5);
 }
 
 #[test]
@@ -158,7 +158,7 @@ fn ambient_light_finds_its_way_through_what_is_not_there() {
     };
     let (open, half, closed) = (roof(0.0), roof(0.5), roof(1.0));
     assert_eq!(open, 0.5);
-    assert!(closed < 0.1 && (half - (open + closed) / 2.0).abs() < 1e-5, "{half} {closed}");
+    assert!(closed < 0.1 && (half - f32::midpoint(open, closed)).abs() < 1e-5, "{half} {closed}");
 }
 
 fn parts_add_up(surface: &Surface, sum_of_rays: &mut u32) {

@@ -139,8 +139,10 @@ impl Filming<'_> {
     fn run(mut self, target: &Target, mut clock: Clock) -> Result<(), Failure> {
         clock.lap("read");
         match target {
-            Target::Files(names) => self.to_files(names)?,
-            Target::Animation { format, path, rate } => self.to_animation(*format, path, *rate)?,
+            Target::Files(names) => self.draw_files(names)?,
+            Target::Animation { format, path, rate } => {
+                self.draw_animation(*format, path, *rate)?;
+            }
         }
         self.meter.finish();
         clock.lap("draw");
@@ -238,7 +240,7 @@ impl Filming<'_> {
     }
 
     /// Draws a file a picture. With `--resume` those that are there are left as they are.
-    fn to_files(&mut self, names: &Names) -> Result<(), Failure> {
+    fn draw_files(&mut self, names: &Names) -> Result<(), Failure> {
         let kinds = self.options.layers();
         for number in 0..self.motion.pictures() {
             let settings = self.stand(number)?;
@@ -269,7 +271,7 @@ impl Filming<'_> {
     }
 
     /// Draws all pictures into one file. Each is encoded when it is drawn, and forgotten.
-    fn to_animation(
+    fn draw_animation(
         &mut self,
         format: AnimationFormat,
         path: &Path,

@@ -158,5 +158,6 @@ fn modules(folder: Option<&str>) -> Result<Vec<(String, Vec<u8>)>, Failure> {
 #[cfg(feature = "studio")]
 fn holds_something_else(folder: &Path) -> bool {
     let is_empty = folder.read_dir().map_or(true, |mut files| files.next().is_none());
-    !is_empty && !(folder.join("files.json").is_file() && folder.join("workers.js").is_file())
+    let is_page = folder.join("files.json").is_file() && folder.join("workers.js").is_file();
+    !is_empty && !is_page
 }

@@ -57,10 +57,10 @@ mod tests {
     /// How far from the middle of the picture a point is, as a share of the way to its edges.
     fn off(camera: &Camera, aspect: f64, p: DVec3) -> f64 {
         let CameraKind::Perspective { fov } = camera.kind else { panic!("{camera:?}") };
-        let forward = (camera.look_at - camera.eye).normalize();
-        let right = forward.cross(camera.up).normalize();
+        let forward = (camera.look_at - camera.eye).try_normalize().expect("it looks somewhere");
+        let right = forward.cross(camera.up).try_normalize().expect("up is aside");
         let d = p - camera.eye;
-        let half = d.dot(forward) * (0.5 * fov.to_radians()).tan();
+        let half = d.dot(forward) * libm::tan(0.5 * fov.to_radians());
         assert!(half > 0.0);
         (d.dot(right) / (half * aspect)).abs().max((d.dot(right.cross(forward)) / half).abs())
     }

@@ -177,7 +177,8 @@ impl Grab {
     pub(super) fn dragged(&self, to: [f64; 2]) -> Result<Map<String, Value>, String> {
         let unseen = || "this handle is not seen in the picture".to_owned();
         let at = self.spot.at;
-        let [up, back] = [self.camera.up(), self.camera.backward().to_vec()].map(|v| v.as_dvec3());
+        let [up, back] =
+            [self.camera.up(), self.camera.backward().to_vec()].map(phong::glam::Vec3::as_dvec3);
         let right = up.cross(back).normalize_or(DVec3::X);
         let place = |point: DVec3| self.camera.place(point, self.size).ok_or_else(unseen);
         let step = 1e-3 * (1e-6 + (at - self.camera_eye()).length());

@@ -296,7 +296,7 @@ impl Engine {
         let mut off = TermSet::NONE;
         for name in names {
             let term = Term::from_name(name).ok_or_else(|| {
-                let known = closest(name, Term::ALL.map(Term::name).into_iter());
+                let known = closest(name, Term::ALL.map(Term::name));
                 let known =
                     known.map_or_else(String::new, |name| format!(" (did you mean `{name}`?)"));
                 format!("there is no term `{name}`{known}")

@@ -186,6 +186,7 @@ pub enum FileKind {
 
 /// What the engine says.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[expect(clippy::large_enum_variant, reason = "one at a time, and written at once")]
 #[serde(tag = "is", rename_all = "kebab-case")]
 pub enum Reply {
     /// The first message.

@@ -1,5 +1,6 @@
 //! What is written into the text, dragged, left out and asked "what if".
 
+use phong::glam::DVec2;
 use phong::render::{Cancel, RenderOptions, render};
 use phong::terms::{Term, TermSet};
 use phong::view::View;
@@ -169,7 +170,7 @@ fn a_lobe_is_strongest_at_the_mirrored_direction() {
     talk.ask(&json!({ "do": "lobe", "id": 4, "pixel": [14, 9], "light": 1 }));
     let lobe = talk.page.last("lobe");
     let number = |value: &Value| value.as_f64().unwrap();
-    let length = |at: &Value| number(&at[0]).hypot(number(&at[1]));
+    let length = |at: &Value| DVec2::new(number(&at[0]), number(&at[1])).length();
     let points = lobe["points"].as_array().unwrap();
     assert_eq!(points.len(), 181);
     let best = points.iter().max_by(|a, b| length(a).total_cmp(&length(b))).unwrap();

@@ -154,7 +154,7 @@ impl Dice {
     /// The scene's text with a piece of it lost, doubled or exchanged.
     fn text(&mut self) -> String {
         let mut lines: Vec<&str> = SCENE.lines().collect();
-        for _ in 0..1 + self.below(3) {
+        for _ in 0..=self.below(3) {
             let (a, b) = (self.below(lines.len()), self.below(lines.len()));
             match self.below(4) {
                 0 => drop(lines.remove(a)),
@@ -168,7 +168,7 @@ impl Dice {
                         "center = [1e400, 0, 0]",
                         "[[include]]\nfile = \"../a.toml\"",
                         "\u{1}",
-                    ])
+                    ]);
                 }
             }
         }

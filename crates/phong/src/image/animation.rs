@@ -148,7 +148,7 @@ impl<W: Write> Animation<W> {
         let mut pixels = srgb8(picture, &self.encoding);
         match &mut self.file {
             Kind::Png(writer) if self.alpha => {
-                writer.write_image_data(&pixels).map_err(png_error)?
+                writer.write_image_data(&pixels).map_err(png_error)?;
             }
             Kind::Png(writer) => {
                 let opaque: Vec<u8> = pixels
