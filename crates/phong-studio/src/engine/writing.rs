@@ -1,9 +1,7 @@
 //! Values written into a scene's text, of which nothing else is changed: no blank, no comment, no order.
 
 use serde_json::{Map, Value as Json};
-use toml_edit::{
-    Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, TableLike, Value, value,
-};
+use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, TableLike, Value};
 
 /// Tables that are made where a text lacks them; everything else stands in the text, or is not written.
 const MADE: [&str; 4] = ["image", "camera", "ambient", "ambient_occlusion"];
@@ -37,6 +35,7 @@ fn put(document: &mut DocumentMut, path: &str, new: &Json) -> Result<(), String>
     let has_includes = document.contains_key("include");
     let mut parts = path.split('.').peekable();
     let mut table: &mut dyn TableLike = document.as_table_mut();
+    let mut in_braces = false;
     let key = loop {
         let part = parts.next().filter(|part| !part.is_empty()).ok_or_else(missing)?;
         if parts.peek().is_none() {
@@ -46,6 +45,7 @@ fn put(document: &mut DocumentMut, path: &str, new: &Json) -> Result<(), String>
             table.insert(part, Item::Table(Table::new()));
         }
         let item = table.get_mut(part).ok_or_else(missing)?;
+        in_braces |= item.is_value();
         table = match item {
             Item::ArrayOfTables(_) | Item::Value(Value::Array(_)) if has_includes => {
                 return Err(format!(
@@ -71,9 +71,9 @@ fn put(document: &mut DocumentMut, path: &str, new: &Json) -> Result<(), String>
         (Some(Item::Value(old)), new) => replace(old, new)?,
         (Some(_), new) => {
             table.remove(key);
-            insert(table, key, new)?;
+            insert(table, key, new, in_braces)?;
         }
-        (None, new) => insert(table, key, new)?,
+        (None, new) => insert(table, key, new, in_braces)?,
     }
     Ok(())
 }
@@ -127,18 +127,27 @@ fn replace(old: &mut Value, new: &Json) -> Result<(), String> {
     }
 }
 
-/// Adds a key after the others of a table, as far from the edge as they are.
-fn insert(table: &mut dyn TableLike, key: &str, new: &Json) -> Result<(), String> {
+/// Adds a key after the others of a table, as far from the edge as they are, or from the brace.
+fn insert(table: &mut dyn TableLike, key: &str, new: &Json, in_braces: bool) -> Result<(), String> {
+    let mut new = as_toml(new)?;
     let last =
         table.iter().filter(|(_, item)| item.is_value()).last().map(|(key, _)| key.to_owned());
-    let indent = last.and_then(|last| {
-        let prefix = table.key(&last)?.leaf_decor().prefix()?.as_str()?.to_owned();
-        let line = prefix.rsplit('\n').next().unwrap_or_default().to_owned();
-        line.chars().all(char::is_whitespace).then_some(line)
-    });
-    table.insert(key, value(as_toml(new)?));
-    if let (Some(indent), Some(mut key)) =
-        (indent.filter(|indent| !indent.is_empty()), table.key_mut(key))
+    let mut indent = None;
+    if let Some(last) = last {
+        let prefix = table.key(&last).and_then(|key| key.leaf_decor().prefix()?.as_str());
+        let line = prefix.and_then(|prefix| prefix.rsplit('\n').next()).unwrap_or_default();
+        indent = line.chars().all(char::is_whitespace).then(|| line.to_owned());
+        let value = table.get_mut(&last).and_then(Item::as_value_mut).filter(|_| in_braces);
+        if let Some(value) = value {
+            let blank = value.decor().suffix().and_then(|suffix| suffix.as_str()).unwrap_or("");
+            new.decor_mut().set_prefix(" ");
+            new.decor_mut().set_suffix(blank.to_owned());
+            value.decor_mut().set_suffix("");
+        }
+    }
+    table.insert(key, Item::Value(new));
+    if let Some(indent) = indent.filter(|indent| !indent.is_empty() && !in_braces)
+        && let Some(mut key) = table.key_mut(key)
     {
         key.leaf_decor_mut().set_prefix(indent);
     }
@@ -240,8 +249,9 @@ name = \"ball\"
         changed("materials.red.k_s", json!(0.5), "10 }", "10, k_s = 0.5 }");
         changed("light.1.color", json!([1, 0.5, 0]), "[1,2,3]\n", "[1,2,3]\ncolor = [1, 0.5, 0]\n");
         let made = put_into(TEXT, "image.size", json!([320, 180])).unwrap();
-        assert!(made.contains("[image]\nsize = [320, 180]\n"), "{made}");
-        assert!(made.replace("[image]\nsize = [320, 180]\n", "").trim() == TEXT.trim(), "{made}");
+        let new = "\n[image]\nsize = [320, 180]\n";
+        assert!(made.contains(new), "{made}");
+        assert_eq!(made.replace(new, ""), TEXT);
     }
 
     #[test]

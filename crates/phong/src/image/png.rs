@@ -105,11 +105,12 @@ pub(super) fn write(
 /// from top to bottom, by the sRGB curve unless `encoding` is linear. Its `bits` are not looked at.
 pub fn srgb8(picture: &Finished<'_>, encoding: &Encoding) -> Vec<u8> {
     let film = picture.film();
-    let values = |kind| picture.values(kind).unwrap_or_default();
-    let (values, alpha) = (values(LayerKind::Picture), values(LayerKind::Alpha));
+    let values = picture.values(LayerKind::Picture).unwrap_or_default();
+    let opaque = || vec![1.0; values.len() / 3].into();
+    let alpha: Cow<'_, [f32]> = picture.values(LayerKind::Alpha).map_or_else(opaque, Cow::Borrowed);
     let curve = (!encoding.linear).then(Curve::eight);
     let gain = libm::exp2(encoding.exposure) as f32;
-    let tone = Tone { gain, bits: Bits::Eight, curve, alpha: Some(alpha) };
+    let tone = Tone { gain, bits: Bits::Eight, curve, alpha: Some(&alpha) };
     levels(values, 3, film.width() as usize, &tone)
 }
 
