@@ -5,8 +5,8 @@ use glam::{DVec3, Vec3};
 use crate::camera::{Camera, CameraKind};
 use crate::format::text::{Parsed, Words};
 
-/// The radius of the lens as a share of aperture, distance and height, as the blur of Tachyon 0.99's own
-/// pictures shows it, within some ten percent.
+/// The radius of the lens as a share of aperture, distance and height. It fits the blur of Tachyon 0.99's
+/// own pictures in two of three trials, so it is a rough one.
 pub(super) const LENS: f64 = 0.58;
 
 /// How directions become pixels.
