@@ -15,10 +15,12 @@ use thiserror::Error;
 use crate::engine::{EXAMPLE, EXAMPLE_NAME};
 use crate::page;
 
-/// What has to be there beside the page's own files: the module, with vector instructions and without,
-/// each with the script that loads it. `.ci/wasm` makes them.
-pub const MODULES: [&str; 4] =
-    ["phong-simd.js", "phong-simd_bg.wasm", "phong-plain.js", "phong-plain_bg.wasm"];
+/// What has to be there beside the page's own files: the module, and the script that loads it. `.ci/wasm`
+/// makes them.
+pub const MODULES: [&str; 2] = ["phong-simd.js", "phong-simd_bg.wasm"];
+
+/// The same without vector instructions, for browsers that have none. May be left out.
+pub const PLAIN_MODULES: [&str; 2] = ["phong-plain.js", "phong-plain_bg.wasm"];
 
 /// What the page may do, as a header of the studio's server says it too.
 const POLICY: &str = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; \
@@ -44,8 +46,8 @@ pub enum SiteError {
     Outside(String),
 }
 
-/// Everything in the folder but [`MODULES`]: the page, these scenes and models, and what they read. The
-/// first scene is opened first; where there is none, a scene of the studio's own is.
+/// Everything in the folder but the `modules`, of which the names are given: the page, these scenes and
+/// models, and what they read. The first scene is opened first; where there is none, one of the studio's.
 ///
 /// # Errors
 /// [`SiteError`].
@@ -53,6 +55,7 @@ pub fn files(
     scenes: &[String],
     source: &dyn Source,
     limits: &Limits,
+    modules: &[&str],
 ) -> Result<Vec<SiteFile>, SiteError> {
     let own = Memory::new().with(EXAMPLE_NAME, EXAMPLE.as_bytes());
     let example = [EXAMPLE_NAME.to_owned()];
@@ -78,7 +81,8 @@ pub fn files(
         files.push(SiteFile { path: format!("scenes/{path}"), bytes });
     }
     let all = files.iter().map(|file| file.path.clone());
-    let all: Vec<Value> = all.chain(MODULES.map(str::to_owned)).map(Value::from).collect();
+    let all = all.chain(modules.iter().map(|&name| name.to_owned()));
+    let all: Vec<Value> = all.map(Value::from).collect();
     let list = json!({ "open": scenes[0], "scenes": known, "files": all });
     files.push(SiteFile { path: "files.json".to_owned(), bytes: list.to_string().into_bytes() });
     Ok(files)
@@ -138,7 +142,7 @@ mod tests {
 
     #[test]
     fn a_scene_comes_with_the_files_that_it_reads_and_no_others() {
-        let files = files(&["a.toml".to_owned()], &shelf(), &Limits::default()).unwrap();
+        let files = files(&["a.toml".to_owned()], &shelf(), &Limits::default(), &MODULES).unwrap();
         let paths: Vec<&str> = files.iter().map(|file| file.path.as_str()).collect();
         assert!(paths.contains(&"scenes/a.toml") && paths.contains(&"scenes/parts/one.off"));
         assert!(!paths.iter().any(|path| path.contains("secret")), "{paths:?}");
@@ -150,7 +154,7 @@ mod tests {
 
     #[test]
     fn the_page_is_told_of_its_worker_and_may_load_nothing_from_elsewhere() {
-        let files = files(&[], &Memory::new(), &Limits::default()).unwrap();
+        let files = files(&[], &Memory::new(), &Limits::default(), &MODULES).unwrap();
         assert_eq!(list(&files)["open"], EXAMPLE_NAME);
         let page = files.iter().find(|file| file.path == "index.html").unwrap();
         let page = String::from_utf8(page.bytes.clone()).unwrap();
@@ -166,11 +170,12 @@ mod tests {
     #[test]
     fn a_scene_that_cannot_be_drawn_or_leaves_its_folder_is_refused() {
         let broken = Memory::new().with("a.toml", "version = 1\n[[sphere]]\n");
-        let said = files(&["a.toml".to_owned()], &broken, &Limits::default()).unwrap_err();
+        let said =
+            files(&["a.toml".to_owned()], &broken, &Limits::default(), &MODULES).unwrap_err();
         assert!(matches!(said, SiteError::Scene(diagnostics) if !diagnostics.is_empty()));
         let scene = SCENE.replace("parts/one.off", "../one.off");
         let above = Memory::new().with("a.toml", scene).with("../one.off", MODEL);
-        let said = files(&["a.toml".to_owned()], &above, &Limits::default()).unwrap_err();
+        let said = files(&["a.toml".to_owned()], &above, &Limits::default(), &MODULES).unwrap_err();
         assert!(matches!(said, SiteError::Outside(path) if path == "../one.off"));
     }
 }

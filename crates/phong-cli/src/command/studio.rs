@@ -109,7 +109,8 @@ fn write_site(input: Option<&str>, site: &Path, wasm: Option<&str>) -> Result<()
         (Some(_), None) => shelf.names(),
         (None, None) => Vec::new(),
     };
-    let files = site::files(&scenes, &shelf, &Bounds::default().limits);
+    let names: Vec<&str> = modules.iter().map(|(name, _)| *name).collect();
+    let files = site::files(&scenes, &shelf, &Bounds::default().limits, &names);
     let files = files.map_err(|error| match error {
         SiteError::Scene(diagnostics) => Failure::Input(diagnostics),
         SiteError::Outside(_) => Failure::usage(error.to_string()),
@@ -117,6 +118,7 @@ fn write_site(input: Option<&str>, site: &Path, wasm: Option<&str>) -> Result<()
     let mut outputs = Vec::new();
     let mut bytes = 0;
     let files = files.into_iter().map(|file| (file.path, file.bytes));
+    let modules = modules.into_iter().map(|(name, bytes)| (name.to_owned(), bytes));
     for (path, content) in files.chain(modules) {
         let path = site.join(path);
         if let Some(folder) = path.parent() {
@@ -134,24 +136,27 @@ fn write_site(input: Option<&str>, site: &Path, wasm: Option<&str>) -> Result<()
     Ok(())
 }
 
-/// The modules of WebAssembly, by name.
+/// The modules of WebAssembly, by name; the one without vector instructions where it is.
 #[cfg(feature = "studio")]
-fn modules(folder: Option<&str>) -> Result<Vec<(String, Vec<u8>)>, Failure> {
+fn modules(folder: Option<&str>) -> Result<Vec<(&'static str, Vec<u8>)>, Failure> {
+    use phong_studio::site::{MODULES, PLAIN_MODULES};
+
     let beside = || {
         let program = std::env::current_exe().unwrap_or_default();
         program.parent().unwrap_or(Path::new(".")).join("wasm")
     };
     let folder = folder.map_or_else(beside, PathBuf::from);
-    let module = |name: &str| {
+    let module = |name: &'static str| {
         let path = folder.join(name);
         let bytes = std::fs::read(&path).map_err(|error| {
             let trouble = phong_scene::trouble(&error);
             Failure::usage(format!("the renderer as WebAssembly: {}: {trouble}", path.display()))
                 .with_help("`bash .ci/wasm` builds it; `--wasm DIR` says where it is")
         })?;
-        Ok((name.to_owned(), bytes))
+        Ok((name, bytes))
     };
-    phong_studio::site::MODULES.iter().map(|name| module(name)).collect()
+    let plain = PLAIN_MODULES.into_iter().filter(|name| folder.join(name).is_file());
+    MODULES.into_iter().chain(plain).map(module).collect()
 }
 
 /// Whether a folder holds anything but a page that was written before.

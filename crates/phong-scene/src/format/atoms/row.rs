@@ -76,18 +76,10 @@ impl Table<'_> {
     pub(crate) fn read(&self, findings: &mut Findings) -> io::Result<(Molecule, bool)> {
         let mut all = Molecule::default();
         let least = 2 * self.layout.slots.len().max(1) as u64;
-        // A last line may lack its end.
+        // As many as the file has room for; a last line may lack its end.
         let room = (self.blob.len().saturating_sub(self.start) + 1) / least;
-        if let Some(count) = self.count {
-            if count > room {
-                tell_truncated(room, count, self.limits, self.file, findings);
-                if !self.limits.lenient {
-                    return Ok((all, false));
-                }
-            }
-            if count <= self.limits.vertices {
-                all.spheres.reserve_exact(count.min(room) as usize);
-            }
+        if let Some(count) = self.count.filter(|count| *count <= self.limits.vertices) {
+            all.spheres.reserve_exact(count.min(room) as usize);
         }
         let origin = if self.shares { DVec3::ZERO } else { origin_of(self.sample()?) };
         let lines = Lines {
@@ -110,7 +102,6 @@ impl Table<'_> {
         )?;
         if let Some(count) = self.count.filter(|count| rows < *count)
             && !findings.any_error()
-            && count <= room
         {
             tell_truncated(rows, count, self.limits, self.file, findings);
         }
