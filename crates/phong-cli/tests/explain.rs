@@ -37,7 +37,7 @@ fn the_json_is_what_is_promised_and_its_terms_are_the_pixel() {
         let drawn: Vec<f32> = picture.planes.iter().map(|p| p.values[y * 40 + x]).collect();
         assert_eq!(linear, drawn, "{x}, {y}");
         assert_eq!(told["srgb8"].as_array().unwrap().len(), 3);
-        assert_eq!(told["terms"].as_object().unwrap().len(), 7);
+        assert_eq!(told["terms"].as_object().unwrap().len(), 8);
     }
     let told = folder.done("explain a.toml 20 15 --samples 1 --json").json();
     let sample = &told["samples"][0];
