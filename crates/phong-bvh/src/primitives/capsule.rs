@@ -18,7 +18,7 @@
 //! cylinder are far beyond the ends, and the sphere decides. Where the segment has no length, h = 0,
 //! the side is the sphere.
 //!
-//! **Most lines miss widely**, which [`segment`](super::segment) knows sooner than this does. So a ray asks that
+//! **Most lines miss widely**, which [`super::segment`] knows sooner than this does. So a ray asks that
 //! of eight cylinders first. What is left takes the same steps in one lane and in eight, in f32, so they agree bit
 //! for bit. Errors are as if the ray had been moved by a few roundings of the middle's distance and of the
 //! segment's length.
