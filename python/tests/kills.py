@@ -20,8 +20,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import dask
 import numpy as np
+from dask import config
 from distributed import Client, LocalCluster
 from distributed.diagnostics.plugin import WorkerPlugin
 
@@ -117,7 +117,7 @@ def run(count: int, seed: int = 1, samples: int = 100, tell: bool = False) -> Ta
         tempfile.TemporaryDirectory() as folder,
         # A cluster asks this long after each death whether the worker is there, and gives it up for
         # ever if it happens to be dead again.
-        dask.config.set({"distributed.deploy.lost-worker-timeout": "1 day"}),
+        config.set({"distributed.deploy.lost-worker-timeout": "1 day"}),
         LocalCluster(
             n_workers=2, threads_per_worker=1, dashboard_address=":0", silence_logs=logging.ERROR
         ) as cluster,

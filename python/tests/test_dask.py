@@ -302,8 +302,8 @@ def test_workers_of_different_vector_instructions_give_the_same_bits(
     diary.touch()
     with Client(processes.address, timeout=120) as client:
         client.wait_for_workers(2, timeout=300)
-        levels = client.run(os.getenv, "PHONG_SIMD").values()
-        assert sorted(map(str, levels)) == ["None", "scalar"]
+        levels: Any = client.run(os.getenv, "PHONG_SIMD")
+        assert sorted(map(str, levels.values())) == ["None", "scalar"]
         client.register_plugin(kills.Diary(str(diary)))
         for name in THREE:
             image = phong.dask.render(SCENES / name, client, shares=8, **SMALL)

@@ -105,7 +105,7 @@ def test_formulas_are_evaluated_at_a_million_places_at_once() -> None:
     n /= np.linalg.norm(n, axis=-1, keepdims=True)
     l = rng.normal(size=(1, 1000, 3))  # noqa: E741
     l /= np.linalg.norm(l, axis=-1, keepdims=True)  # noqa: E741
-    values = phong.evaluate("lambert", n, l)
+    values = np.asarray(phong.evaluate("lambert", n, l))
     assert values.shape == (1000, 1000)
     assert np.allclose(values, np.maximum(0, (n * l).sum(-1)), atol=1e-6)
     few = phong.evaluate("lambert", n[:3], l[:, :4])
