@@ -104,8 +104,11 @@ def handles(walk):
     page.click('details[data-path="camera"] summary')
     walk.newer(lambda: page.locator('input[type="number"][aria-label^="camera.fov"]').fill("130") or page.keyboard.press("Enter"))
     before = walk.written()
+    # Typing has scrolled down to the text.
+    page.locator("#canvas").scroll_into_view_if_needed()
     walk.shot("7-handles")
     for path in ["light.1.position", "sphere.1.center"]:
+        page.locator(f'.handle[data-path="{path}"]').scroll_into_view_if_needed()
         box = page.locator(f'.handle[data-path="{path}"]').bounding_box()
         x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
@@ -226,7 +229,7 @@ def manners(walk):
     """Everything has a name, keys alone reach everything, and text is readable in light and dark."""
     page = walk.page
     nameless = page.evaluate(
-        """[...document.querySelectorAll("button, input, select, textarea, [role]")].filter((one) => {
+        """[...document.querySelectorAll("button, input, select, textarea, [role]:not([role='status'])")].filter((one) => {
             const label = one.labels?.[0]?.textContent ?? one.closest("label")?.textContent ?? "";
             return !(one.getAttribute("aria-label") || label.trim() || one.textContent.trim() || one.title);
         }).map((one) => one.outerHTML.slice(0, 120))"""

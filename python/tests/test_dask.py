@@ -220,9 +220,12 @@ class Processes:
 
     def start(self, *command: str) -> subprocess.Popen[bytes]:
         log = (self.folder / f"{len(self.running)}.log").open("wb")
+        # What is sent to workers may be of a module of these tests.
+        environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parent)}
         process = subprocess.Popen(
-            command, stdout=log, stderr=subprocess.STDOUT, cwd=self.folder, start_new_session=True
-        )
+            command, stdout=log, stderr=subprocess.STDOUT, cwd=self.folder, env=environment,
+            start_new_session=True,
+        )  # fmt: skip
         self.running.append(process)
         return process
 
