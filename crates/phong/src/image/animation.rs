@@ -58,6 +58,8 @@ pub struct Animation<W: Write> {
     encoding: Encoding,
     /// Whether pixels may lack something, so that alpha is kept.
     alpha: bool,
+    /// How many there are to be.
+    pictures: u32,
 }
 
 enum Kind<W: Write> {
@@ -129,7 +131,7 @@ impl<W: Write> Animation<W> {
                 Kind::Gif(encoder)
             }
         };
-        Ok(Self { file, size, rate, written: 0, encoding, alpha })
+        Ok(Self { file, size, rate, written: 0, encoding, alpha, pictures })
     }
 
     /// Writes the next picture.
@@ -182,6 +184,14 @@ impl<W: Write> Animation<W> {
     /// # Errors
     /// [`WriteError::Io`]; [`WriteError::Unsuitable`] if there were to be more pictures.
     pub fn finish(self) -> Result<(), WriteError> {
+        if self.written < self.pictures {
+            let message = format!(
+                "{} pictures of {} are missing",
+                self.pictures - self.written,
+                self.pictures
+            );
+            return Err(WriteError::Unsuitable(message));
+        }
         match self.file {
             Kind::Png(writer) => writer.finish().map_err(png_error),
             Kind::Gif(encoder) => encoder.into_inner().map(drop).map_err(gif_error),
