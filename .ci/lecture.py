@@ -114,6 +114,10 @@ def read(browser, root, name, tasks, **more):
             else faults.append(f"asks for {request.url}"))
     page.goto(f"{root}/{name}.html")
     assert page.locator("div.live").count() == len(TASKS[name]), name
+    # All are drawn first, so that none takes the engine while a task of another is done.
+    for index in range(len(tasks)):
+        page.locator("div.live").nth(index).scroll_into_view_if_needed()
+        wait(page, f"document.querySelectorAll('div.live')[{index}].dataset.done")
     for index, sets in enumerate(tasks):
         print(f"{name}, task {index + 1}: {task(page, index, sets)}")
     wide = page.evaluate("document.documentElement.scrollWidth")

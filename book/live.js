@@ -40,6 +40,7 @@
   const stage = {
     engine: null,
     holder: null,
+    checking: false,
     asked: 0,
     waiting: new Map(),
     async start() {
@@ -61,6 +62,10 @@
         this.waiting.clear();
       }
       this.holder?.hear(reply);
+    },
+    // Whether nobody needs the engine: the picture of who has it is done, and no task is looked at.
+    rests() {
+      return !this.checking && (!this.holder || this.holder.root.dataset.done === String(this.holder.look?.picture));
     },
     // Asks a question, and waits for its answer.
     ask(request) {
@@ -298,9 +303,11 @@
     const says = make("output", { class: "live-verdict", role: "status" });
     button.onclick = async () => {
       button.disabled = true;
+      stage.checking = true;
       const [good, said] = await live.check(...check.split(" ")).catch((error) => [false, error.message]);
       says.textContent = good ? words.yes(said) : words.no(said);
       says.dataset.good = good;
+      stage.checking = false;
       button.disabled = false;
     };
     live.root.append(make("p", { class: "live-check" }, button, " ", says));
@@ -319,12 +326,15 @@
       begin(live);
     }
   });
-  // One after another: the engine draws for one at a time.
+  // One after another: the engine draws for one at a time. A figure from which another takes the engine
+  // before it is done, as its reader has it, draws when that one rests.
   let turn = Promise.resolve();
   function begin(live) {
     turn = turn.then(async () => {
-      live.hold();
-      for (let i = 0; i < 200 && !live.root.dataset.done; i += 1) await new Promise((resolve) => setTimeout(resolve, 50));
+      for (let i = 0; i < 600 && !live.root.dataset.done; i += 1) {
+        if (stage.rests()) live.hold();
+        await new Promise((resolve) => setTimeout(resolve, 50));
+      }
       keep();
     });
   }
