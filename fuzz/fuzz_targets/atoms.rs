@@ -2,8 +2,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use phong_fuzz::{check, spell};
-use phong_scene::{Limits, Memory, read};
+use phong_fuzz::{check_file, spell};
 
 const ENDINGS: [&str; 6] = ["xyz", "pdb", "cif", "gro", "lammpstrj", "data"];
 
@@ -67,9 +66,5 @@ const WORDS: &[&str] = &[
 fuzz_target!(|data: &[u8]| {
     let Some((kind, rest)) = data.split_first() else { return };
     let name = format!("a.{}", ENDINGS[usize::from(*kind) % ENDINGS.len()]);
-    let source = Memory::new().with(name.as_str(), spell(rest, WORDS));
-    for lenient in [false, true] {
-        let limits = Limits { bytes: 64 << 20, lenient, ..Limits::default() };
-        check(&read(&name, None, &source, &limits));
-    }
+    check_file(&name, spell(rest, WORDS));
 });

@@ -2,8 +2,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use phong_fuzz::{check, spell};
-use phong_scene::{Limits, Memory, read};
+use phong_fuzz::{check_file, spell};
 
 const WORDS: &[&str] = &[
     "\n",
@@ -36,9 +35,5 @@ const WORDS: &[&str] = &[
 ];
 
 fuzz_target!(|data: &[u8]| {
-    let source = Memory::new().with("a.nff", spell(data, WORDS));
-    for lenient in [false, true] {
-        let limits = Limits { bytes: 64 << 20, lenient, ..Limits::default() };
-        check(&read("a.nff", None, &source, &limits));
-    }
+    check_file("a.nff", spell(data, WORDS));
 });

@@ -2,8 +2,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use phong_fuzz::{check, spell};
-use phong_scene::{Limits, Memory, read};
+use phong_fuzz::{check_file, spell};
 
 const WORDS: &[&str] = &[
     "\n",
@@ -78,7 +77,5 @@ fuzz_target!(|data: &[u8]| {
     if let Some(name) = named.get(usize::from(format % 4)) {
         file.splice(0..0, format!("ply\nformat {name} 1.0\n").into_bytes());
     }
-    let source = Memory::new().with("a.ply", file);
-    let limits = Limits { bytes: 64 << 20, ..Limits::default() };
-    check(&read("a.ply", None, &source, &limits));
+    check_file("a.ply", file);
 });

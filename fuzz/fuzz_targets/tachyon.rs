@@ -2,8 +2,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use phong_fuzz::{check, spell};
-use phong_scene::{Limits, Memory, read};
+use phong_fuzz::{check_file, spell};
 
 const WORDS: &[&str] = &[
     "\n",
@@ -62,9 +61,5 @@ fuzz_target!(|data: &[u8]| {
     if first % 4 > 0 {
         file.splice(0..0, *b"BEGIN_SCENE RESOLUTION 8 6\n");
     }
-    let source = Memory::new().with("a.dat", file);
-    for lenient in [false, true] {
-        let limits = Limits { bytes: 64 << 20, lenient, ..Limits::default() };
-        check(&read("a.dat", None, &source, &limits));
-    }
+    check_file("a.dat", file);
 });

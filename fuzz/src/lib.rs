@@ -1,6 +1,6 @@
 //! What the fuzz targets share: a way to spell files, and what every reading must hold.
 
-use phong_scene::{Mesh, NO_INDEX, Reading, Shape};
+use phong_scene::{Limits, Memory, Mesh, NO_INDEX, Reading, Shape, read};
 
 /// A file that random bytes spell. Those that begin with an odd byte are words of a format, one a
 /// byte, so that the fuzzer finds its way into the format without examples; 255 takes the next
@@ -18,6 +18,15 @@ pub fn spell(data: &[u8], words: &[&str]) -> Vec<u8> {
         }
     }
     file
+}
+
+/// What is read of a file, strictly and leniently, holds what every reading must.
+pub fn check_file(name: &str, file: Vec<u8>) {
+    let source = Memory::new().with(name, file);
+    for lenient in [false, true] {
+        let limits = Limits { bytes: 64 << 20, lenient, ..Limits::default() };
+        check(&read(name, None, &source, &limits));
+    }
 }
 
 /// A scene exactly if there is no error, and what the types promise about its geometry.
