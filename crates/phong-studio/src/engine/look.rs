@@ -74,30 +74,7 @@ pub(super) fn allowed(path: &str) -> Result<(), String> {
 
 /// All of a scene but its objects, as text.
 pub(super) fn text(scene: &Scene) -> Result<String, String> {
-    let Scene {
-        image,
-        camera,
-        ambient,
-        ambient_occlusion,
-        fog,
-        lights,
-        materials,
-        textures,
-        objects: _,
-        groups: _,
-    } = scene.clone();
-    let bare = Scene {
-        image,
-        camera,
-        ambient,
-        ambient_occlusion,
-        fog,
-        lights,
-        materials,
-        textures,
-        objects: Vec::new(),
-        groups: Vec::new(),
-    };
+    let bare = Scene { objects: Vec::new(), groups: Vec::new(), ..scene.clone() };
     let export = bare.export(&ExportOptions::default(), NAME);
     let export = export.map_err(|diagnostic| diagnostic.message.clone())?;
     let mut text = Vec::new();
