@@ -1,7 +1,8 @@
 //! Scenes as glTF and as Tachyon files: what comes back, and what is told to be missing.
 
 use phong_scene::{
-    CameraKind, ExportOptions, Fog, FogKind, Format, Limits, Memory, Rgb, Scene, Shape, read,
+    CameraKind, Cylinders, ExportOptions, Fog, FogKind, Format, Limits, Memory, Object, Rgb, Scene,
+    Shape, read,
 };
 
 const SCENE: &str = r#"version = 1
@@ -68,7 +69,11 @@ fn again(scene: Scene, format: Format, name: &str) -> (Scene, String, String) {
 fn a_scene_comes_back_from_gltf_with_its_instances_camera_and_lights() {
     for name in ["b.glb", "b.gltf"] {
         let (back, dropped, mapped) = again(scene(""), Format::Gltf, name);
-        assert_eq!(dropped, "warning: glTF holds no settings of a picture (`[image]`)\n");
+        assert_eq!(
+            dropped,
+            "warning: glTF holds no settings of a picture (`[image]`)\n\
+             warning: glTF's lights fade with the square of the distance, other than 2 of the scene's\n"
+        );
         assert!(mapped.contains("GGX with α² = 2/(n + 2)"), "{mapped}");
         assert!(
             matches!(back.camera.kind, CameraKind::Perspective { fov } if (fov - 50.0).abs() < 1e-6)
@@ -90,6 +95,16 @@ fn what_gltf_cannot_hold_is_told() {
     let ball = "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n";
     let (_, dropped, _) = again(scene(ball), Format::Gltf, "b.glb");
     assert!(dropped.contains("so 1 sphere is left out"), "{dropped}");
+}
+
+#[test]
+fn cylinders_of_two_radii_are_told_of_in_tachyon() {
+    let mut scene = scene("");
+    let segments = [[[0.0, 0.0, 0.0, 0.1], [1.0, 0.0, 0.0, 0.2]]].into();
+    let cylinders = Cylinders { segments, ..Cylinders::default() };
+    scene.objects.push(Object::from(Shape::Cylinders(cylinders.into())));
+    let (_, dropped, _) = again(scene, Format::Tachyon, "b.dat");
+    assert!(dropped.contains("1 of two are written with their mean"), "{dropped}");
 }
 
 #[test]

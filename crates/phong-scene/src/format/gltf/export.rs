@@ -46,8 +46,20 @@ pub(crate) fn write_gltf(
         if scene.fog.is_some() {
             lost.push("fog");
         }
+        if scene.lights.iter().any(|light| light.kind.extent() > 0.0) {
+            lost.push("size of lights, and so no soft shadows");
+        }
         for what in lost {
             account.drop(Diagnostic::warning(format!("glTF holds no {what}"), None));
+        }
+        let by_square = [0.0, 0.0, 1.0];
+        let fades = scene.lights.iter().filter_map(|light| light.kind.attenuation());
+        let count = fades.filter(|fade| *fade != by_square).count();
+        if count > 0 {
+            let message = format!(
+                "glTF's lights fade with the square of the distance, other than {count} of the scene's"
+            );
+            account.drop(Diagnostic::warning(message, None));
         }
     }
     let mut writer =

@@ -11,7 +11,7 @@ use crate::camera::CameraKind;
 use crate::color::Rgb;
 use crate::diagnostic::Diagnostic;
 use crate::fog::{FogDistance, FogKind};
-use crate::format::export::flat::{listed, say_unfolded, warning};
+use crate::format::export::flat::{each_object, listed, say_unfolded, warning};
 use crate::format::export::merge::{Size, each_placed};
 use crate::format::export::{Account, File, Writing};
 use crate::light::LightKind;
@@ -165,14 +165,15 @@ fn lights(scene: &Scene, text: &mut String, account: &mut Account) {
                 )
             }
         };
-        let lost = match () {
-            () if light.kind.extent() > 0.0 => "a soft light's extent",
-            () if !light.shadows => "a light without shadows",
-            () if light.specular_color != light.color => "another colour for highlights",
-            () => continue,
-        };
-        account
-            .drop(warning(format!("{}: Tachyon does not hold {lost}", light.name), &light.place));
+        let lost = [
+            (light.kind.extent() > 0.0, "a soft light's extent"),
+            (!light.shadows, "a light without shadows"),
+            (light.specular_color != light.color, "another colour for highlights"),
+        ];
+        for (_, lost) in lost.into_iter().filter(|(is_lost, _)| *is_lost) {
+            let message = format!("{}: Tachyon does not hold {lost}", light.name);
+            account.drop(warning(message, &light.place));
+        }
     }
     account.carry("light", scene.lights.len());
 }
@@ -282,6 +283,17 @@ fn leave_out(scene: &Scene, account: &mut Account) {
     for (what, names) in lost {
         let names = listed(names.iter().map(String::as_str), names.len());
         let message = format!("Tachyon holds no {what}: {names}");
+        account.drop(Diagnostic::warning(message, None));
+    }
+    let uneven = each_object(scene).map(|object| match &object.shape {
+        Shape::Cylinders(all) => all.segments.iter().filter(|[a, b]| a[3] != b[3]).count(),
+        _ => 0,
+    });
+    let uneven: usize = uneven.sum();
+    if uneven > 0 {
+        let message = format!(
+            "Tachyon's cylinders have one radius: {uneven} of two are written with their mean"
+        );
         account.drop(Diagnostic::warning(message, None));
     }
 }
