@@ -42,7 +42,7 @@
 //! | `sky` | not built yet | none | A sky that lights the scene. |
 //! | `fog` | a table | none | What is far away fades into a colour. |
 //! | `outline` | not built yet | none | Lines around things. |
-//! | `clip` | not built yet | none | What is cut away. |
+//! | `clip` | a list of tables | none | What is cut away. |
 //! | `light` | a list of tables | none | The lights. |
 //! | `materials` | tables by name | none | The materials, by name. |
 //! | `textures` | tables by name | none | The textures, by name. |
@@ -98,6 +98,7 @@ use glam::DAffine3;
 
 use crate::ambient_occlusion::AmbientOcclusion;
 use crate::camera::Camera;
+use crate::clip::Clip;
 use crate::color::Rgb;
 use crate::diagnostic::{Diagnostic, Place, SceneError};
 use crate::fog::Fog;
@@ -135,6 +136,8 @@ pub struct Scene {
     pub ambient_occlusion: Option<AmbientOcclusion>,
     /// What is far away fades into a colour; `None`: it does not.
     pub fog: Option<Fog>,
+    /// What is cut away of the objects, at most [`Clip::MOST`]; empty: nothing.
+    pub clips: Vec<Clip>,
     /// The lights, in the order of the text.
     pub lights: Vec<Light>,
     /// The materials; [`MaterialId`] indexes them.
@@ -157,6 +160,7 @@ impl Default for Scene {
             ambient: Rgb::WHITE,
             ambient_occlusion: None,
             fog: None,
+            clips: Vec::new(),
             lights: Vec::new(),
             materials: vec![Material::default()],
             textures: Vec::new(),

@@ -223,7 +223,7 @@ use std::array::from_fn;
 
 use glam::{BVec3, DVec2, DVec3};
 
-use crate::mesh::{Cylinders, Mesh, Points};
+use crate::mesh::{Caps, Cylinders, Mesh, Points};
 use crate::wording::{Word, words};
 
 /// Index into [`Scene::groups`](crate::Scene::groups).
@@ -358,6 +358,20 @@ words!(Shape {
 });
 
 impl Shape {
+    /// Whether it encloses what is inside: not a plane, a disc, a triangle, an open tube, or a mesh with
+    /// a hole. An instance is not asked: its objects are.
+    pub fn is_closed(&self) -> bool {
+        match self {
+            Self::Sphere { .. } | Self::Box { .. } | Self::Torus { .. } | Self::Points(_) => true,
+            Self::Cylinder { capped, .. } | Self::Cone { capped, .. } => *capped,
+            Self::Cylinders(cylinders) => cylinders.caps != Caps::Open,
+            Self::Mesh(mesh) => mesh.is_closed(),
+            Self::Plane { .. } | Self::Triangle { .. } | Self::Disc { .. } | Self::Instance(_) => {
+                false
+            }
+        }
+    }
+
     /// The name of its table in the scene text: `sphere`, `mesh`, ….
     #[must_use]
     pub fn kind(&self) -> &'static str {

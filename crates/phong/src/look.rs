@@ -3,8 +3,8 @@
 //! All of it is cheap to make and to change, and nothing of it is needed to build trees.
 
 use phong_scene::{
-    AmbientOcclusion, Background, Camera, Diagnostic, Fog, Image, Light, Material, Rgb, Scene,
-    Texture,
+    AmbientOcclusion, Background, Camera, Clip, Diagnostic, Fog, Image, Light, Material, Rgb,
+    Scene, Texture,
 };
 
 /// What a geometry looks like, as it was written. Each part can be replaced.
@@ -26,6 +26,8 @@ pub struct Look {
     pub ambient_occlusion: Option<AmbientOcclusion>,
     /// What is far away fades into a colour; `None`: it does not.
     pub fog: Option<Fog>,
+    /// What is cut away of the objects.
+    pub clips: Vec<Clip>,
     /// What rays see that hit nothing.
     pub background: Background,
 }
@@ -41,6 +43,7 @@ impl Look {
             ambient: scene.ambient,
             ambient_occlusion: scene.ambient_occlusion,
             fog: scene.fog,
+            clips: scene.clips.clone(),
             background: scene.image.background,
         }
     }
@@ -55,15 +58,19 @@ impl Look {
             ambient,
             ambient_occlusion,
             fog,
+            clips,
             background,
         } = self.clone();
         let image = Image { background, ..Image::default() };
+        // What they cut is looked up where there are objects.
+        let clips = clips.into_iter().map(|clip| Clip { objects: Vec::new(), ..clip }).collect();
         let scene = Scene {
             image,
             camera,
             ambient,
             ambient_occlusion,
             fog,
+            clips,
             lights,
             materials,
             textures,

@@ -1,5 +1,6 @@
 //! A geometry and its look together: all that a picture needs.
 
+mod clip;
 mod coincident;
 mod far;
 mod fixture;
@@ -11,7 +12,7 @@ mod varied;
 use std::sync::Arc;
 
 use phong_bvh::{Coordinates, Hit, Ray, Surface, World};
-use phong_scene::{Background, Diagnostic, Rgb, Scene, ShadowRule};
+use phong_scene::{Background, Cap, Diagnostic, Rgb, Scene, ShadowRule};
 use thiserror::Error;
 
 use crate::camera::Camera;
@@ -22,6 +23,7 @@ use crate::look::Look;
 use crate::material::Material;
 use crate::math::Dir3;
 use crate::texture::Texture;
+use clip::Clipping;
 pub(crate) use coincident::Coincidences;
 pub use far::StartedRay;
 pub(crate) use fixture::Fixture;
@@ -53,6 +55,8 @@ pub struct View {
     occlusion: Option<Occlusion>,
     /// What is far away fades; `None`: it does not.
     fog: Option<Fog>,
+    /// What is cut away; `None`: nothing.
+    clipping: Option<Arc<Clipping>>,
     /// Whether rays go on from any material.
     has_bounces: bool,
     /// Whether any material is seen through in a straight line.
@@ -130,7 +134,15 @@ impl View {
             Some(ShadowRule::Full) => false,
             Some(ShadowRule::Filtered) => m.is_see_through() || !m.transmission.is_black(),
         };
+        let capped = look.clips.iter().filter_map(|clip| match clip.cap {
+            Cap::Of(material) => Some(material.0),
+            _ => None,
+        });
+        if let Some(number) = capped.max().filter(|number| *number as usize >= count) {
+            return Err(ViewError::NoMaterial { number, count });
+        }
         Ok(Self {
+            clipping: Clipping::of(&look.clips, &geometry).map(Arc::new),
             coincidences: Coincidences::of(&geometry, &materials),
             occlusion: look.ambient_occlusion.map(|o| Occlusion::new(&o, geometry.world())),
             has_bounces: look.materials.iter().any(bounces),
@@ -230,6 +242,12 @@ impl View {
         self.occlusion
     }
 
+    /// Whether anything is cut away.
+    #[inline]
+    pub(crate) fn is_clipped(&self) -> bool {
+        self.clipping.is_some()
+    }
+
     /// What is far away fades; `None`: it does not.
     #[inline]
     pub(crate) fn fog(&self) -> Option<&Fog> {
@@ -282,7 +300,8 @@ impl View {
     /// # Panics
     /// If `hit` is none.
     pub fn coordinates(&self, ray: &Ray, hit: &Hit) -> Coordinates {
-        self.geometry.coordinates(ray, hit)
+        let on_cap = self.cap_coordinates(ray, hit);
+        on_cap.unwrap_or_else(|| self.geometry.coordinates(ray, hit))
     }
 
     /// Where `ray` met a surface.
@@ -290,7 +309,7 @@ impl View {
     /// # Panics
     /// If `hit` is none.
     pub fn interaction(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
-        let Surface { p, p_error, ng } = self.world().surface(ray, hit);
+        let Surface { p, p_error, ng } = self.surface(ray, hit);
         let (ng, e) = (Dir3::from_unit(ng), -Dir3::from_unit(ray.dir));
         let Shading { n, material, color } = self.shading(hit, ng, e);
         let color = color.unwrap_or_else(|| self.color_at(material, ray, hit, p));

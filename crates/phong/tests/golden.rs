@@ -35,7 +35,7 @@ golden! {
         shadow_touching specular_color spot spot_hard;
     materials: blinn_phong cook_torrance default ggx lambert normalize opacity oren_nayar per_light phong
         times_cosine tint ward;
-    shapes: box_corner coincident cone cone_frustum cylinder cylinder_open cylinders cylinders_flat
+    shapes: box_corner clip_box clip_plane coincident cone cone_frustum cylinder cylinder_open cylinders cylinders_flat
         cylinders_open disc ellipsoid mesh_crease mesh_flat
         mesh_smooth plane plane_below points sphere sphere_displaced sphere_far sphere_inside torus
         torus_far triangle triangle_back triangle_normals;

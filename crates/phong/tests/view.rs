@@ -1,5 +1,7 @@
 //! One geometry with several looks.
 
+mod clip;
+
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec3, Vec3};

@@ -126,6 +126,9 @@ impl Grader {
         if scene.fog.is_some() {
             return Err(GradeError::NotYet("fog"));
         }
+        if !scene.clips.is_empty() {
+            return Err(GradeError::NotYet("what is cut away"));
+        }
         if scene.materials.iter().any(lets_light_through) {
             return Err(GradeError::NotYet("materials that let light through in a straight line"));
         }

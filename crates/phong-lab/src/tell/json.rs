@@ -99,7 +99,7 @@ fn ray_into(out: &mut Map<String, Value>, told: &RayTold) {
 }
 
 fn hit(s: &Surface) -> Value {
-    json!({
+    let mut told = json!({
         "object": s.object,
         "at": at(&s.at),
         "element": s.element,
@@ -112,7 +112,11 @@ fn hit(s: &Surface) -> Value {
         "from_outside": s.from_outside,
         "eta": s.eta.map(number),
         "color": rgb(s.color),
-    })
+    });
+    if let Some(clip) = s.cap {
+        told["cap"] = json!(format!("clip {}", clip + 1));
+    }
+    told
 }
 
 fn material(m: &ConstantMaterial) -> Value {

@@ -152,6 +152,9 @@ impl Page {
             s.at,
             self.numbers.one(s.t)
         ));
+        if let Some(clip) = s.cap {
+            self.line(format_args!("cap      it is cut there by clip {}", clip + 1));
+        }
         let m = &s.material;
         let place = if m.place.file.is_empty() {
             " (the default material)".to_owned()

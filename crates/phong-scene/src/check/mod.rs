@@ -4,6 +4,7 @@
 //! Readers ask the same judges of single things while they know the place of each key.
 
 mod bulk;
+mod clip;
 mod coplanar;
 mod detail;
 pub(crate) mod fault;
@@ -56,10 +57,12 @@ impl Scene {
         let earlier = SoundArrays::default();
         let mut judge = Judge::new(self, &earlier);
         judge.look();
+        clip::names(self, &mut |error| judge.say(error));
         judge.geometry();
         judge.exact_extents();
         if !judge.has_errors() {
             let bounds = std::mem::take(&mut judge.bounds);
+            clip::open(self, &bounds, &mut |warning| judge.say(warning));
             suspicion::check(self, &bounds, &mut |warning| judge.say(warning));
             coplanar::check(self, &mut |warning| judge.say(warning));
             detail::check(self, &mut |warning| judge.say(warning));
@@ -159,6 +162,10 @@ impl<'s> Judge<'s> {
         }
         if let Some(fog) = &scene.fog {
             self.judge(&nowhere, || "fog".into(), |f| settings::fog(fog, f));
+        }
+        for (i, clip) in scene.clips.iter().enumerate() {
+            let name = || named("clips", i, "clip", &clip.place);
+            self.judge(&clip.place, name, |f| settings::clip(clip, f));
         }
         for (i, light) in scene.lights.iter().enumerate() {
             let name = || named("lights", i, &light.name, &light.place);

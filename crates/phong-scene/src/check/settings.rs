@@ -6,6 +6,7 @@ use super::fault::Faults;
 use super::value::values;
 use crate::ambient_occlusion::AmbientOcclusion;
 use crate::camera::Camera;
+use crate::clip::{Clip, ClipKind};
 use crate::color::Rgb;
 use crate::fog::{Fog, FogKind};
 use crate::light::{Light, LightKind};
@@ -36,6 +37,22 @@ pub(crate) fn fog(fog: &Fog, faults: &mut Faults) {
     {
         let message = format!("`end` must be above `start`, which is {start}; this is {end}");
         faults.say("end", message);
+    }
+}
+
+/// Judges a clip by itself.
+pub(crate) fn clip(clip: &Clip, faults: &mut Faults) {
+    values(clip, None, faults);
+    let ClipKind::Box { min, max, .. } = clip.kind else { return };
+    if faults.spare(&["min", "max"])
+        && let Some(axis) = (0..3).find(|&axis| max[axis] <= min[axis])
+    {
+        let name = ["x", "y", "z"][axis];
+        let message = format!(
+            "`max` must be above `min` along each axis; along {name} it is {}, and `min` is {}",
+            max[axis], min[axis]
+        );
+        faults.say("max", message);
     }
 }
 

@@ -7,6 +7,7 @@ use super::value::Value;
 use super::{Key, Table};
 use crate::ambient_occlusion::AmbientOcclusion;
 use crate::camera::Camera;
+use crate::clip::Clip;
 use crate::fog::Fog;
 use crate::light::Light;
 use crate::material::Material;
@@ -22,6 +23,7 @@ pub(crate) enum Field {
     Image(Access<Image>),
     AmbientOcclusion(Access<AmbientOcclusion>),
     Fog(Access<Fog>),
+    Clip(Access<Clip>),
     Camera(Access<Camera>),
     Light(Access<Light>),
     Texture(Access<Texture>),

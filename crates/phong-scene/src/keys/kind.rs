@@ -71,6 +71,10 @@ pub(crate) enum Kind {
     Tables(&'static Table),
     /// Tables by names of the user's choosing: `[name.NAME]`.
     Named(&'static Table),
+    /// `true`, `false`, or the name of a material.
+    Cap,
+    /// A list of names, at least one.
+    Names,
     /// A path, or a list of paths; parts of names may be left open.
     Files,
     /// A number, or a list of numbers.
@@ -132,6 +136,8 @@ impl Kind {
             Self::Table(_) => "a table".to_owned(),
             Self::Tables(_) => "a list of tables".to_owned(),
             Self::Named(_) => "tables by name".to_owned(),
+            Self::Cap => "`true`, `false` or the name of a material, in quotes".to_owned(),
+            Self::Names => "a list of names, in quotes".to_owned(),
             Self::Files => "the path of a file or a list of paths, in quotes".to_owned(),
             Self::Numbers => "a number or a list of numbers".to_owned(),
             Self::Values => "lists of values by the path of a key".to_owned(),

@@ -27,7 +27,7 @@ pub(crate) use kind::{Default, Kind};
 pub(crate) use light::LIGHT;
 pub(crate) use material::MATERIAL;
 pub use reference::{batch_reference_markdown, reference_markdown};
-pub(crate) use scene::{BACKGROUND, INCLUDE, SCENE};
+pub(crate) use scene::{BACKGROUND, CLIP, INCLUDE, SCENE};
 pub use schema::{batch_schema_json, schema_json};
 pub(crate) use shape::GROUP;
 pub(crate) use texture::{TEXTURE, TEXTURED};

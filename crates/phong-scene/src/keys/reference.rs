@@ -147,11 +147,12 @@ mod tests {
     use crate::keys::camera::CAMERA;
     use crate::keys::scene::{AMBIENT, IMAGE};
     use crate::keys::shape::SHAPES;
-    use crate::keys::{INCLUDE, LIGHT, MATERIAL, TEXTURE};
+    use crate::keys::{CLIP, INCLUDE, LIGHT, MATERIAL, TEXTURE};
 
-    const CONCEPTS: [(&str, &str); 8] = [
+    const CONCEPTS: [(&str, &str); 9] = [
         ("ambient_occlusion.rs", include_str!("../ambient_occlusion.rs")),
         ("camera.rs", include_str!("../camera.rs")),
+        ("clip.rs", include_str!("../clip.rs")),
         ("fog.rs", include_str!("../fog.rs")),
         ("light.rs", include_str!("../light.rs")),
         ("material.rs", include_str!("../material.rs")),
@@ -181,6 +182,7 @@ mod tests {
         assert_doc_holds("material.rs", &own_keys(&MATERIAL));
         assert_doc_holds("texture.rs", &own_keys(&TEXTURE));
         assert_doc_holds("texture.rs", &own_keys(&TEXTURED));
+        assert_doc_holds("clip.rs", &own_keys(&CLIP));
         for table in [&SCENE, &IMAGE, &BACKGROUND, &AMBIENT, &INCLUDE] {
             assert_doc_holds("scene.rs", &own_keys(table));
         }

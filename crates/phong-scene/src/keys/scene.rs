@@ -8,6 +8,7 @@ use super::shape::{GROUP, SHAPES};
 use super::texture::TEXTURE;
 use super::{Default, Key, Kind, Table};
 use crate::ambient_occlusion::AmbientOcclusion;
+use crate::clip::{Clip, ClipKind, Keep};
 use crate::fog::{Fog, FogDistance, FogKind};
 use crate::limits::Range;
 use crate::scene::{FilterKind, Image};
@@ -58,7 +59,7 @@ pub(crate) static SCENE: Table = Table {
                 "What is far away fades into a colour.",
             ),
             Key::new("outline", Kind::NotYet, Default::Said("none"), "Lines around things."),
-            Key::new("clip", Kind::NotYet, Default::Said("none"), "What is cut away."),
+            Key::new("clip", Kind::Tables(&CLIP), Default::Said("none"), "What is cut away."),
             Key::new("light", Kind::Tables(&LIGHT), Default::Said("none"), "The lights."),
             Key::new(
                 "materials",
@@ -271,6 +272,60 @@ pub(crate) static FOG: Table = Table {
             "The largest share; below 1 what is far away stays visible.",
         )
         .of(field!(Fog.strength)),
+    ]],
+};
+
+keyed!(Clip, |_| &CLIP);
+
+const PLANE: &[&str] = &["plane"];
+const BOX: &[&str] = &["box"];
+
+/// `[[clip]]`.
+pub(crate) static CLIP: Table = Table {
+    name: "clip",
+    doc: "What is cut away of objects: it is neither seen nor does it cast a shadow.",
+    select: Some("kind"),
+    keys: &[&[
+        Key::new(
+            "kind",
+            Kind::Word(ClipKind::WORDS),
+            Default::Word("plane"),
+            "What it cuts along.",
+        )
+        .of(field!(Clip.kind)),
+        Key::new("point", Kind::Point, Default::Required, "Any point of the plane.")
+            .of(field!(Clip.kind = ClipKind::{Plane}.point))
+            .only(PLANE),
+        Key::new(
+            "normal",
+            Kind::Direction,
+            Default::Required,
+            "What lies on the side that it points to is cut away; any length.",
+        )
+        .of(field!(Clip.kind = ClipKind::{Plane}.normal))
+        .only(PLANE),
+        Key::new("min", Kind::Point, Default::Required, "The corner with the lowest coordinates.")
+            .of(field!(Clip.kind = ClipKind::{Box}.min))
+            .only(BOX),
+        Key::new("max", Kind::Point, Default::Required, "The corner with the highest coordinates.")
+            .of(field!(Clip.kind = ClipKind::{Box}.max))
+            .only(BOX),
+        Key::new("keep", Kind::Word(Keep::WORDS), Default::Word("outside"), "Which part stays.")
+            .of(field!(Clip.kind = ClipKind::{Box}.keep))
+            .only(BOX),
+        Key::new(
+            "cap",
+            Kind::Cap,
+            Default::Flag(true),
+            "Whether closed objects look solid where they are cut, in their own material or \
+             another; false: one looks into them.",
+        ),
+        Key::new(
+            "objects",
+            Kind::Names,
+            Default::Said("all objects"),
+            "The names of the objects that it cuts, or of the instances they are in.",
+        ),
     ]],
 };
 

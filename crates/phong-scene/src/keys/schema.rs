@@ -158,6 +158,8 @@ fn kind(kind: Kind) -> Value {
         Kind::Table(table) => Value::Object(object(table)),
         Kind::Tables(table) => json!({ "type": "array", "items": object(table) }),
         Kind::Named(table) => json!({ "type": "object", "additionalProperties": object(table) }),
+        Kind::Cap => json!({ "anyOf": [{ "type": "boolean" }, text()] }),
+        Kind::Names => json!({ "type": "array", "items": text(), "minItems": 1 }),
         Kind::Files => json!({ "anyOf": [text(), { "type": "array", "items": text() }] }),
         Kind::Numbers => json!({ "anyOf": [any_number(), {
             "type": "array", "items": any_number(), "minItems": 1,

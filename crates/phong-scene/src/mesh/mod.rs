@@ -4,6 +4,7 @@
 //! the renderer builds. Nothing copies them.
 
 mod blocks;
+mod closed;
 mod cylinders;
 mod groups;
 mod part;

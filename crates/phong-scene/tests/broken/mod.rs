@@ -2,10 +2,10 @@
 
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 use phong_scene::{
-    AmbientOcclusion, Background, Camera, CameraKind, ConstantMaterial, Fog, FogKind, Fresnel,
-    GradientBy, Group, GroupId, Image, Light, LightKind, Material, MaterialId, Mesh, Model,
-    NO_INDEX, Object, OcclusionDistance, Points, Rgb, Scene, Shape, Texture, TextureId,
-    TextureKind, TextureRef,
+    AmbientOcclusion, Background, Camera, CameraKind, Cap, Clip, ClipKind, ConstantMaterial, Fog,
+    FogKind, Fresnel, GradientBy, Group, GroupId, Image, Light, LightKind, Material, MaterialId,
+    Mesh, Model, NO_INDEX, Object, OcclusionDistance, Points, Rgb, Scene, Shape, Texture,
+    TextureId, TextureKind, TextureRef,
 };
 use proptest::prelude::*;
 
@@ -254,6 +254,11 @@ prop_compose! {
                 color: Some(top),
                 ..Fog::default()
             }),
+            clips: vec![Clip {
+                kind: ClipKind::Plane { point: eye, normal: up },
+                cap: Cap::Of(MaterialId(depth)),
+                ..Clip::default()
+            }],
             ambient, lights, materials, textures, objects, groups,
         }
     }

@@ -36,6 +36,7 @@ cases! {
     any_direction_may_be_up
     colours_are_grey_linear_hexadecimal_or_names
     cylinders_follow_the_edges_of_a_file
+    clips_cut_objects_and_cap_them
     every_dialect
     every_light
     every_model
@@ -60,6 +61,8 @@ cases! {
     a_broken_model_is_told_with_the_place_that_names_it
     a_camera_must_look_somewhere
     a_camera_within_a_ball_is_a_warning
+    a_clip_must_cut_along_something
+    a_clip_that_leaves_a_mesh_open_is_a_warning
     a_colour_is_never_negative
     a_colour_map_that_misleads_is_a_warning
     a_colour_map_that_there_is_not_is_told

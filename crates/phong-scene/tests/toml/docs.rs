@@ -2,9 +2,10 @@
 
 use phong_scene::{Limits, Memory, read};
 
-const CONCEPTS: [(&str, &str); 7] = [
+const CONCEPTS: [(&str, &str); 8] = [
     ("ambient_occlusion.rs", include_str!("../../src/ambient_occlusion.rs")),
     ("camera.rs", include_str!("../../src/camera.rs")),
+    ("clip.rs", include_str!("../../src/clip.rs")),
     ("fog.rs", include_str!("../../src/fog.rs")),
     ("light.rs", include_str!("../../src/light.rs")),
     ("material.rs", include_str!("../../src/material.rs")),

@@ -2,12 +2,12 @@
 
 use glam::{DAffine3, DMat3, DVec2, DVec3, Vec2, Vec3};
 use phong_scene::{
-    AmbientOcclusion, AmbientRule, Background, Camera, CameraKind, Caps, Channel,
-    ConstantMaterial as Material, Cylinders, Dialect, Distribution, FilterKind, Fog, FogDistance,
-    FogKind, Fresnel, GradientBy, Group, GroupId, Image, Light, LightKind, MaterialId, Mesh, Model,
-    NO_INDEX, Object, OcclusionDistance, OpacityMode, Place, Points, Rgb, Scene, ShadowRule,
-    Shadowing, Shape, Texture, TextureId, TextureKind, TextureRef, TextureSpace, Tint, Viewer,
-    WardForm,
+    AmbientOcclusion, AmbientRule, Background, Camera, CameraKind, Cap, Caps, Channel, Clip,
+    ClipKind, ConstantMaterial as Material, Cylinders, Dialect, Distribution, FilterKind, Fog,
+    FogDistance, FogKind, Fresnel, GradientBy, Group, GroupId, Image, Keep, Light, LightKind,
+    MaterialId, Mesh, Model, NO_INDEX, Object, OcclusionDistance, OpacityMode, Place, Points, Rgb,
+    Scene, ShadowRule, Shadowing, Shape, Texture, TextureId, TextureKind, TextureRef, TextureSpace,
+    Tint, Viewer, WardForm,
 };
 use proptest::prelude::*;
 
@@ -94,6 +94,18 @@ impl Make {
         }
         let objects = self.objects(materials.len(), groups.len());
         let lights = (0..self.below(4)).map(|i| self.light(i + 1)).collect();
+        let clips = (0..self.below(3))
+            .map(|_| {
+                let (point, normal, size) = (self.point(), DVec3::X, DVec3::splat(self.number()));
+                let keep = self.one(&[Keep::Outside, Keep::Inside]);
+                let kinds = [
+                    ClipKind::Plane { point, normal },
+                    ClipKind::Box { min: point, max: point + size, keep },
+                ];
+                let caps = [Cap::Own, Cap::Open, Cap::Of(MaterialId(0))];
+                Clip { kind: self.one(&kinds), cap: self.one(&caps), ..Clip::default() }
+            })
+            .collect();
         let (image, camera, ambient) = (self.image(), self.camera(), self.color());
         let distance = self.one(&[OcclusionDistance::Auto, OcclusionDistance::Units(2.5)]);
         let ambient_occlusion = self.flag().then_some(AmbientOcclusion { samples: 9, distance });
@@ -112,6 +124,7 @@ impl Make {
             ambient,
             ambient_occlusion,
             fog,
+            clips,
             lights,
             materials,
             textures,

@@ -69,6 +69,7 @@ fn summary(scene: &Scene) -> String {
         ambient,
         ambient_occlusion,
         fog,
+        clips,
         lights,
         materials,
         textures,
@@ -81,6 +82,7 @@ fn summary(scene: &Scene) -> String {
         format!("ambient {ambient:?}"),
     ];
     lines.extend(fog.map(|fog| format!("{fog:?}")));
+    lines.extend(clips.iter().map(|clip| format!("{clip:?}")));
     lines.extend(ambient_occlusion.map(|occlusion| format!("{occlusion:?}")));
     lines.extend(lights.iter().map(|light| differing(light, &Light::default())));
     lines.extend(materials.iter().map(|material| differing(material, &Material::default())));

@@ -34,6 +34,7 @@ pub(crate) fn written_and_read(scene: Scene) -> (String, Scene) {
 /// triangles instead of the numbers that stand for them.
 pub(crate) fn seen(mut scene: Scene) -> String {
     scene.lights.iter_mut().for_each(|light| light.place = Place::default());
+    scene.clips.iter_mut().for_each(|clip| clip.place = Place::default());
     scene.materials.iter_mut().for_each(|material| material.place = Place::default());
     scene.textures.iter_mut().for_each(|texture| texture.place = Place::default());
     let in_groups = scene.groups.iter_mut().flat_map(|group| &mut group.objects);

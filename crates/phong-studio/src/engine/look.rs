@@ -34,8 +34,17 @@ pub(super) struct Base {
 const NAME: &str = "scene.toml";
 
 /// What can be laid over a scene, by the first word of its keys.
-const PARTS: [&str; 8] =
-    ["image", "camera", "ambient", "ambient_occlusion", "fog", "light", "materials", "textures"];
+const PARTS: [&str; 9] = [
+    "image",
+    "camera",
+    "ambient",
+    "ambient_occlusion",
+    "fog",
+    "clip",
+    "light",
+    "materials",
+    "textures",
+];
 
 /// Objects, by the first word of their keys. What is laid over them is more work: the text is read
 /// with it.
@@ -74,7 +83,9 @@ pub(super) fn allowed(path: &str) -> Result<(), String> {
 
 /// All of a scene but its objects, as text.
 pub(super) fn text(scene: &Scene) -> Result<String, String> {
-    let bare = Scene { objects: Vec::new(), groups: Vec::new(), ..scene.clone() };
+    let mut bare = Scene { objects: Vec::new(), groups: Vec::new(), ..scene.clone() };
+    // The objects that they name are not there.
+    bare.clips.iter_mut().for_each(|clip| clip.objects.clear());
     let export = bare.export(&ExportOptions::default(), NAME);
     let export = export.map_err(|diagnostic| diagnostic.message.clone())?;
     let mut text = Vec::new();
@@ -99,6 +110,10 @@ pub(super) fn laid_over(base: &Base, set: &Map<String, Value>) -> Result<(Scene,
     // Places and names are those of the scene's own text.
     for (light, written) in scene.lights.iter_mut().zip(lights) {
         light.place.clone_from(&written.place);
+    }
+    for (clip, written) in scene.clips.iter_mut().zip(&base.scene.clips) {
+        clip.place.clone_from(&written.place);
+        clip.objects.clone_from(&written.objects);
     }
     for (material, written) in scene.materials.iter_mut().zip(materials) {
         material.place.clone_from(&written.place);

@@ -86,6 +86,8 @@ pub struct Surface {
     pub at: Place,
     /// The face of a mesh, or the point of a cloud, from 0; `None` where the object is one thing.
     pub element: Option<u32>,
+    /// The number of the clip, from 0, whose cut through the object this is; `None`: it is its surface.
+    pub cap: Option<usize>,
     /// The material as it was written, with the values here of what textures vary.
     pub material: ConstantMaterial,
     /// What takes its value from a texture.

@@ -69,7 +69,7 @@ impl<'a> Recorder<'a> {
     }
 
     fn blocker(&self, shadow: &Ray) -> Option<Blocker> {
-        let hit = self.scene.world().intersect(shadow);
+        let hit = self.scene.intersect(shadow);
         hit.is_some().then(|| {
             let object = self.scene.object(&hit);
             let record = &self.scene.objects()[object as usize];
@@ -101,6 +101,7 @@ impl Witness for Recorder<'_> {
             object_number: object,
             at: record.place.clone(),
             element: scene.element(&at.hit),
+            cap: scene.cap(&at.hit),
             material,
             textures: textures(scene, at.material, &point),
             material_number: at.material,

@@ -16,7 +16,7 @@ mod trees;
 
 use glam::{DAffine3, DVec3};
 use phong_bvh::{BuildError, BuildOptions, Coordinates, Hit, Preset, Primitives, Ray, World};
-use phong_scene::{Diagnostic, Place, Scene, Shape, SoundArrays};
+use phong_scene::{Cap, Diagnostic, Place, Scene, Shape, Shared, SoundArrays};
 use thiserror::Error;
 
 pub(crate) use batch::Batch;
@@ -54,6 +54,8 @@ pub struct Geometry {
     own_spaces: Vec<(u32, DAffine3)>,
     /// One more than the highest number of a material; 0: nothing has a material.
     materials: u32,
+    /// Which objects enclose what is inside, where a clip of the scene asks for it; else empty.
+    closed: Vec<bool>,
     /// The trees of meshes and clouds.
     trees: Trees,
     /// The arrays of meshes and clouds, which are sound.
@@ -142,6 +144,19 @@ fn soonest(scene: &Scene, rays: u64) -> BuildOptions {
     BuildOptions { preset: Preset::for_rays(primitives, rays), ..BuildOptions::default() }
 }
 
+/// Which objects enclose what is inside. Meshes that share their arrays are looked at once.
+fn closed(placed: &[flatten::Placed<'_>]) -> Vec<bool> {
+    let mut known = std::collections::BTreeMap::new();
+    let of_one = |placed: &flatten::Placed<'_>| match &placed.object.shape {
+        Shape::Mesh(mesh) => {
+            let arrays = (Shared::address(&mesh.positions), Shared::address(&mesh.indices));
+            *known.entry(arrays).or_insert_with(|| mesh.is_closed())
+        }
+        shape => shape.is_closed(),
+    };
+    placed.iter().map(of_one).collect()
+}
+
 impl Geometry {
     /// Builds the trees of a scene's objects, in the current rayon pool. The scene's arrays are
     /// shared, not copied.
@@ -184,6 +199,8 @@ impl Geometry {
         }
         let build = options.build.unwrap_or_default();
         let placed = flatten::flatten(scene);
+        let asks = scene.clips.iter().any(|clip| clip.cap != Cap::Open);
+        let closed = if asks { closed(&placed) } else { Vec::new() };
         let scale = Scale::of(&placed);
         let center = scale.center;
         let built = build::build(placed, scale, earlier, build)?;
@@ -191,7 +208,18 @@ impl Geometry {
         let materials = batches.iter().filter_map(Batch::highest_material).max();
         let materials = materials.map_or(0, |highest| highest.saturating_add(1));
         let world = World::build(parts, center, build)?;
-        Ok(Self { center, world, batches, objects, own_spaces, materials, trees, sound, options })
+        Ok(Self {
+            center,
+            world,
+            batches,
+            objects,
+            own_spaces,
+            materials,
+            closed,
+            trees,
+            sound,
+            options,
+        })
     }
 
     /// The middle of all, about which things that are written one by one keep their detail in f32.
@@ -234,6 +262,11 @@ impl Geometry {
     /// If `hit` is none.
     pub fn object(&self, hit: &Hit) -> u32 {
         self.batch(hit.part).object(hit.prim)
+    }
+
+    /// Whether an object encloses what is inside; false for all where no clip of the scene asked for it.
+    pub(crate) fn is_closed(&self, object: u32) -> bool {
+        self.closed.get(object as usize).copied().unwrap_or(false)
     }
 
     /// A point of the world in the own space of the object hit: before its transform, and that of

@@ -196,11 +196,11 @@ fn first(
 ) -> (Hit, Option<Crossing>) {
     let mut hit = closest;
     if let Some(next) = next {
-        view.world().every(&Ray { t_max: next.within, ..*ray }, found);
+        view.every(&Ray { t_max: next.within, ..*ray }, found);
         let next = found.iter().find(|hit| (hit.part, hit.prim) == (next.part, next.prim));
         hit = next.copied().unwrap_or(hit);
         if next.is_some() {
-            let error = view.world().surface(ray, &hit).p_error;
+            let error = view.surface(ray, &hit).p_error;
             return (hit, Some(Crossing::within(media, error)));
         }
     }
@@ -261,8 +261,8 @@ struct Member {
 impl Member {
     fn new(view: &View, ray: &Ray, hit: Hit) -> Self {
         let batch = view.geometry().batch(hit.part);
-        let material = &view.materials()[batch.material(hit.prim) as usize];
-        let surface = view.world().surface(ray, &hit);
+        let material = &view.materials()[view.material_of(&hit) as usize];
+        let surface = view.surface(ray, &hit);
         Self {
             hit,
             surface,
@@ -306,7 +306,7 @@ impl Group {
         }
         let t_min = (hit.t - window).max(ray.t_min);
         let near = Ray { t_min, t_max: group.end.min(ray.t_max), ..*ray };
-        view.world().every(&near, found);
+        view.every(&near, found);
         for other in found.iter().filter(|other| (other.part, other.prim) != (hit.part, hit.prim)) {
             let other = Member::new(view, &near, *other);
             // A ray through the edge between two faces of one object meets both.
@@ -381,7 +381,7 @@ impl Group {
     fn pass(&self, view: &View, ray: &mut Ray) -> Hit {
         let farthest = self.members.iter().map(|member| member.hit.t).fold(self.end, f32::max);
         ray.t_min = farthest.next_up();
-        view.world().intersect(ray)
+        view.intersect(ray)
     }
 
     /// The bound on the error of `of`'s point that all members are within.

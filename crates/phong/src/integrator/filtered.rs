@@ -15,7 +15,7 @@ impl Integrator<'_> {
     pub(super) fn left_of_light(&self, ray: &Ray, counts: impl Fn(&Hit) -> bool) -> Rgb {
         let (view, mut ray, mut left) = (self.scene, *ray, Rgb::WHITE);
         for _ in 0..MOST_SURFACES {
-            let hit = view.world().intersect(&ray);
+            let hit = view.intersect(&ray);
             if !hit.is_some() {
                 return left;
             }

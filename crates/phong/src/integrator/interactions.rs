@@ -58,10 +58,10 @@ impl Interactions {
             self.covers.resize(rays.len(), [1.0; 8]);
         }
         out.resize(rays.len(), Radiance8::NONE);
-        scene.world().intersect_eights(rays, &mut self.hits);
+        scene.intersect_eights(rays, &mut self.hits);
         self.etas.clear();
         match scene.coincidences() {
-            None => scene.world().surface_eights(rays, &self.hits, &mut self.surfaces),
+            None => scene.surface_eights(rays, &self.hits, &mut self.surfaces),
             Some(coincidences) => self.settle(scene, coincidences, rays, &paths.departures),
         }
         scene.world().run(BeginRadiance {
@@ -85,7 +85,7 @@ impl Interactions {
     ) {
         let Self { hits, surfaces, crossings, etas, .. } = self;
         let rays = crossings.settle(scene, coincidences, rays, departures, hits);
-        scene.world().surface_eights(rays, hits, surfaces);
+        scene.surface_eights(rays, hits, surfaces);
         etas.resize(rays.len(), [f32::NAN; 8]);
         for (ray, eta, error) in crossings.each() {
             let (i, lane) = (ray / 8, ray % 8);
@@ -218,6 +218,9 @@ impl Kernel for BeginRadiance<'_> {
             }
             let (ng, e) = (load3(simd, &surface.ng), to_eye(simd, rays));
             scene.shading8(simd, hits, ng, e, lift, shading);
+            if scene.is_clipped() {
+                scene.shade_caps8(hits, &store3(e), shading);
+            }
             if scene.has_textures() {
                 scene.vary(rays, hits, surface, shading, made);
             }

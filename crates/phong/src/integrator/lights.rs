@@ -112,7 +112,7 @@ impl Integrator<'_> {
         }
         if casts && fixture.has_bodies() {
             hits.resize(rays.len(), Hits8::NONE);
-            bvh.intersect_eights(shadow_rays, hits);
+            self.scene.intersect_eights(shadow_rays, hits);
             blocked.resize(rays.len(), 0);
             for ((samples, hits), blocked) in samples.iter_mut().zip(hits).zip(&mut *blocked) {
                 // What is seen first may be the luminous body that the light is in.
@@ -122,7 +122,7 @@ impl Integrator<'_> {
             }
         } else if casts {
             blocked.resize(rays.len(), 0);
-            bvh.occluded_eights(shadow_rays, blocked);
+            self.scene.occluded_eights(shadow_rays, blocked);
             for (samples, blocked) in samples.iter_mut().zip(&*blocked) {
                 samples.visible &= !*blocked;
             }

@@ -78,7 +78,7 @@ impl Integrator<'_> {
                 return count;
             }
             count += world.run(Spread { occlusion, number, interactions, samplers, to: rays });
-            world.occluded_eights(rays, blocked);
+            self.scene.occluded_eights(rays, blocked);
             for ((shares, rays), blocked) in shares.iter_mut().zip(&*rays).zip(&*blocked) {
                 for lane in lanes(rays.there & !blocked) {
                     shares[lane] += 1.0;

@@ -3,7 +3,9 @@
 use std::fmt::{self, Write as _};
 
 use crc32fast::Hasher;
-use phong_scene::{Cylinders, Group, Material, Mesh, Object, Place, Points, Scene, Shape, Texture};
+use phong_scene::{
+    Clip, Cylinders, Group, Material, Mesh, Object, Place, Points, Scene, Shape, Texture,
+};
 
 /// A checksum of everything in a scene but its picture settings and the places it was written at:
 /// the same scene has the same one on every machine, whatever its files are called.
@@ -15,6 +17,7 @@ pub fn fingerprint(scene: &Scene) -> u32 {
         ambient,
         ambient_occlusion,
         fog,
+        clips,
         lights,
         materials,
         textures,
@@ -28,6 +31,13 @@ pub fn fingerprint(scene: &Scene) -> u32 {
     }
     if let Some(occlusion) = ambient_occlusion {
         sum.debug(occlusion);
+    }
+    for clip in clips {
+        sum.debug(&Clip { place: Place::default(), ..clip.clone() });
+        if !clip.objects.is_empty() {
+            let names = objects.iter().map(|object| &object.name);
+            sum.debug(&names.collect::<Vec<_>>());
+        }
     }
     for light in lights {
         let mut light = light.clone();

@@ -243,7 +243,7 @@ impl<'a> TileRenderer<'a> {
         let ray = started.map(|started| started.ray);
         let (hit, cost) = ray.map_or((Hit::NONE, 0), |ray| {
             let (hit, cost) = scene.world().intersect_counted(&ray);
-            (hit, cost.nodes)
+            (scene.first_kept(&ray, hit, &mut Vec::new()), cost.nodes)
         });
         let (ray, hit) = match ray {
             Some(ray) if hit.is_some() => {

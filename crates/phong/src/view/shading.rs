@@ -5,9 +5,10 @@ use phong_bvh::{Hit, Hits8, Primitives, lanes};
 use phong_scene::Rgb;
 
 use super::View;
+use super::clip::cap_of;
 use crate::geometry::Batch;
 use crate::math::Dir3;
-use crate::math::lanes::{Lanes3, dot, load3, put3, select3, set, splat3, store3};
+use crate::math::lanes::{Lanes3, direction, dot, load3, put3, select3, set, splat3, store3};
 
 /// What shading needs of a surface besides its geometry.
 pub(super) struct Shading {
@@ -53,8 +54,13 @@ impl View {
     /// What shading needs of the surface at a hit whose geometric normal is `ng`; `e` leads to the
     /// eye.
     pub(super) fn shading(&self, hit: &Hit, ng: Dir3, e: Dir3) -> Shading {
-        let n = self.own_normal(hit).unwrap_or(ng);
         let batch = self.geometry.batch(hit.part);
+        if self.cap_normal(hit, e).is_some() {
+            let own = self.cap_material(hit).is_none();
+            let color = self.own_color(batch, hit).filter(|_| own);
+            return Shading { n: ng.facing(e), material: self.material_of(hit), color };
+        }
+        let n = self.own_normal(hit).unwrap_or(ng);
         let (material, color) = (batch.material(hit.prim), self.own_color(batch, hit));
         Shading { n: n.facing(ng.facing(e)), material, color }
     }
@@ -69,6 +75,11 @@ impl View {
     /// The colour, where the geometry brings one.
     #[inline]
     fn own_color(&self, batch: &Batch, hit: &Hit) -> Option<Rgb> {
+        if self.clipping.is_some() && cap_of(hit).is_some() {
+            // On the way through a mesh its colours are not known.
+            let beyond = Hit { u: hit.v, ..*hit };
+            return if batch.is_mesh() { None } else { batch.color(hit.prim, None, &beyond) };
+        }
         let corners = batch.is_mesh().then(|| self.geometry.corners(hit.part, hit.prim)).flatten();
         batch.color(hit.prim, corners, hit)
     }
@@ -149,6 +160,26 @@ impl View {
         let up = load3(simd, &shading.n);
         let away = dot(up, front).simd_lt(zero);
         shading.n = store3(select3(away, [-up[0], -up[1], -up[2]], up));
+    }
+
+    /// Makes caps of those of eight surfaces that are some: flat, and of their own material.
+    pub(crate) fn shade_caps8(&self, hits: &Hits8, e: &Lanes3, shading: &mut Shading8) {
+        if self.clipping.is_none() {
+            return;
+        }
+        for lane in lanes(hits.met) {
+            let hit = hits.get(lane);
+            let Some(n) = self.cap_normal(&hit, direction(e, lane)) else { continue };
+            let batch = self.geometry.batch(hit.part);
+            let number = self.material_of(&hit);
+            let own = self.own_color(batch, &hit).filter(|_| self.cap_material(&hit).is_none());
+            let color = own.unwrap_or(self.materials[number as usize].color);
+            set(&mut shading.n, lane, n.to_array());
+            set(&mut shading.front, lane, n.to_array());
+            set(&mut shading.color, lane, color.to_array());
+            shading.material[lane] = number;
+            shading.smooth &= !(1 << lane);
+        }
     }
 
     /// Materials and colours of some hits in one part, one by one.

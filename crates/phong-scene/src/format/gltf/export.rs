@@ -46,6 +46,9 @@ pub(crate) fn write_gltf(
         if scene.fog.is_some() {
             lost.push("fog");
         }
+        if !scene.clips.is_empty() {
+            lost.push("clips: what they cut away is there");
+        }
         if scene.lights.iter().any(|light| light.kind.extent() > 0.0) {
             lost.push("size of lights, and so no soft shadows");
         }

@@ -131,6 +131,10 @@ fn head(scene: &Scene, account: &mut Account) -> String {
             account.drop(Diagnostic::warning(message.to_owned(), None));
         }
     }
+    if !scene.clips.is_empty() {
+        let message = "Tachyon's clips are not written: what `[[clip]]` cuts away is there";
+        account.drop(Diagnostic::warning(message.to_owned(), None));
+    }
     if scene.ambient_occlusion.is_some() {
         let message =
             "ambient occlusion is not written: the ambient light is, without it".to_owned();

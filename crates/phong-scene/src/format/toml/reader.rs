@@ -18,6 +18,7 @@ use super::{material, reuse, settings, shape, syntax};
 use crate::ambient_occlusion::AmbientOcclusion;
 use crate::camera::Camera;
 use crate::change::Change;
+use crate::clip::Clip;
 use crate::color::Rgb;
 use crate::diagnostic::Diagnostic;
 use crate::fog::Fog;
@@ -48,6 +49,9 @@ pub(super) struct Reader<'a> {
     pub(super) ambient: Rgb,
     pub(super) ambient_occlusion: Option<AmbientOcclusion>,
     pub(super) fog: Option<Fog>,
+    /// The clips, and where in `material_names` the material of each one's cap is.
+    pub(super) clips: Vec<(Clip, Option<usize>)>,
+    clip_count: usize,
     pub(super) lights: Vec<Light>,
     light_count: usize,
     pub(super) materials: Named<Material>,
@@ -76,6 +80,7 @@ enum Item<'t> {
     Material(&'t str, &'t DeTable<'t>),
     Texture(&'t str, &'t DeTable<'t>),
     Light(&'t DeTable<'t>),
+    Clip(&'t DeTable<'t>),
     Shape(&'static Table, &'t DeTable<'t>, Option<u32>),
     Include(&'t DeTable<'t>),
 }
@@ -95,6 +100,8 @@ impl<'a> Reader<'a> {
             ambient: Rgb::WHITE,
             ambient_occlusion: None,
             fog: None,
+            clips: Vec::new(),
+            clip_count: 0,
             lights: Vec::new(),
             light_count: 0,
             materials: Named::new(),
@@ -171,6 +178,7 @@ impl<'a> Reader<'a> {
                     for (text, spot) in self.tables(key.name, value, file) {
                         let item = match key.name {
                             "light" => Item::Light(text),
+                            "clip" => Item::Clip(text),
                             "include" => Item::Include(text),
                             _ => Item::Shape(table, text, None),
                         };
@@ -259,6 +267,7 @@ impl<'a> Reader<'a> {
                 _ => {
                     let count = match list {
                         "light" => self.light_count,
+                        "clip" => self.clip_count,
                         _ => self.counts.get(list).copied().unwrap_or(0),
                     };
                     let message = format!("the scene has no {list} {of} to change");
@@ -338,6 +347,18 @@ impl<'a> Reader<'a> {
                 let notes = &mut self.notes;
                 let values = Values::read_changed(&keys::LIGHT, text, spot, &over, notes);
                 self.lights.extend(settings::light(&values, self.light_count, &mut self.notes));
+            }
+            Item::Clip(text) => {
+                self.clip_count += 1;
+                let over = self.changes.over("clip", &[&self.clip_count.to_string()]);
+                let notes = &mut self.notes;
+                let values = Values::read_changed(&keys::CLIP, text, spot, &over, notes);
+                let cap = values.text("cap").map(|name| {
+                    self.material_names.push((name, values.spot_of("cap")));
+                    self.material_names.len() - 1
+                });
+                let clip = settings::clip(&values, &mut self.notes);
+                self.clips.extend(clip.map(|clip| (clip, cap)));
             }
             Item::Shape(table, text, group) => {
                 let drafts = self.shape(table, text, spot, path);

@@ -7,6 +7,7 @@ use super::groups;
 use super::notes::Notes;
 use super::reader::Reader;
 use super::text::Spot;
+use crate::clip::{Cap, Clip};
 use crate::diagnostic::Diagnostic;
 use crate::material::{Material, MaterialId};
 use crate::scene::{Group, Object, Scene};
@@ -57,6 +58,12 @@ impl Reader<'_> {
             groups.push(Group { name: texts.items[group].0.clone(), objects });
         }
 
+        let capped = |(clip, cap): (Clip, Option<usize>)| match cap.map(|name| resolver.named[name])
+        {
+            Some(Some(material)) => Clip { cap: Cap::Of(material), ..clip },
+            _ => clip,
+        };
+        let clips = self.clips.into_iter().map(capped).collect();
         let sound = !notes.has_errors();
         let scene = self.camera.filter(|_| sound).map(|camera| Scene {
             image: self.image,
@@ -64,6 +71,7 @@ impl Reader<'_> {
             ambient: self.ambient,
             ambient_occlusion: self.ambient_occlusion,
             fog: self.fog,
+            clips,
             lights: self.lights,
             materials,
             textures,

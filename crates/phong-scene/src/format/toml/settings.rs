@@ -1,9 +1,10 @@
-//! `[image]`, `[camera]` and `[[light]]`.
+//! `[image]`, `[camera]`, `[[clip]]` and `[[light]]`.
 
 use super::notes::Notes;
 use super::table::Values;
 use crate::camera::{Camera, CameraKind};
 use crate::check::settings as judge;
+use crate::clip::{Cap, Clip};
 use crate::fog::Fog;
 use crate::light::{Light, LightKind};
 use crate::scene::Image;
@@ -41,6 +42,19 @@ pub(super) fn fog(v: &Values, notes: &mut Notes) -> Option<Fog> {
     v.fill(&mut fog)?;
     let sound = notes.judge(|key| v.spot_of(key), |faults| judge::fog(&fog, faults));
     sound.then_some(fog)
+}
+
+/// A clip, whose cap is of no other material yet; what is wrong with it has been said.
+pub(super) fn clip(v: &Values, notes: &mut Notes) -> Option<Clip> {
+    let mut clip = Clip { place: notes.place(v.spot), ..Clip::default() };
+    v.fill(&mut clip)?;
+    if v.flag("cap") == Some(false) {
+        clip.cap = Cap::Open;
+    }
+    let names = v.texts("objects").unwrap_or_default();
+    clip.objects = names.into_iter().map(|(name, _)| name).collect();
+    let sound = notes.judge(|key| v.spot_of(key), |faults| judge::clip(&clip, faults));
+    sound.then_some(clip)
 }
 
 /// The light that is the `number`th of the scene; what is wrong with it has been said.

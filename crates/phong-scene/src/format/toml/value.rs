@@ -99,7 +99,13 @@ impl ValueReader<'_> {
             Kind::Scale => self.scale(value).map(Value::Vector),
             Kind::Rotate => self.rotations(value).map(Value::Rotations),
             Kind::Matrix => self.matrix(value).map(Value::Matrix),
-            Kind::Files => self.files(value).map(Value::Texts),
+            Kind::Cap => match value.get_ref() {
+                DeValue::Boolean(flag) => Some(Value::Flag(*flag)),
+                DeValue::String(_) => self.text(value),
+                _ => self.mismatch(value),
+            },
+            Kind::Names if !value.get_ref().is_array() => self.mismatch(value),
+            Kind::Files | Kind::Names => self.files(value).map(Value::Texts),
             Kind::Numbers => self.some_numbers(value).map(Value::Numbers),
             Kind::Table(_)
             | Kind::Tables(_)

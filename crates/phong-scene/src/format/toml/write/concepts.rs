@@ -4,6 +4,7 @@
 
 use glam::{DAffine3, DMat3, DVec3};
 
+use crate::clip::{Cap, Clip};
 use crate::color::Rgb;
 use crate::keys::{Field, Key, Keyed, Stored, Value};
 use crate::light::{Light, LightKind};
@@ -18,6 +19,19 @@ pub(super) fn light(light: &Light, number: usize, key: &Key) -> Option<Value> {
         ("edge", LightKind::Spot { cone, edge, .. }) if edge == cone => None,
         ("specular_color", _) if light.specular_color == light.color => None,
         _ => key.get(light),
+    }
+}
+
+/// `cap` is the name of the material of its cap, if it names one.
+pub(super) fn clip(clip: &Clip, cap: Option<&str>, key: &Key) -> Option<Value> {
+    match key.name {
+        "cap" if clip.cap == Cap::Open => Some(Value::Flag(false)),
+        "cap" => cap.map(|name| Value::Text(name.to_owned())),
+        "objects" if clip.objects.is_empty() => None,
+        "objects" => {
+            Some(Value::Texts(clip.objects.iter().map(|name| (name.clone(), 0..0)).collect()))
+        }
+        _ => key.get(clip),
     }
 }
 

@@ -13,6 +13,7 @@ use std::fmt::Write as _;
 use glam::DVec3;
 
 use super::table::default;
+use crate::clip::Cap;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::format::export::{Account, File, PlyEncoding, Writing, free_name, split_all};
 use crate::keys::{self, Key, Kind, Table, Value};
@@ -47,6 +48,7 @@ pub(crate) fn write_toml(
         ambient,
         ambient_occlusion,
         fog,
+        clips,
         lights,
         materials,
         textures,
@@ -91,6 +93,15 @@ pub(crate) fn write_toml(
             }
             _ => out.setting(&header, table, None, |_| Some(Value::Color(ambient))),
         }
+    }
+    for clip in &clips {
+        let kind = keys::CLIP.word_of(clip);
+        let cap = match clip.cap {
+            Cap::Of(material) => out.materials.names.get(material.0 as usize).cloned(),
+            _ => None,
+        };
+        out.table("[[clip]]", &keys::CLIP, kind, |key| concepts::clip(clip, cap.as_deref(), key));
+        out.account.carry("clip", 1);
     }
     for (i, light) in lights.iter().enumerate() {
         let kind = keys::LIGHT.word_of(light);
