@@ -198,7 +198,17 @@ class Texture(Keys):
     ``to``: Where t is 1. Default: 1.0.
     ``stops``: Its colours; between two stops they run linearly, beyond the last they stay. A
         colour map has 33 of them.
-    ``space``: The space it lies in. Default: "object".
+    ``file``: The image: PNG, JPEG, Radiance HDR or OpenEXR. Its left edge lies at 0 of the first
+        coordinate and its right edge at 1, its lower edge at 0 of the second and its upper edge at
+        1.
+    ``wrap``: What is beside it: the image again, the image mirrored, its edge, or `border`.
+        Default: "repeat".
+    ``border``: The colour beside it with `wrap = "border"`; its opacity is 0. Default: 0.0.
+    ``filter``: `nearest`: the pixel there; `linear`: between pixels; `auto`: that, and the mean of
+        all that a sample of the picture covers. Default: "auto".
+    ``encoding``: What its numbers mean; `auto`: colours of bytes and 16-bit numbers are sRGB, all
+        else is linear. Default: "auto".
+    ``space``: The space it lies in. / The space it lies in; `object` and `world`: along z.
     ``rotate``: Turns it: right-handed about an axis; or a list of them, in order.
     ``translate``: Then: shifts it. Default: [0.0, 0.0, 0.0].
     ``matrix``: Instead of all that place it: four rows of four, for column vectors.
@@ -209,7 +219,7 @@ class Texture(Keys):
         called: str | None = None,
         /,
         *,
-        kind: Literal["checker", "gradient"],
+        kind: Literal["checker", "gradient", "image"],
         colors: ArrayLike | None = None,
         scale: float | ArrayLike | None = None,
         by: Literal["axis", "radius"] | None = None,
@@ -217,6 +227,11 @@ class Texture(Keys):
         from_: float | None = None,
         to: float | None = None,
         stops: Literal["viridis", "cividis", "plasma", "inferno", "magma", "turbo", "coolwarm"] | ArrayLike | None = None,
+        file: str | None = None,
+        wrap: Literal["repeat", "mirror", "clamp", "border"] | None = None,
+        border: _Color | None = None,
+        filter: Literal["auto", "nearest", "linear"] | None = None,
+        encoding: Literal["auto", "srgb", "linear"] | None = None,
         space: Literal["object", "world", "uv"] | None = None,
         rotate: ArrayLike | None = None,
         translate: ArrayLike | None = None,

@@ -28,6 +28,7 @@ mod molecule;
 mod scene;
 mod shape;
 mod source;
+mod texels;
 mod texture;
 mod transform;
 mod unpack;
@@ -62,8 +63,10 @@ pub use mesh::{Caps, Cylinders, Mesh, NO_INDEX, Points, Shared};
 pub use scene::{Background, FilterKind, Group, Image, Object, Reading, Scene};
 pub use shape::{GroupId, Shape};
 pub use source::{Blob, Folder, Jail, Memory, Source, path_of, path_text, read_stream, trouble};
+pub use texels::{TexelValues, Texels, TexelsError};
 pub use texture::{
-    Channel, GradientBy, Param, Texture, TextureId, TextureKind, TextureRef, TextureSpace, Textured,
+    Channel, Encoding, GradientBy, Param, TexelFilter, Texture, TextureId, TextureKind, TextureRef,
+    TextureSpace, TextureUse, Textured, Wrap,
 };
 pub use transform::{cofactor, even_scale};
 pub use wording::closest;

@@ -78,6 +78,8 @@ pub struct Limits {
     pub vertices: u64,
     /// Triangles of one file. Default and maximum `u32::MAX − 1`.
     pub triangles: u64,
+    /// Pixels of one image of a texture. Default 2²⁸, as many as 16,384 × 16,384.
+    pub image_pixels: u64,
     /// Includes and groups within one another. Default 32.
     pub nesting: u32,
     /// Whether to draw what can be drawn of a damaged model: what is there of a file that is cut
@@ -92,6 +94,7 @@ impl Default for Limits {
             text_bytes: 256 << 20,
             vertices: u64::from(u32::MAX) - 1,
             triangles: u64::from(u32::MAX) - 1,
+            image_pixels: 1 << 28,
             nesting: 32,
             lenient: false,
         }

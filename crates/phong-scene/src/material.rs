@@ -66,7 +66,7 @@ use std::cell::{RefCell, RefMut};
 use crate::color::Rgb;
 use crate::diagnostic::Place;
 use crate::limits::Range;
-use crate::texture::{Param, TextureId, TextureRef};
+use crate::texture::{Param, TextureId, TextureRef, TextureUse};
 use crate::wording::{Word, words};
 
 /// Index into [`Scene::materials`](crate::Scene::materials).
@@ -215,7 +215,7 @@ impl Material {
     }
 
     /// What it is where textures have the values that `look_up` says.
-    pub fn at(&self, look_up: impl Fn(TextureId) -> Rgb) -> ConstantMaterial {
+    pub fn at(&self, look_up: impl Fn(TextureUse) -> Rgb) -> ConstantMaterial {
         self.map(|_, number| number.at(&look_up), |_, color| color.at(&look_up))
     }
 
@@ -232,6 +232,22 @@ impl Material {
         let _: Material<(), ()> =
             self.map(|key, n| note(key, n.texture()), |key, c| note(key, c.texture()));
         textured.into_inner()
+    }
+
+    /// What each parameter that takes its values from a texture asks it for, by its key in the text.
+    pub fn texture_uses(&self) -> Vec<(&'static str, TextureUse)> {
+        let colors = RefCell::new(Vec::new());
+        let note = |key, by: Option<TextureRef>| {
+            let mut colors: RefMut<'_, Vec<&'static str>> = colors.borrow_mut();
+            colors.extend(by.map(|_| key));
+        };
+        let _: Material<(), ()> = self.map(|_, _| (), |key, c| note(key, c.texture()));
+        let colors = colors.into_inner();
+        let asked = |(key, by): (&'static str, TextureRef)| {
+            let TextureRef { texture, channel, .. } = by;
+            (key, TextureUse { texture, channel, is_color: colors.contains(&key) })
+        };
+        self.textured().into_iter().map(asked).collect()
     }
 
     /// The same with its textures numbered anew.

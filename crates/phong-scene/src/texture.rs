@@ -11,6 +11,10 @@
 //! to = 3
 //! stops = [[0, "darkorange"], [0.4, "indigo"], [1, 0]]
 //!
+//! [textures.map]
+//! kind = "image"
+//! file = "map.png"
+//!
 //! [materials.floor]
 //! color = { texture = "tiles" }
 //! k_s = { texture = "tiles", scale = 0.5 }
@@ -22,7 +26,7 @@
 //!
 //! | key | value | default | meaning |
 //! |---|---|---|---|
-//! | `kind` | `checker` or `gradient` | required | What it is. |
+//! | `kind` | `checker`, `gradient` or `image` | required | What it is. |
 //! | `colors` (checker) | two colours, `[A, B]` | required | A where ⌊x⌋ + ⌊y⌋ + ⌊z⌋ is even, B where it is odd; a coordinate less than 1e-4 below a border counts as above it. |
 //! | `scale` (checker) | a number above 0 | `1` | Squares a unit. |
 //! | `by` (gradient) | `axis` or `radius` | `"axis"` | What it runs by: the distance along `axis`, or that from the place where the texture is. |
@@ -30,8 +34,14 @@
 //! | `from` (gradient) | a number | `0` | Where t is 0: a distance. |
 //! | `to` (gradient) | a number | `1` | Where t is 1. |
 //! | `stops` (gradient) | a list of `[t, colour]`, t from 0 to 1 and never falling, or a colour map: `viridis`, `cividis`, `plasma`, `inferno`, `magma`, `turbo` or `coolwarm` | required | Its colours; between two stops they run linearly, beyond the last they stay. A colour map has 33 of them. |
-//! | `scale` (gradient) | a number or `[x, y, z]`, none 0 | 1 | First of its place: a factor, or one along each axis. |
-//! | `space` | `object`, `world` or `uv` | `"object"` | The space it lies in. |
+//! | `scale` (gradient, image) | a number or `[x, y, z]`, none 0 | 1 | First of its place: a factor, or one along each axis. |
+//! | `file` (image) | the path of a file, in quotes | required | The image: PNG, JPEG, Radiance HDR or OpenEXR. Its left edge lies at 0 of the first coordinate and its right edge at 1, its lower edge at 0 of the second and its upper edge at 1. |
+//! | `wrap` (image) | `repeat`, `mirror`, `clamp` or `border` | `"repeat"` | What is beside it: the image again, the image mirrored, its edge, or `border`. |
+//! | `border` (image) | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name | `0` | The colour beside it with `wrap = "border"`; its opacity is 0. |
+//! | `filter` (image) | `auto`, `nearest` or `linear` | `"auto"` | `nearest`: the pixel there; `linear`: between pixels; `auto`: that, and the mean of all that a sample of the picture covers. |
+//! | `encoding` (image) | `auto`, `srgb` or `linear` | `"auto"` | What its numbers mean; `auto`: colours of bytes and 16-bit numbers are sRGB, all else is linear. |
+//! | `space` (checker, gradient) | `object`, `world` or `uv` | `"object"` | The space it lies in. |
+//! | `space` (image) | `object`, `world` or `uv` | `"uv"` | The space it lies in; `object` and `world`: along z. |
 //! | `rotate` | `[ax, ay, az, degrees]`, or a list of them | none | Turns it: right-handed about an axis; or a list of them, in order. |
 //! | `translate` | three numbers, `[x, y, z]` | `[0, 0, 0]` | Then: shifts it. |
 //! | `matrix` | four rows of four numbers | those above | Instead of all that place it: four rows of four, for column vectors. |
@@ -43,14 +53,16 @@
 //! | `texture` | the name of a texture, in quotes | required | Where the values come from. |
 //! | `scale` | a number | `1` | What they are multiplied by. |
 //! | `offset` | a number | `0` | What is added then. |
-//! | `channel` | `r`, `g` or `b` | all three; of a number `r` | The channel that is taken. |
+//! | `channel` | `r`, `g`, `b` or `a` | all three; of a number `r` | The channel that is taken. |
 
 use std::fmt;
+use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 
 use crate::color::Rgb;
 use crate::diagnostic::Place;
+use crate::texels::Texels;
 use crate::wording::words;
 
 /// Index into [`Scene::textures`](crate::Scene::textures).
@@ -97,10 +109,26 @@ pub enum Channel {
     Green,
     /// Blue.
     Blue,
+    /// Opacity: 1 of textures that have none.
+    Alpha,
+}
+
+/// What a parameter asks a texture for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TextureUse {
+    /// The texture.
+    pub texture: TextureId,
+    /// The channel that is taken; for [`Channel::Alpha`] the answer is a grey that says the opacity.
+    pub channel: Option<Channel>,
+    /// Whether a colour is wanted, of which images hold sRGB codes; else a number, which they hold as it is.
+    pub is_color: bool,
 }
 
 /// A value that a texture can give: a number or a colour.
 pub trait Textured: Copy {
+    /// Whether it is a colour.
+    const IS_COLOR: bool;
+
     /// What the parameter is where the texture has this value. Nothing is ever below 0.
     fn of(value: Rgb, by: &TextureRef) -> Self;
 }
@@ -156,6 +184,22 @@ pub enum TextureKind {
         /// `t` in [0, 1], never falling, and the linear colour there; at least one.
         stops: Vec<(f32, Rgb)>,
     },
+    /// An image: its left edge at 0 and its right edge at 1 of the first coordinate, its lower edge at 0 and
+    /// its upper edge at 1 of the second.
+    Image {
+        /// The file that it is of, as it was written; empty: it is of none.
+        file: String,
+        /// Its pixels.
+        texels: Arc<Texels>,
+        /// What is beside it.
+        wrap: Wrap,
+        /// The colour beside it, where [`Wrap::Border`] says so. Linear; its opacity is 0.
+        border: Rgb,
+        /// What is between its pixels, and what stands for many of them.
+        filter: TexelFilter,
+        /// What its numbers mean.
+        encoding: Encoding,
+    },
 }
 
 impl Default for TextureKind {
@@ -164,6 +208,50 @@ impl Default for TextureKind {
         Self::Checker { colors: [Rgb::WHITE, Rgb::BLACK], scale: 1.0 }
     }
 }
+
+/// What is beside an image.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Wrap {
+    /// The image again.
+    #[default]
+    Repeat,
+    /// The image mirrored, and then as it is again.
+    Mirror,
+    /// Its edge.
+    Clamp,
+    /// One colour.
+    Border,
+}
+
+words!(Wrap { "repeat" = Repeat, "mirror" = Mirror, "clamp" = Clamp, "border" = Border });
+
+/// What is between the pixels of an image, and what stands for many of them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TexelFilter {
+    /// Linear between pixels; where one sample of the picture covers many, their mean.
+    #[default]
+    Auto,
+    /// The pixel there.
+    Nearest,
+    /// Linear between pixels, however many a sample covers.
+    Linear,
+}
+
+words!(TexelFilter { "auto" = Auto, "nearest" = Nearest, "linear" = Linear });
+
+/// What the numbers of an image mean.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Encoding {
+    /// sRGB where it gives a colour and its numbers are bytes or of 16 bits, else linear.
+    #[default]
+    Auto,
+    /// Codes of sRGB.
+    Srgb,
+    /// The values themselves.
+    Linear,
+}
+
+words!(Encoding { "auto" = Auto, "srgb" = Srgb, "linear" = Linear });
 
 /// What a gradient runs by.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -236,10 +324,13 @@ impl<T: Textured> Param<T> {
 
     /// The value at a place where textures have the values that `look_up` says.
     #[inline]
-    pub fn at(self, look_up: impl FnOnce(TextureId) -> Rgb) -> T {
+    pub fn at(self, look_up: impl FnOnce(TextureUse) -> Rgb) -> T {
         match self {
             Self::Constant(value) => value,
-            Self::Textured(by) => T::of(look_up(by.texture), &by),
+            Self::Textured(by) => {
+                let TextureRef { texture, channel, .. } = by;
+                T::of(look_up(TextureUse { texture, channel, is_color: T::IS_COLOR }), &by)
+            }
         }
     }
 }
@@ -263,18 +354,22 @@ impl TextureRef {
 }
 
 impl Textured for f32 {
+    const IS_COLOR: bool = false;
+
     fn of(value: Rgb, by: &TextureRef) -> Self {
         by.apply(by.channel.unwrap_or(Channel::Red).of(value))
     }
 }
 
 impl Textured for Rgb {
+    const IS_COLOR: bool = true;
+
     fn of(value: Rgb, by: &TextureRef) -> Self {
         by.channel.map_or(value, |channel| Self::grey(channel.of(value))).map(|v| by.apply(v))
     }
 }
 
-words!(Channel { "r" = Red, "g" = Green, "b" = Blue });
+words!(Channel { "r" = Red, "g" = Green, "b" = Blue, "a" = Alpha });
 
 words!(TextureSpace { "object" = Object, "world" = World, "uv" = Uv });
 
@@ -287,12 +382,21 @@ words!(TextureKind {
         to: 1.0,
         stops: vec![(0.0, Rgb::BLACK), (1.0, Rgb::WHITE)],
     },
+    "image" = Image {
+        file: String::new(),
+        texels: Arc::new(Texels::white()),
+        wrap: Wrap::Repeat,
+        border: Rgb::BLACK,
+        filter: TexelFilter::Auto,
+        encoding: Encoding::Auto,
+    },
 });
 
 impl Channel {
     fn of(self, Rgb { r, g, b }: Rgb) -> f32 {
         match self {
-            Self::Red => r,
+            // Whoever is asked for an opacity gives it as a grey.
+            Self::Red | Self::Alpha => r,
             Self::Green => g,
             Self::Blue => b,
         }
@@ -300,9 +404,22 @@ impl Channel {
 }
 
 impl Texture {
-    /// The values between which all of its values lie.
-    pub fn values(&self) -> Vec<Rgb> {
+    /// The values between which all of its values lie, of this channel: for [`Channel::Alpha`] greys.
+    pub fn values(&self, channel: Option<Channel>) -> Vec<Rgb> {
         match &self.kind {
+            TextureKind::Image { texels, wrap, border, encoding, .. } => {
+                let value = |[r, g, b, alpha]: [f32; 4]| match channel {
+                    Some(Channel::Alpha) => Rgb::grey(alpha),
+                    _ => Rgb::new(r, g, b),
+                };
+                let mut values = texels.bounds(*encoding == Encoding::Srgb).map(value).to_vec();
+                if *wrap == Wrap::Border {
+                    let beside = border.to_array();
+                    values.push(value([beside[0], beside[1], beside[2], 0.0]));
+                }
+                values
+            }
+            _ if channel == Some(Channel::Alpha) => vec![Rgb::WHITE],
             TextureKind::Checker { colors, .. } => colors.to_vec(),
             TextureKind::Gradient { stops, .. } => stops.iter().map(|&(_, color)| color).collect(),
         }

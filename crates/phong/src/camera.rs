@@ -7,6 +7,7 @@ use phong_bvh::{Lanes, Ray, Rays8, whole};
 use phong_scene::CameraKind;
 
 use crate::math::{Dir3, wide};
+use crate::texture::Cone;
 
 /// A camera set up in f64, in the world.
 #[derive(Clone, Debug)]
@@ -124,6 +125,22 @@ impl Camera {
     /// rays are parallel, in a picture of `height` pixels. None of those that look around.
     pub(crate) fn pixels_across(&self, height: u32) -> Option<f64> {
         self.is_projective().then(|| f64::from(height) / (2.0 * self.half))
+    }
+
+    /// The cone about a ray of direction `dir` through a picture of `size` pixels, of each of which it is one of
+    /// `samples`: as wide as what would be its share of the pixel.
+    pub(crate) fn cone(&self, dir: Vec3, size: [u32; 2], samples: u32) -> Cone {
+        let [width, height] = size.map(f64::from);
+        let share = 1.0 / f64::from(samples.max(1)).sqrt();
+        let pixel = 2.0 * self.half / height;
+        let (width, spread) = match self.kind {
+            // Of a pixel at distance 1 along the axis, which is further along the ray.
+            CameraKind::Perspective { .. } => (0.0, pixel * dir.as_dvec3().dot(self.forward).abs()),
+            CameraKind::Orthographic { .. } => (pixel, 0.0),
+            CameraKind::Fisheye { .. } => (0.0, 2.0 * self.half / width.min(height)),
+            CameraKind::Panorama => (0.0, std::f64::consts::PI / height),
+        };
+        Cone { width: (width * share) as f32, spread: (spread * share) as f32 }
     }
 
     /// Whether [`Camera::projective_rays`] draws its rays.

@@ -30,6 +30,9 @@ pub struct SurfaceInteraction {
     /// The index of refraction of the far side relative to this one, where glasses meet or fill one
     /// another; `None`: it is the material's own.
     pub eta: Option<f32>,
+    /// How wide the ray is there, across it, in units of the world: what a look-up of a texture stands for.
+    /// 0: a point.
+    pub width: f32,
 }
 
 impl SurfaceInteraction {

@@ -49,6 +49,8 @@ pub struct View {
     /// What varies of each; empty where no material takes a value from a texture.
     varied: Vec<Varied>,
     textures: Vec<Texture>,
+    /// Whether a texture that a material uses is an image.
+    has_images: bool,
     /// Where rays need more than the closest hit; `None`: nowhere.
     coincidences: Option<Coincidences>,
     /// What takes ambient light away; `None`: nothing does.
@@ -127,6 +129,7 @@ impl View {
         if varied.iter().all(|&varied| varied == Varied::Nothing) {
             varied = Vec::new();
         }
+        let textures: Vec<_> = look.textures.iter().map(Texture::new).collect();
         let bounces =
             |m: &phong_scene::Material| !(m.reflection.is_black() && m.transmission.is_black());
         let filters = |m: &phong_scene::Material| match m.shadow {
@@ -151,7 +154,8 @@ impl View {
             has_filters: look.materials.iter().any(filters),
             has_soft_lights: lights.iter().any(|light| light.soft),
             has_ambient_per_light: materials.iter().any(Material::takes_ambient_per_light),
-            textures: look.textures.iter().map(Texture::new).collect(),
+            has_images: !varied.is_empty() && textures.iter().any(Texture::has_footprint),
+            textures,
             fixtures,
             geometry,
             look,
@@ -309,10 +313,12 @@ impl View {
     /// # Panics
     /// If `hit` is none.
     pub fn interaction(&self, ray: &Ray, hit: &Hit) -> SurfaceInteraction {
-        let Surface { p, p_error, ng } = self.surface(ray, hit);
+        let surface = self.surface(ray, hit);
+        let Surface { p, p_error, ng } = surface;
         let (ng, e) = (Dir3::from_unit(ng), -Dir3::from_unit(ray.dir));
         let Shading { n, material, color } = self.shading(hit, ng, e);
-        let color = color.unwrap_or_else(|| self.color_at(material, ray, hit, p));
-        SurfaceInteraction { hit: *hit, material, p, p_error, ng, n, e, color, eta: None }
+        let color = color.unwrap_or_else(|| self.color_at(material, ray, hit, &surface));
+        let (hit, eta, width) = (*hit, None, 0.0);
+        SurfaceInteraction { hit, material, p, p_error, ng, n, e, color, eta, width }
     }
 }

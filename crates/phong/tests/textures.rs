@@ -1,6 +1,9 @@
 //! Materials that vary over a surface are drawn, told and looked up as one.
 #![expect(clippy::unwrap_used, reason = "in a test, what is not there is a failure")]
 
+#[path = "textures/images.rs"]
+mod images;
+
 use phong::aov::Aov;
 use phong::explain::{End, explain};
 use phong::film::{Film, LayerKind};

@@ -6,6 +6,7 @@ use phong::explain::{
 };
 use phong::math::Dir3;
 use phong::terms::Terms;
+use phong::texture::ImageLookUp;
 use phong::witness::{CutReason, Faded};
 use phong_scene::{ConstantMaterial, Place, Rgb, TextureSpace};
 use serde_json::{Map, Value, json};
@@ -142,6 +143,7 @@ fn texture(told: &TextureTold) -> Value {
             TextureSpace::Uv => "uv",
         },
         "place": told.place.to_array(),
+        "image": told.image.map(|ImageLookUp { level, taps }| json!({ "level": number(level), "taps": taps })),
         "value": rgb(told.value),
     })
 }

@@ -8,6 +8,7 @@ use phong::explain::{
     TextureTold,
 };
 use phong::terms::Terms;
+use phong::texture::ImageLookUp;
 use phong::witness::{CutReason, Faded};
 use phong_scene::{AmbientRule, ConstantMaterial, Model, Rgb, TextureSpace, Viewer};
 
@@ -167,11 +168,12 @@ impl Page {
             self.line(format_args!("glass    meets glass: the index beyond is {eta} of that here"));
         }
         for told in &s.textures {
-            let TextureTold { parameter, texture, space, place, value } = told;
+            let TextureTold { parameter, texture, space, place, image, value } = told;
             let space = spaced(*space);
             self.line(format_args!(
-                "texture  {parameter}: {texture} at {} in {space} is {}",
+                "texture  {parameter}: {texture} at {} in {space}{} is {}",
                 self.numbers.position(*place),
+                image.map_or(String::new(), looked_up),
                 self.numbers.color(*value)
             ));
         }
@@ -413,6 +415,15 @@ fn product(
     }
     steps.push(numbers.color(product.value));
     (letters, steps)
+}
+
+/// How an image is looked up.
+fn looked_up(ImageLookUp { level, taps }: ImageLookUp) -> String {
+    match (level, taps) {
+        (0.0, 1) => String::new(),
+        (level, 1) => format!(" (halved {level:.2} times)"),
+        (level, taps) => format!(" (halved {level:.2} times, {taps} places)"),
+    }
 }
 
 /// The space that a texture lies in.

@@ -3,6 +3,7 @@
 use super::fault::Faults;
 use super::shape;
 use super::value::values;
+use crate::limits::LARGEST;
 use crate::texture::{Texture, TextureKind};
 
 /// Judges a texture.
@@ -12,6 +13,9 @@ pub(crate) fn texture(texture: &Texture, faults: &mut Faults) {
         && from == to
     {
         faults.say("to", "`to` is where `from` is: the gradient has no length");
+    }
+    if let TextureKind::Image { border, .. } = &texture.kind {
+        faults.color("border", *border, LARGEST);
     }
     shape::transform(&texture.transform, faults);
 }

@@ -120,7 +120,7 @@ fn textured(key: &Key, by: &TextureRef, textures: Option<&[Texture]>, faults: &m
         let held = f64::from(value) <= LARGEST;
         (!held).then(|| format!("at most {LARGEST:e}; it becomes {value:e}"))
     };
-    if let Some(wrong) = texture.values().into_iter().find_map(wrong) {
+    if let Some(wrong) = texture.values(by.channel).into_iter().find_map(wrong) {
         let texture = quoted(&texture.name);
         faults.say(name, format!("with the texture {texture}, `{name}` must be {wrong}")).help =
             Some("`scale` and `offset` beside `texture` bring its values into range".to_owned());

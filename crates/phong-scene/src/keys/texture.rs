@@ -3,7 +3,9 @@
 use super::field::{field, keyed};
 use super::{Default, Key, Kind, Table};
 use crate::limits::Range;
-use crate::texture::{Channel, GradientBy, Texture, TextureKind, TextureSpace};
+use crate::texture::{
+    Channel, Encoding, GradientBy, TexelFilter, Texture, TextureKind, TextureSpace, Wrap,
+};
 use crate::wording::Word;
 
 keyed!(Texture, |_| &TEXTURE);
@@ -16,7 +18,7 @@ pub(crate) static TEXTURE: Table = Table {
     keys: &[&[
         Key::new("kind", Kind::Word(TextureKind::WORDS), Default::Required, "What it is.")
             .of(field!(Texture.kind))
-            .later(&["image", "noise", "marble", "wood", "bricks"]),
+            .later(&["noise", "marble", "wood", "bricks"]),
         Key::new(
             "colors",
             Kind::TwoColors,
@@ -72,14 +74,67 @@ pub(crate) static TEXTURE: Table = Table {
             Default::Said("1"),
             "First of its place: a factor, or one along each axis.",
         )
-        .only(&["gradient"]),
+        .only(&["gradient", "image"]),
+        Key::new(
+            "file",
+            Kind::File,
+            Default::Required,
+            "The image: PNG, JPEG, Radiance HDR or OpenEXR. Its left edge lies at 0 of the first \
+             coordinate and its right edge at 1, its lower edge at 0 of the second and its upper \
+             edge at 1.",
+        )
+        .of(field!(Texture.kind = TextureKind::{Image}.file))
+        .only(&["image"]),
+        Key::new(
+            "wrap",
+            Kind::Word(Wrap::WORDS),
+            Default::Word("repeat"),
+            "What is beside it: the image again, the image mirrored, its edge, or `border`.",
+        )
+        .of(field!(Texture.kind = TextureKind::{Image}.wrap))
+        .only(&["image"]),
+        Key::new(
+            "border",
+            Kind::Color,
+            Default::Number(0.0),
+            "The colour beside it with `wrap = \"border\"`; its opacity is 0.",
+        )
+        .of(field!(Texture.kind = TextureKind::{Image}.border))
+        .only(&["image"]),
+        Key::new(
+            "filter",
+            Kind::Word(TexelFilter::WORDS),
+            Default::Word("auto"),
+            "`nearest`: the pixel there; `linear`: between pixels; `auto`: that, and the mean of \
+             all that a sample of the picture covers.",
+        )
+        .of(field!(Texture.kind = TextureKind::{Image}.filter))
+        .only(&["image"]),
+        Key::new(
+            "encoding",
+            Kind::Word(Encoding::WORDS),
+            Default::Word("auto"),
+            "What its numbers mean; `auto`: colours of bytes and 16-bit numbers are sRGB, all \
+             else is linear.",
+        )
+        .of(field!(Texture.kind = TextureKind::{Image}.encoding))
+        .only(&["image"]),
         Key::new(
             "space",
             Kind::Word(TextureSpace::WORDS),
             Default::Word("object"),
             "The space it lies in.",
         )
-        .of(field!(Texture.space)),
+        .of(field!(Texture.space))
+        .only(&["checker", "gradient"]),
+        Key::new(
+            "space",
+            Kind::Word(TextureSpace::WORDS),
+            Default::Word("uv"),
+            "The space it lies in; `object` and `world`: along z.",
+        )
+        .of(field!(Texture.space))
+        .only(&["image"]),
         Key::new(
             "rotate",
             Kind::Rotate,

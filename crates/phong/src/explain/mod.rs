@@ -12,11 +12,12 @@ use thiserror::Error;
 
 use crate::film::Sums8;
 use crate::filter::Filter;
-use crate::integrator::{Integrator, Radiance8, RayCounts};
+use crate::integrator::{Integrator, Radiance8, RayCounts, SampleGrid};
 use crate::math::{Dir3, wide};
 use crate::render::{Drawn, RenderOptions, camera_ray};
 use crate::sampling::Sampler;
 use crate::terms::Terms;
+use crate::texture::ImageLookUp;
 use crate::view::View;
 use crate::witness::{CutReason, Faded, Witness};
 use record::Recorder;
@@ -158,6 +159,8 @@ pub struct TextureTold {
     pub space: TextureSpace,
     /// The point in that space: of texture coordinates u, v and 0.
     pub place: DVec3,
+    /// How its image is looked up there; `None`: it is none.
+    pub image: Option<ImageLookUp>,
     /// The texture's value there, not yet scaled nor shifted. Linear.
     pub value: Rgb,
 }
@@ -341,6 +344,7 @@ impl<'a> Road<'a> {
             min_weight: options.min_weight(),
             shadows: options.shadows(),
             terminator: options.terminator(),
+            grid: SampleGrid { size: size, samples: options.samples() },
             stop: None,
         };
         Ok(Self { integrator, options, filter: Filter::new(options.filter()), pixel })

@@ -1,7 +1,7 @@
 //! Writes down what the integrator tells.
 
 use phong_bvh::Ray;
-use phong_scene::{Rgb, TextureRef};
+use phong_scene::{Rgb, TextureUse};
 
 use super::{Blocker, End, LightFrom, Lit, Onward, Openness, RayTold, Surface, TextureTold};
 use crate::interaction::SurfaceInteraction;
@@ -244,16 +244,17 @@ impl Witness for Recorder<'_> {
 /// What a material takes from textures at a point.
 fn textures(scene: &View, material: u32, point: &TexturePoint) -> Vec<TextureTold> {
     let look = scene.look();
-    let told = |(parameter, by): (&'static str, TextureRef)| {
-        let written = look.textures.get(by.texture.0 as usize)?;
+    let told = |(parameter, asked): (&'static str, TextureUse)| {
+        let written = look.textures.get(asked.texture.0 as usize)?;
         let texture = Texture::new(written);
         Some(TextureTold {
             parameter,
             texture: written.name.clone(),
             space: written.space,
             place: texture.place(point),
-            value: texture.value(point),
+            image: texture.image_look_up(point),
+            value: texture.value(point, asked),
         })
     };
-    look.materials[material as usize].textured().into_iter().filter_map(told).collect()
+    look.materials[material as usize].texture_uses().into_iter().filter_map(told).collect()
 }

@@ -1,6 +1,6 @@
 //! What belongs to the primitives of a tree's batch besides their shape.
 
-use glam::{DMat3, DVec3, Vec2, Vec3};
+use glam::{DMat3, DVec2, DVec3, Vec2, Vec3};
 use phong_bvh::Hit;
 use phong_scene::{NO_INDEX, Rgb, Shared};
 
@@ -160,6 +160,15 @@ impl Batch {
         let mesh = self.mesh.as_ref()?;
         let [a, b, c] = at_corners(&mesh.uvs, &mesh.uv_indices, local, corners)?;
         Some((1.0 - hit.u - hit.v) * a + hit.u * b + hit.v * c)
+    }
+
+    /// How texture coordinates change from the first corner to the second, and to the third; `None` where the
+    /// mesh has none.
+    pub(crate) fn uv_edges(&self, local: u32, corners: [u32; 3]) -> Option<[DVec2; 2]> {
+        let mesh = self.mesh.as_ref()?;
+        let corners = at_corners(&mesh.uvs, &mesh.uv_indices, local, corners)?;
+        let [a, b, c] = corners.map(|uv| uv.as_dvec2());
+        Some([b - a, c - a])
     }
 
     /// The geometry's own colour; `None` where it is the material's.

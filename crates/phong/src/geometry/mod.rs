@@ -7,6 +7,7 @@
 
 mod batch;
 mod build;
+mod change;
 mod estimate;
 mod flatten;
 mod scale;

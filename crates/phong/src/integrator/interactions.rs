@@ -33,6 +33,8 @@ pub(super) struct Interactions {
     pub(super) etas: Vec<[f32; 8]>,
     /// The share of each surface that is there, eight for eight rays. Empty: all of all.
     pub(super) covers: Vec<[f32; 8]>,
+    /// How wide each ray is at its surface, eight for eight rays. Empty: no image asks.
+    pub(super) widths: Vec<[f32; 8]>,
 }
 
 impl Interactions {
@@ -59,6 +61,10 @@ impl Interactions {
         }
         out.resize(rays.len(), Radiance8::NONE);
         scene.intersect_eights(rays, &mut self.hits);
+        self.widths.clear();
+        if scene.has_images() {
+            integrator.measure_widths(rays, &self.hits, paths, &mut self.widths);
+        }
         self.etas.clear();
         match scene.coincidences() {
             None => scene.surface_eights(rays, &self.hits, &mut self.surfaces),
@@ -136,6 +142,7 @@ impl Interactions {
             e: -direction(&rays[i].dir, lane),
             color: Rgb::from(get(&shading.color, lane)),
             eta: self.etas.get(i).map(|etas| etas[lane]).filter(|eta| !eta.is_nan()),
+            width: self.widths.get(i).map_or(0.0, |widths| widths[lane]),
         }
     }
 }
@@ -187,7 +194,7 @@ impl Kernel for BeginRadiance<'_> {
         /// What lights add to in any case, and the ambient term.
         const LOCAL: TermSet = TermSet::of(&[Term::Ambient, Term::Diffuse, Term::Specular]);
         let Self { scene, lift, height, rays, interactions, passed, out } = self;
-        let Interactions { hits, surfaces, shading, made, covers, .. } = interactions;
+        let Interactions { hits, surfaces, shading, made, covers, widths, .. } = interactions;
         let eights = rays.iter().zip(hits).zip(surfaces).zip(shading).zip(out);
         for (i, ((((rays, hits), surface), shading), out)) in eights.enumerate() {
             let met = hits.met;
@@ -222,7 +229,7 @@ impl Kernel for BeginRadiance<'_> {
                 scene.shade_caps8(hits, &store3(e), shading);
             }
             if scene.has_textures() {
-                scene.vary(rays, hits, surface, shading, made);
+                scene.vary(rays, hits, surface, widths.get(i), shading, made);
             }
             out.brought = out.brought.or(LOCAL);
             let mut left = met;

@@ -16,10 +16,12 @@ mod lights;
 mod openness;
 mod optics;
 mod shadow_rays;
+mod widths;
 
 pub use bundle::RayCounts;
 pub(crate) use bundle::{Bundle, CameraRay, Radiance8};
 pub(crate) use crossing::first_met;
+pub(crate) use widths::SampleGrid;
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -28,6 +30,7 @@ use phong_scene::{Background, Rgb};
 
 use crate::math::lanes::set;
 use crate::sampling::{Sampler, Samplers8};
+use crate::texture::Cone;
 use crate::view::View;
 use crate::witness::{Branch, Cut, CutReason, Witness};
 use bundle::count;
@@ -51,6 +54,8 @@ pub(crate) struct Integrator<'a> {
     pub(crate) shadows: bool,
     /// Whether shadow rays from meshes with smooth normals start above the face.
     pub(crate) terminator: bool,
+    /// The picture that rays are samples of.
+    pub(crate) grid: SampleGrid,
     /// Once true, whatever is under way ends soon, and what it brought is unspecified. `None`:
     /// nothing stops it.
     pub(crate) stop: Option<&'a AtomicBool>,
@@ -91,6 +96,8 @@ struct Paths {
     departures: Vec<Departure>,
     /// How far each has gone in fog; empty where there is none.
     ways: Vec<Way>,
+    /// How wide each is; empty where no image asks for it.
+    cones: Vec<Cone>,
 }
 
 /// How far rays are followed.
@@ -139,6 +146,7 @@ impl SecondaryRays {
         self.paths.weights.clear();
         self.paths.departures.clear();
         self.paths.ways.clear();
+        self.paths.cones.clear();
     }
 
     fn push(&mut self, parent: Parent, path_weight: Rgb, ray: &Ray, sampler: Option<Sampler>) {
@@ -365,6 +373,11 @@ impl Integrator<'_> {
                     continue;
                 }
                 let sampler = samplers.get(i).map(|s| s.get(lane).branch(branch as u32));
+                if let Some(widths) = interactions.widths.get(i) {
+                    let behind = paths.cones.get(8 * i + lane).copied();
+                    let cone = self.cone_on(&rays[i], behind, lane, widths[lane]);
+                    secondary.paths.cones.push(cone);
+                }
                 secondary.paths.ways.extend(ways.get(i).map(|ways| ways[lane].on(branch)));
                 let parent = Parent { ray: (i, lane), weight, fresnel };
                 let mut ray = scattered.ray(lane);

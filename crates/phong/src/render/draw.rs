@@ -215,6 +215,7 @@ mod tests {
     use phong_scene::{CameraKind, FilterKind, Image, Light, LightKind, Rgb, Scene};
 
     use super::*;
+    use crate::integrator::SampleGrid;
     use crate::view::View;
 
     #[test]
@@ -238,6 +239,7 @@ mod tests {
                     min_weight: 0.0,
                     shadows: true,
                     terminator: true,
+                    grid: SampleGrid { size: scene.image.size, samples: 3 },
                     stop: None,
                 };
                 let filter = Filter::new(filter);

@@ -9,7 +9,7 @@ use super::queue::{Queue, Task};
 use super::tile::{TileBuffers, TileRenderer};
 use super::{Cancel, Event, Pass, Progress, RenderOptions};
 use crate::film::{Film, FilmTile, LayerKind};
-use crate::integrator::{Integrator, RayCounts};
+use crate::integrator::{Integrator, RayCounts, SampleGrid};
 use crate::view::View;
 
 /// A picture in the making.
@@ -116,6 +116,7 @@ impl<'a> Rendering<'a> {
             min_weight: self.options.min_weight(),
             shadows: self.options.shadows(),
             terminator: self.options.terminator(),
+            grid: SampleGrid { size: self.options.size(), samples: self.options.samples() },
             stop: Some(cancel.flag()),
         };
         let renderer = TileRenderer::new(integrator, self.options, cancel);

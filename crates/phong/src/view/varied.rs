@@ -1,15 +1,15 @@
 //! Surfaces whose materials vary: what their parameters are at a point.
 
-use glam::DVec3;
-use phong_bvh::{Hit, Hits8, Ray, Rays8, Surfaces8, lanes};
-use phong_scene::{ConstantMaterial, Param, Rgb, TextureId, TextureRef};
+use glam::{DVec2, DVec3, Vec3};
+use phong_bvh::{Hit, Hits8, Ray, Rays8, Surface, Surfaces8, lanes};
+use phong_scene::{ConstantMaterial, Param, Rgb, TextureRef, TextureUse};
 
 use super::View;
 use super::shading::Shading8;
 use crate::interaction::SurfaceInteraction;
 use crate::material::Material;
-use crate::math::lanes::set;
-use crate::texture::TexturePoint;
+use crate::math::lanes::{get, set};
+use crate::texture::{Footprint, TexturePoint, footprint};
 
 /// How far back a material that was made is looked for before another one is made.
 const REMEMBERED: usize = 4;
@@ -59,6 +59,7 @@ impl View {
         rays: &Rays8,
         hits: &Hits8,
         surfaces: &Surfaces8,
+        widths: Option<&[f32; 8]>,
         shading: &mut Shading8,
         made: &mut Vec<MadeMaterial>,
     ) {
@@ -70,12 +71,14 @@ impl View {
                 continue;
             }
             let (ray, hit) = (rays.get(lane), hits.get(lane));
-            let point =
-                self.texture_point(&ray, &hit, DVec3::from(surfaces.p.map(|all| all[lane])));
+            let p = DVec3::from(surfaces.p.map(|all| all[lane]));
+            let ng = Vec3::from(get(&surfaces.ng, lane));
+            let width = widths.map_or(0.0, |widths| widths[lane]);
+            let point = self.texture_point(&ray, &hit, p, ng, width);
             if let Some(by) = varied.color()
                 && !self.has_own_color(&hit)
             {
-                let color = Param::<Rgb>::from(by).at(|texture| self.look_up(texture, &point));
+                let color = Param::<Rgb>::from(by).at(|asked| self.look_up(asked, &point));
                 set(&mut shading.color, lane, color.to_array());
             }
             if let Varied::More(_) = varied {
@@ -98,11 +101,11 @@ impl View {
     }
 
     /// The colour of a surface that brings none of its own.
-    pub(super) fn color_at(&self, material: u32, ray: &Ray, hit: &Hit, p: DVec3) -> Rgb {
+    pub(super) fn color_at(&self, material: u32, ray: &Ray, hit: &Hit, at: &Surface) -> Rgb {
         match self.varied(material).color() {
             Some(by) => {
-                let point = self.texture_point(ray, hit, p);
-                Param::<Rgb>::from(by).at(|texture| self.look_up(texture, &point))
+                let point = self.texture_point(ray, hit, at.p, at.ng, 0.0);
+                Param::<Rgb>::from(by).at(|asked| self.look_up(asked, &point))
             }
             None => self.materials[material as usize].color,
         }
@@ -124,27 +127,65 @@ impl View {
 
     /// A material as it was written, and as it is at a point.
     pub fn written_at(&self, number: u32, point: &TexturePoint) -> ConstantMaterial {
-        self.look.materials[number as usize].at(|texture| self.look_up(texture, point))
+        self.look.materials[number as usize].at(|asked| self.look_up(asked, point))
     }
 
     /// Where a surface is for textures.
     pub fn texture_point_of(&self, ray: &Ray, at: &SurfaceInteraction) -> TexturePoint {
-        self.texture_point(ray, &at.hit, at.p)
+        self.texture_point(ray, &at.hit, at.p, at.ng.to_vec(), at.width)
     }
 
-    fn texture_point(&self, ray: &Ray, hit: &Hit, world: DVec3) -> TexturePoint {
+    /// `width` is that of the ray there.
+    fn texture_point(
+        &self,
+        ray: &Ray,
+        hit: &Hit,
+        world: DVec3,
+        ng: Vec3,
+        width: f32,
+    ) -> TexturePoint {
+        let footprint = if width > 0.0 && self.has_images {
+            let sides = footprint(width, ray.dir.as_dvec3(), ng.as_dvec3());
+            Footprint {
+                object: sides.map(|side| self.geometry.own_vector(hit, side)),
+                world: sides,
+                uv: self.uv_changes(ray, hit, sides),
+            }
+        } else {
+            Footprint::default()
+        };
         let here = self.coordinates(ray, hit);
         TexturePoint {
             object: self.geometry.own_point(hit, world),
             world,
             uv: here.uv.to_array(),
             tangent: here.tangent.to_array(),
-            footprint: 0.0,
+            footprint,
         }
     }
 
+    /// How texture coordinates change along two vectors that are tangent to the surface at a hit.
+    fn uv_changes(&self, ray: &Ray, hit: &Hit, along: [DVec3; 2]) -> [DVec2; 2] {
+        if self.cap(hit).is_none() {
+            return self.geometry.uv_changes(ray, hit, along);
+        }
+        // A cap is flat, and its coordinates change evenly.
+        let here = self.coordinates(ray, hit).uv.as_dvec2();
+        along.map(|along| {
+            let beside = Ray { origin: ray.origin + along, ..*ray };
+            self.coordinates(&beside, hit).uv.as_dvec2() - here
+        })
+    }
+
     /// A texture's value; black where the look has no such texture.
-    fn look_up(&self, TextureId(number): TextureId, point: &TexturePoint) -> Rgb {
-        self.textures.get(number as usize).map_or(Rgb::BLACK, |texture| texture.value(point))
+    fn look_up(&self, asked: TextureUse, point: &TexturePoint) -> Rgb {
+        let texture = self.textures.get(asked.texture.0 as usize);
+        texture.map_or(Rgb::BLACK, |texture| texture.value(point, asked))
+    }
+
+    /// Whether any texture's values depend on how much of a surface a look-up stands for.
+    #[inline]
+    pub(crate) fn has_images(&self) -> bool {
+        self.has_images
     }
 }

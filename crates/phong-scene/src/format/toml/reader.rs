@@ -13,7 +13,7 @@ use super::notes::Notes;
 use super::path::normal;
 use super::table::{Values, say_unknown};
 use super::text::{Spot, Text};
-use super::texture::{self, TextureNames};
+use super::texture::{self, ImageFiles, Images, TextureNames};
 use super::{material, reuse, settings, shape, syntax};
 use crate::ambient_occlusion::AmbientOcclusion;
 use crate::camera::Camera;
@@ -56,6 +56,8 @@ pub(super) struct Reader<'a> {
     light_count: usize,
     pub(super) materials: Named<Material>,
     pub(super) textures: Named<Texture>,
+    /// The images of textures that were read.
+    images: ImageFiles,
     /// The textures that materials name.
     pub(super) texture_names: TextureNames,
     /// The materials that shapes name, and where.
@@ -106,6 +108,7 @@ impl<'a> Reader<'a> {
             light_count: 0,
             materials: Named::new(),
             textures: Named::new(),
+            images: ImageFiles::default(),
             texture_names: TextureNames::default(),
             material_names: Vec::new(),
             fragments: Vec::new(),
@@ -335,7 +338,13 @@ impl<'a> Reader<'a> {
                 let over = self.changes.over("textures", &[name]);
                 let notes = &mut self.notes;
                 let values = Values::read_changed(&keys::TEXTURE, text, spot, &over, notes);
-                let read = texture::texture(&values, name, &mut self.notes);
+                let images = &mut Images {
+                    path,
+                    source: self.source,
+                    limits: self.limits,
+                    read: &mut self.images,
+                };
+                let read = texture::texture(&values, name, images, &mut self.notes);
                 let declared = self.textures.declare("texture", name, spot, &mut self.notes);
                 if let Some(number) = declared {
                     self.textures.items[number as usize].2 = read;

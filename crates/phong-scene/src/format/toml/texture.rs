@@ -1,24 +1,67 @@
 //! `[textures.NAME]`, and what takes its values from one.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 
 use super::draft::{Named, say_unknown_name};
 use super::notes::Notes;
+use super::path::{join, normal};
 use super::shape;
 use super::table::Values;
 use super::text::Spot;
 use crate::check::{material as judge, texture as texture_judge};
+use crate::limits::Limits;
 use crate::material::Material;
-use crate::texture::{Texture, TextureId, TextureRef};
+use crate::source::Source;
+use crate::texels::{self, Texels};
+use crate::texture::{Texture, TextureId, TextureKind, TextureRef};
+use crate::wording;
+
+/// The images of textures, each file of which is read once.
+#[derive(Debug, Default)]
+pub(super) struct ImageFiles(BTreeMap<String, Result<Arc<Texels>, String>>);
+
+/// Where the images of one file's textures are found.
+pub(super) struct Images<'a> {
+    /// The file that names them.
+    pub(super) path: &'a str,
+    pub(super) source: &'a dyn Source,
+    pub(super) limits: &'a Limits,
+    pub(super) read: &'a mut ImageFiles,
+}
+
+impl Images<'_> {
+    /// The pixels of the image of this name, which stands there; `None`: what is wrong has been said.
+    fn load(&mut self, file: &str, spot: Spot, notes: &mut Notes) -> Option<Arc<Texels>> {
+        let path = join(self.path, file);
+        let load = || texels::load(&path, self.source, self.limits);
+        match self.read.0.entry(normal(&path)).or_insert_with(load) {
+            Ok(texels) => Some(Arc::clone(texels)),
+            Err(message) => {
+                let message = format!("{} cannot be read: {message}", wording::path(&path));
+                notes.error(spot, message);
+                None
+            }
+        }
+    }
+}
 
 /// A texture; what is wrong with it has been said.
-pub(super) fn texture(v: &Values, name: &str, notes: &mut Notes) -> Option<Texture> {
+pub(super) fn texture(
+    v: &Values,
+    name: &str,
+    images: &mut Images<'_>,
+    notes: &mut Notes,
+) -> Option<Texture> {
     let mut texture =
         Texture { name: name.to_owned(), place: notes.place(v.spot), ..Texture::default() };
     v.fill(&mut texture)?;
     texture.transform = place(v, notes)?;
+    if let TextureKind::Image { file, texels, .. } = &mut texture.kind {
+        *texels = images.load(file, v.spot_of("file"), notes)?;
+    }
     let sound =
         notes.judge(|key| v.spot_of(key), |faults| texture_judge::texture(&texture, faults));
     sound.then_some(texture)

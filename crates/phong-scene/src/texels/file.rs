@@ -1,0 +1,57 @@
+//! Image files: which format one is, by what it begins with, and its pixels.
+
+use std::sync::Arc;
+
+use super::{Texels, jpeg, png};
+use crate::limits::Limits;
+use crate::source::{Source, trouble};
+
+/// The pixels of the image file at `path`, or a clause that says what is wrong with it.
+pub(crate) fn load(
+    path: &str,
+    source: &dyn Source,
+    limits: &Limits,
+) -> Result<Arc<Texels>, String> {
+    let blob = source.open(path).map_err(|error| trouble(&error))?;
+    // A file that is larger than all it may hold is none that can be read.
+    let most = limits.bytes.min(MOST_BYTES);
+    if blob.len() > most {
+        return Err(format!("it is larger than {most} bytes"));
+    }
+    let mut bytes = vec![0; blob.len() as usize];
+    let read = blob.read_full(&mut bytes, 0).map_err(|error| trouble(&error))?;
+    bytes.truncate(read);
+    decode(&bytes, limits).map(Arc::new)
+}
+
+/// The most bytes of an image file.
+const MOST_BYTES: u64 = 1 << 32;
+
+/// The pixels of an image file whose bytes these are, or a clause that says what is wrong with it.
+pub(crate) fn decode(bytes: &[u8], limits: &Limits) -> Result<Texels, String> {
+    match bytes {
+        [] => Err("it is empty".to_owned()),
+        [0x89, b'P', b'N', b'G', ..] => png::decode(bytes, limits),
+        [0xff, 0xd8, ..] => jpeg::decode(bytes, limits),
+        _ => Err("it is no PNG, JPEG, HDR or EXR".to_owned()),
+    }
+}
+
+/// Whether an image of this size may be read, `bytes` being what a pixel of it takes.
+pub(super) fn allow(size: [u32; 2], bytes: u64, limits: &Limits) -> Result<(), String> {
+    let [width, height] = size;
+    if width == 0 || height == 0 {
+        return Err(format!("it has no pixels: it is {width} × {height}"));
+    }
+    let pixels = u64::from(width) * u64::from(height);
+    if pixels > limits.image_pixels {
+        let most = limits.image_pixels;
+        return Err(format!("it is {width} × {height}: more than {most} pixels"));
+    }
+    let needed = pixels.saturating_mul(bytes);
+    if needed > limits.bytes {
+        let most = limits.bytes;
+        return Err(format!("its pixels take {needed} bytes, over the limit of {most}"));
+    }
+    Ok(())
+}

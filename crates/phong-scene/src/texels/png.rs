@@ -1,0 +1,41 @@
+//! PNG, of every colour type and depth.
+
+use std::io::Cursor;
+
+use png::{BitDepth, ColorType, Decoder, Transformations};
+
+use super::file::allow;
+use super::{TexelValues, Texels};
+use crate::limits::Limits;
+
+/// The pixels, or a clause that says what is wrong. Palettes become colours, depths below 8 bytes.
+pub(super) fn decode(bytes: &[u8], limits: &Limits) -> Result<Texels, String> {
+    let broken = |error: png::DecodingError| format!("it is a broken PNG: {error}");
+    // What it may allocate for chunks; the pixels are counted below.
+    let most = usize::try_from(limits.bytes).unwrap_or(usize::MAX).min(64 << 20);
+    let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), png::Limits { bytes: most });
+    decoder.set_transformations(Transformations::EXPAND);
+    decoder.ignore_checksums(false);
+    let mut reader = decoder.read_info().map_err(broken)?;
+    let size = [reader.info().width, reader.info().height];
+    let (color, depth) = reader.output_color_type();
+    let channels = match color {
+        ColorType::Grayscale | ColorType::Indexed => 1,
+        ColorType::GrayscaleAlpha => 2,
+        ColorType::Rgb => 3,
+        ColorType::Rgba => 4,
+    };
+    let wide = depth == BitDepth::Sixteen;
+    allow(size, if wide { 2 * channels } else { channels }, limits)?;
+    let length = reader.output_buffer_size().ok_or("it is a broken PNG: it is too large")?;
+    let mut data = vec![0; length];
+    let frame = reader.next_frame(&mut data).map_err(broken)?;
+    data.truncate(frame.buffer_size());
+    let values = if wide {
+        let (pairs, _) = data.as_chunks::<2>();
+        TexelValues::Shorts(pairs.iter().map(|&pair| u16::from_be_bytes(pair)).collect())
+    } else {
+        TexelValues::Bytes(data)
+    };
+    Texels::new(size, channels as usize, values).map_err(|error| error.to_string())
+}

@@ -1,0 +1,71 @@
+//! How texture coordinates change along a surface.
+
+use glam::{DVec2, DVec3};
+use phong_bvh::{Canonical, Hit, Primitives, Ray};
+
+use super::Geometry;
+
+/// How much of a step is taken where the change is measured: it is not the same all over the surface.
+const STEP: f64 = 1.0 / 16.0;
+
+impl Geometry {
+    /// A vector of the world in the own space of the object hit, as [`Geometry::own_point`] has points.
+    ///
+    /// # Panics
+    /// If `hit` is none.
+    pub fn own_vector(&self, hit: &Hit, world: DVec3) -> DVec3 {
+        let object = self.object(hit);
+        let place = self.own_spaces.binary_search_by_key(&object, |&(object, _)| object);
+        place.map_or(world, |place| self.own_spaces[place].1.transform_vector3(world))
+    }
+
+    /// How the texture coordinates change along two vectors that are tangent to the surface at a hit of `ray`.
+    ///
+    /// # Panics
+    /// If `hit` is none.
+    pub fn uv_changes(&self, ray: &Ray, hit: &Hit, along: [DVec3; 2]) -> [DVec2; 2] {
+        let [Some(a), Some(b)] = along.map(|along| self.weights_change(hit, along)) else {
+            return self.measured(ray, hit, along);
+        };
+        let corners = self.corners(hit.part, hit.prim);
+        match corners.and_then(|corners| self.batch(hit.part).uv_edges(hit.prim, corners)) {
+            Some([ab, ac]) => [a, b].map(|change| change.x * ab + change.y * ac),
+            None => [a, b],
+        }
+    }
+
+    /// How the weights of a triangle's second and third corner change along a vector; `None`: it is none.
+    fn weights_change(&self, hit: &Hit, along: DVec3) -> Option<DVec2> {
+        match self.world.primitives(hit.part) {
+            Primitives::Triangles { positions, indices } => {
+                let at = |i: u32| positions[i as usize].as_dvec3();
+                let [a, b, c] = indices[hit.prim as usize].map(at);
+                let (ab, ac) = (b - a, c - a);
+                let bulk = self.batch(hit.part).is_bulk();
+                let along = if bulk { self.own_vector(hit, along) } else { along };
+                let (bb, bc, cc) = (ab.dot(ab), ab.dot(ac), ac.dot(ac));
+                let (b, c) = (ab.dot(along), ac.dot(along));
+                let change = DVec2::new(cc * b - bc * c, bb * c - bc * b) / (bb * cc - bc * bc);
+                Some(if change.is_finite() { change } else { DVec2::ZERO })
+            }
+            Primitives::Solid(solid) if solid.shape == Canonical::Triangle => {
+                let change = (solid.to_world.matrix3.inverse() * along).truncate();
+                Some(if change.is_finite() { change } else { DVec2::ZERO })
+            }
+            _ => None,
+        }
+    }
+
+    /// The change measured: by rays that meet the surface a little further on.
+    fn measured(&self, ray: &Ray, hit: &Hit, along: [DVec3; 2]) -> [DVec2; 2] {
+        let here = self.coordinates(ray, hit).uv.as_dvec2();
+        let is_plane = matches!(self.world.primitives(hit.part), Primitives::Plane(_));
+        along.map(|along| {
+            let beside = Ray { origin: ray.origin + STEP * along, ..*ray };
+            let change = self.coordinates(&beside, hit).uv.as_dvec2() - here;
+            // Around what is round, 1 is 0 again.
+            let change = if is_plane { change } else { change - change.round() };
+            if change.is_finite() { change / STEP } else { DVec2::ZERO }
+        })
+    }
+}

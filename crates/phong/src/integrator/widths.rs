@@ -1,0 +1,64 @@
+//! How wide rays are where they meet a surface: what a look-up of an image stands for.
+//!
+//! Each ray knows it by itself, from the camera, the picture's size and its number of samples, and from the
+//! surfaces that it came by: never from the rays beside it, which another crop, tile or pass does not have.
+
+use phong_bvh::{Hits8, Rays8, lanes};
+
+use super::{Integrator, Paths};
+use crate::math::lanes::direction;
+use crate::texture::Cone;
+
+/// The pixels that a picture has, and the samples that each of them is the mean of.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SampleGrid {
+    /// Width and height of the picture.
+    pub(crate) size: [u32; 2],
+    /// Samples of each pixel, when all is done.
+    pub(crate) samples: u32,
+}
+
+impl Integrator<'_> {
+    /// Finds out how wide rays are where they meet something: of each in `widths`, by its lane.
+    pub(super) fn measure_widths(
+        &self,
+        rays: &[Rays8],
+        hits: &[Hits8],
+        paths: &Paths,
+        widths: &mut Vec<[f32; 8]>,
+    ) {
+        let camera = self.scene.camera();
+        let SampleGrid { size, samples } = self.grid;
+        for (i, (rays, hits)) in rays.iter().zip(hits).enumerate() {
+            let mut eight = [0.0; 8];
+            for lane in lanes(hits.met) {
+                let behind = paths.cones.get(8 * i + lane).copied();
+                let dir = direction(&rays.dir, lane).to_vec();
+                let ray = rays.get(lane);
+                // A ray from the camera may start further on, where there is something to meet.
+                let before = if behind.is_none() {
+                    (ray.origin - camera.eye()).length() as f32
+                } else {
+                    0.0
+                };
+                let cone = behind.unwrap_or_else(|| camera.cone(dir, size, samples));
+                eight[lane] = cone.width_at(before + hits.t[lane]);
+            }
+            widths.push(eight);
+        }
+    }
+
+    /// The cone about a ray that goes on from a surface where the one before is `width` wide.
+    pub(super) fn cone_on(
+        &self,
+        rays: &Rays8,
+        behind: Option<Cone>,
+        lane: usize,
+        width: f32,
+    ) -> Cone {
+        let SampleGrid { size, samples } = self.grid;
+        let dir = direction(&rays.dir, lane).to_vec();
+        let before = behind.unwrap_or_else(|| self.scene.camera().cone(dir, size, samples));
+        Cone { width, ..before }
+    }
+}

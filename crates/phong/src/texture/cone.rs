@@ -1,0 +1,49 @@
+//! How wide a ray is: what one look-up of a texture stands for.
+
+use glam::DVec3;
+
+/// The cone of space about a ray that its sample of the picture stands for.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Cone {
+    /// How wide it is where the ray starts, across the ray, in units of the world.
+    pub width: f32,
+    /// How much wider it grows with each unit of the way.
+    pub spread: f32,
+}
+
+/// How grazing a surface counts at most: the least cosine.
+const LEAST_COSINE: f64 = 1e-4;
+
+impl Cone {
+    /// How wide it is after so long a way.
+    pub fn width_at(self, t: f32) -> f32 {
+        self.width + self.spread * t
+    }
+}
+
+/// The sides of what a ray of direction `dir` that is `width` wide covers of a surface whose unit normal is
+/// `normal`: the shorter side, across the ray, and the longer one.
+pub fn footprint(width: f32, dir: DVec3, normal: DVec3) -> [DVec3; 2] {
+    let width = f64::from(width);
+    let cos = dir.dot(normal).abs();
+    let across = normal.cross(dir);
+    let across = across.try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
+    let along = normal.cross(across);
+    [width * across, width / cos.max(LEAST_COSINE) * along]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_footprint_is_as_long_as_the_surface_is_grazed() {
+        let dir = DVec3::new(3.0, 0.0, -4.0) / 5.0;
+        let [short, long] = footprint(0.1, dir, DVec3::Z);
+        assert!((short.length() - 0.1).abs() < 1e-7 && (short.y.abs() - 0.1).abs() < 1e-7);
+        assert!((long.length() - 0.125).abs() < 1e-7 && (long.x.abs() - 0.125).abs() < 1e-7);
+        let [a, b] = footprint(1.0, -DVec3::Z, DVec3::Z);
+        assert!((a.length() - 1.0).abs() < 1e-6 && a.dot(b).abs() < 1e-6 && a.z == 0.0);
+        assert!(footprint(1.0, DVec3::X, DVec3::Z)[1].is_finite());
+    }
+}
