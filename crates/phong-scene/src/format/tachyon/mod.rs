@@ -16,10 +16,12 @@
 //! | `PLANE`, `BOX`, `RING` | a plane, a box, a disc or a flat ring of 96 parts |
 //! | `CYLINDER` | a cylinder of 2000 times its distance from the camera in length |
 //! | a texture: `AMBIENT DIFFUSE PHONG PHONG_SIZE` | `k_a k_d k_s shininess` of Blinn–Phong; `METAL` tints the highlight by the object alone |
-//! | `SPECULAR`; `OPACITY` | the weight of the mirror ray; 1 − it is the weight of the ray that goes straight on |
+//! | `SPECULAR`; `OPACITY` | the weight of the mirror ray; 1 − it is the weight of the ray that goes straight on, and what of light goes through |
 //! | `TEXDEF`, `TEXALIAS` | names, of which the first definition counts. An unknown one is grey, with a warning |
-//! | `TEXFUNC` 1 to 9, `OUTLINE`, `TRANSMODE R3D` | their constant colour: a warning |
-//! | `SHADER_MODE`: `MEDIUM` and less; `TRANS_VMD` | no shadows; what is seen through is not added to but mixed with the surface |
+//! | `TEXFUNC 1` | cubes of orange and blue, three a unit, with the middle of a blue one at `CENTER`: as there, neither the colour nor `ROTATE` and `SCALE` count |
+//! | `TEXFUNC` 2 to 9, `OUTLINE` | their constant colour: a warning |
+//! | `SHADER_MODE`: `MEDIUM` and less; `TRANS_VMD` | no shadows; what is seen through is not added to but mixed with the surface: `opacity` |
+//! | `TRANSMODE R3D` | with `TRANS_VMD` opacity that grows to the rim (`opacity_mode`); shadows then do so too; else a warning |
 //! | ambient occlusion | `k_a` grows by `DIFFUSE` times its colour; the file's own ambient light is hidden with it |
 //! | `FOG`; `FOG_VMD` | linear fog, exponential fog and its square, which begin at the eye; by the distance along the axis |
 //! | clip groups, `SCALARVOL`, `SCAPE`, `TPOLYFILE`, `MGFFILE` | nothing: a warning that counts them |

@@ -8,7 +8,7 @@ use glam::DVec3;
 use super::camera::Frame;
 use super::shapes::{Bulk, ring};
 use super::sky::{Gradient, Haze};
-use super::texture::{Texture, rgb};
+use super::texture::{Drawing, Key, Texture, rgb};
 use super::things::{Lamp, Mode, Named, Statement, Things};
 use crate::ambient_occlusion::{AmbientOcclusion, OcclusionDistance};
 use crate::color::Rgb;
@@ -17,7 +17,7 @@ use crate::format::input::Input;
 use crate::format::text::{Findings, whole};
 use crate::format::triangles::has_room;
 use crate::light::{Light, LightKind};
-use crate::material::{Material, MaterialId};
+use crate::material::MaterialId;
 use crate::mesh::Caps;
 use crate::scene::{Background, Image, Object, Scene};
 use crate::shape::Shape;
@@ -43,7 +43,7 @@ pub(super) struct Assembly<'a> {
     pub(super) told: Vec<Diagnostic>,
     textures: BTreeMap<Vec<u8>, Texture>,
     /// Things of many kinds, by the numbers of their textures without the colour.
-    groups: BTreeMap<[u32; 8], usize>,
+    groups: BTreeMap<Key, usize>,
     bulk: Vec<Bulk>,
     /// Others, with their textures.
     objects: Vec<(Shape, Texture, Place)>,
@@ -361,6 +361,13 @@ impl<'a> Assembly<'a> {
             let message = "textures have patterns, images or outlines; their colour is drawn alone";
             warn("patterns", message.to_owned());
         }
+        let all = self.bulk.iter().map(|bulk| bulk.texture);
+        let mut all = all.chain(self.objects.iter().map(|(_, texture, _)| *texture));
+        if !self.mode.mixed && all.any(|texture| texture.angle && texture.opacity < 1.0) {
+            let message = "opacity by angle (`TRANSMODE R3D`) is the same at every angle where what \
+                           is behind is added, and not mixed (`TRANS_VMD`)";
+            warn("opacities", message.to_owned());
+        }
         if self.left_out > 0 {
             let message = format!(
                 "things without an extent, or of which a number is none: {}; they are left out",
@@ -410,11 +417,11 @@ impl<'a> Assembly<'a> {
             let Rgb { r, g, b } = rgb(color);
             (r + g + b) / 3.0
         });
-        let mixed = self.mode.mixed;
+        let drawing = Drawing { mixed: self.mode.mixed, open };
         let number = |scene: &mut Scene, texture: &Texture| -> MaterialId {
             let id = MaterialId(scene.materials.len() as u32);
             let name = format!("texture {}", id.0);
-            scene.materials.push(Material::from(texture.material(name, mixed, open)));
+            scene.materials.push(texture.material(name, drawing, &mut scene.textures));
             id
         };
         let mut known = BTreeMap::new();

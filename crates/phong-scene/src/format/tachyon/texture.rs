@@ -1,8 +1,22 @@
 //! Textures: what surfaces are like.
 
+use glam::{DAffine3, DVec3, Vec3};
+
 use crate::color::Rgb;
 use crate::format::text::{Parsed, Words};
-use crate::material::{ConstantMaterial, Dialect, Model, Tint};
+use crate::material::{
+    ConstantMaterial, Dialect, Material, Model, OpacityMode, ShadowRule, Tint,
+};
+use crate::texture::{Texture as Pattern, TextureId, TextureKind, TextureRef, TextureSpace};
+
+/// The colours of `TEXFUNC 1`, which no file says: those of its even cubes, and of its odd ones.
+const CHECKER: [Rgb; 2] = [Rgb::new(0.0, 0.2, 1.0), Rgb::new(1.0, 0.2, 0.0)];
+
+/// How many of its cubes are in a row of one unit.
+const CUBES: f64 = 3.0;
+
+/// All of a texture but its colour, as bits.
+pub(super) type Key = ([u32; 6], [bool; 3], Option<[u32; 3]>);
 
 /// What a texture says.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,8 +30,21 @@ pub(super) struct Texture {
     pub(super) exponent: f32,
     pub(super) metal: bool,
     pub(super) color: [f32; 3],
-    /// Whether it says more than is drawn: a pattern, an image, an outline.
+    /// Whether its opacity depends on the angle that it is seen at (`TRANSMODE R3D`).
+    pub(super) angle: bool,
+    /// The middle of a cube of its checker.
+    pub(super) checker: Option<[f32; 3]>,
+    /// Whether it says more than is drawn: another pattern, an image, an outline.
     pub(super) more: bool,
+}
+
+/// How all surfaces of a scene are drawn.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Drawing {
+    /// What is seen through a surface is not added to it but takes its place.
+    pub(super) mixed: bool,
+    /// What ambient occlusion's light is.
+    pub(super) open: f32,
 }
 
 impl Texture {
@@ -31,6 +58,8 @@ impl Texture {
         exponent: 100.0,
         metal: false,
         color: [0.8; 3],
+        angle: false,
+        checker: None,
         more: false,
     };
 
@@ -44,12 +73,17 @@ impl Texture {
         if function == 0 || function > 9 {
             return Ok(texture);
         }
-        texture.more = true;
         if function >= 7 {
             words.some("the name of an image")?;
         }
-        for key in ["CENTER", "ROTATE", "SCALE"] {
-            words.keyed(key)?;
+        let middle = words.keyed("CENTER")?;
+        words.keyed("ROTATE")?;
+        words.keyed("SCALE")?;
+        if function == 1 && middle.is_finite() {
+            // The checker is neither turned nor scaled, and its colours are its own.
+            (texture.checker, texture.color) = (Some(middle.to_array()), [1.0; 3]);
+        } else {
+            texture.more = true;
         }
         if function == 9 {
             words.keyed("UAXIS")?;
@@ -86,8 +120,7 @@ impl Texture {
             ..Self::DEFAULT
         };
         if words.has("TRANSMODE") {
-            words.some("a mode")?;
-            texture.more = true;
+            texture.angle = words.some("a mode")?.eq_ignore_ascii_case(b"r3d");
         }
         if words.has("OUTLINE") {
             texture.more |= words.number()? > 0.0;
@@ -102,15 +135,15 @@ impl Texture {
     }
 
     /// Its numbers as bits, without the colour: what is of one material but for its colour is alike.
-    pub(super) fn key(&self) -> [u32; 8] {
-        let Self { ambient, diffuse, specular, opacity, phong, exponent, metal, more, .. } = *self;
-        let [a, d, s, o, p, n] =
-            [ambient, diffuse, specular, opacity, phong, exponent].map(f32::to_bits);
-        [a, d, s, o, p, n, u32::from(metal), u32::from(more)]
+    pub(super) fn key(&self) -> Key {
+        let Self { ambient, diffuse, specular, opacity, phong, exponent, .. } = *self;
+        let Self { metal, more, angle, checker, .. } = *self;
+        let numbers = [ambient, diffuse, specular, opacity, phong, exponent].map(f32::to_bits);
+        (numbers, [metal, more, angle], checker.map(|middle| middle.map(f32::to_bits)))
     }
 
     /// Its numbers and its colour as bits.
-    pub(super) fn key_with_color(&self) -> ([u32; 8], [u32; 3]) {
+    pub(super) fn key_with_color(&self) -> (Key, [u32; 3]) {
         (self.key(), self.color.map(f32::to_bits))
     }
 
@@ -119,33 +152,59 @@ impl Texture {
         rgb(self.color)
     }
 
-    /// The material. `mixed`: what is seen through it is not added to it but takes its place.
-    pub(super) fn material(&self, name: String, mixed: bool, open: f32) -> ConstantMaterial {
+    /// The material; its pattern becomes the last of all.
+    pub(super) fn material(
+        &self,
+        name: String,
+        drawing: Drawing,
+        patterns: &mut Vec<Pattern>,
+    ) -> Material {
         let sound = |number: f32| if number > 0.0 { number.min(1e6) } else { 0.0 };
         let opacity = sound(self.opacity).min(1.0);
-        let share = if mixed { opacity } else { 1.0 };
         let (dialect, tint) = if self.metal {
             (Dialect::TachyonMetal, Tint::Object)
         } else {
             (Dialect::Tachyon, Tint::Light)
         };
-        ConstantMaterial {
+        let mut material = ConstantMaterial {
             name,
             model: Model::BlinnPhong,
             color: self.rgb(),
             specular_color: (!self.metal).then_some(Rgb::WHITE),
-            k_a: share * (sound(self.ambient) + open * sound(self.diffuse)),
-            k_d: share * sound(self.diffuse),
-            k_s: share * sound(self.phong),
+            k_a: sound(self.ambient) + drawing.open * sound(self.diffuse),
+            k_d: sound(self.diffuse),
+            k_s: sound(self.phong),
             shininess: sound(self.exponent),
-            reflection: Rgb::grey(share * sound(self.specular)),
-            transmission: Rgb::grey(1.0 - opacity),
+            reflection: Rgb::grey(sound(self.specular)),
             ior: 1.0,
             fresnel: false,
             dialect,
             tint,
             ..ConstantMaterial::default()
+        };
+        if drawing.mixed {
+            material.opacity = opacity;
+            if self.angle && opacity < 1.0 {
+                material.opacity_mode = OpacityMode::Angle;
+            }
+        } else if opacity < 1.0 {
+            material.transmission = Rgb::grey(1.0 - opacity);
+            material.shadow = Some(ShadowRule::Filtered);
         }
+        let mut material = Material::from(material);
+        if let Some(middle) = self.checker {
+            // The format's cubes have a middle at this place, ours a corner.
+            let corner = Vec3::from(middle).as_dvec3() - DVec3::splat(0.5 / CUBES);
+            material.color = TextureRef::new(TextureId(patterns.len() as u32)).into();
+            patterns.push(Pattern {
+                name: format!("checker {}", patterns.len() + 1),
+                kind: TextureKind::Checker { colors: CHECKER, scale: CUBES },
+                space: TextureSpace::World,
+                transform: DAffine3::from_translation(corner),
+                ..Pattern::default()
+            });
+        }
+        material
     }
 }
 

@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 
 use super::camera::Frame;
 use super::sky::{Gradient, Haze};
-use super::texture::Texture;
+use super::texture::{Key, Texture};
 use crate::format::text::{Parsed, Words};
 
 /// A statement of which there are few.
@@ -120,7 +120,7 @@ pub(super) struct Things {
     /// How many textures have been named.
     count: u32,
     names: HashMap<Vec<u8>, u32>,
-    own: HashMap<([u32; 8], [u32; 3]), u32>,
+    own: HashMap<(Key, [u32; 3]), u32>,
     last: Option<(Vec<u8>, u32)>,
 }
 
