@@ -137,14 +137,24 @@ def fit(a: str, b: str) -> Fit:
 
 
 def convert(
-    scene: Scene | Path, path: Path, *, to: str | None = None, ascii: bool = False
+    scene: Scene | Path,
+    path: Path,
+    *,
+    to: str | None = None,
+    ascii: bool = False,
+    tessellate: float | None = None,
 ) -> Conversion:
-    """Writes a scene in the format that ``path`` ends in (or ``to`` says): TOML, OBJ, PLY.
+    """Writes a scene in the format that ``path`` ends in (or ``to`` says): TOML, OBJ, PLY,
+    STL, glTF, Tachyon.
 
     Arrays of a TOML lie beside it in PLY files (``ascii``: as text). What was mapped by which
-    formula, and what was dropped, is told.
+    formula, and what was dropped, is told. ``tessellate``: triangles in place of spheres,
+    cylinders, cones, tori, discs and boxes, nowhere farther than this from the surface, in scene
+    units, above 0.
     """
-    return Conversion(json.loads(_phong._convert(scene_of(scene), path, to, ascii)))
+    return Conversion(
+        json.loads(_phong._convert(scene_of(scene), path, to, ascii, tessellate))
+    )
 
 
 def check(scene: Scene | Path, *, format: str | None = None) -> list[Diagnostic]:

@@ -148,3 +148,16 @@ fn odd_models_are_converted_or_refused_like_any_input() {
     let names = ["empty.obj", "empty.toml", "lost.mesh-1.ply", "lost.obj", "lost.toml"];
     assert_eq!(folder.names(), [&names[..], &["nan.obj", "same.toml"]].concat());
 }
+
+#[test]
+fn solids_become_triangles_within_a_tolerance_and_the_account_counts_them() {
+    let folder = given(&[("a.toml", BALLS)]);
+    let then = folder.done("convert a.toml a.stl --tessellate 0.05");
+    assert!(then.err.contains("nowhere farther than 0.05 from the surface"), "{}", then.err);
+    assert!(!then.err.contains("sphere 1` are left out"), "{}", then.err);
+    for wrong in ["0", "-1", "nan", "inf", "fine"] {
+        folder
+            .when(&format!("convert a.toml b.stl --tessellate {wrong}"))
+            .is_refused(&["a tolerance is a number above 0"]);
+    }
+}

@@ -173,6 +173,7 @@ pub(crate) fn _convert(
     path: &Bound<'_, PyAny>,
     to: Option<&str>,
     ascii: bool,
+    tessellate: Option<f64>,
 ) -> PyResult<String> {
     let py = scene.py();
     let path = phong_scene::path_of(&path_of(path)?);
@@ -193,7 +194,7 @@ pub(crate) fn _convert(
     };
     let ply = if ascii { PlyEncoding::Ascii } else { PlyEncoding::Binary };
     let max_bytes = memory();
-    let options = ExportOptions { format, ply, bare, max_bytes };
+    let options = ExportOptions { format, ply, bare, max_bytes, tessellate };
     work::quietly(py, None, move |_| write_files(own, &options, &path))?
 }
 

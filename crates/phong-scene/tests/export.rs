@@ -269,3 +269,138 @@ fn instances_that_unfold_beyond_memory_are_refused() {
     let error = scene(&text).export(&options, "b.obj").expect_err("too much");
     assert!(error.message.contains("1048576 triangles"), "{error}");
 }
+
+/// One of each shape, placed evenly and unevenly, one of them in a group.
+const SOLIDS: &str = "[[sphere]]\ncenter = [1, 2, 3]\nradius = 2\nscale = [1, 3, 1]\n\
+    [[box]]\nmin = [5, 0, 0]\nmax = [6, 2, 1]\nrotate = [0, 1, 1, 30]\n\
+    [[cylinder]]\nfrom = [10, 0, 0]\nto = [10, 2, 1]\nradius = 0.5\n\
+    [[cone]]\nfrom = [15, 0, 0]\nto = [15, 2, 0]\nradius = 1\n\
+    [[cone]]\nfrom = [15, 5, 0]\nto = [15, 7, 0]\nradius = 0\nradius_to = 0.5\n\
+    [[torus]]\ncenter = [20, 0, 0]\naxis = [1, 1, 0]\nradius = 1\ntube = 0.25\n\
+    [groups.g]\n[[groups.g.sphere]]\ncenter = [0, 0, 0]\nradius = 0.1\n\
+    [[instance]]\ngroup = \"g\"\nscale = 10\n[[instance]]\ngroup = \"g\"\ntranslate = [0, 9, 0]\n";
+
+fn capsules() -> Scene {
+    let mut scene = scene(SOLIDS);
+    let between = |y: f32, a: f32, b: f32, length: f32| [[0.0, y, -20.0, a], [length, y, -20.0, b]];
+    for (caps, y) in [(Caps::Round, 0.0), (Caps::Flat, 10.0)] {
+        let segments = [
+            between(y, 0.5, 0.5, 2.0),
+            between(y + 3.0, 0.5, 0.2, 2.0),
+            between(y + 6.0, 0.1, 0.7, 0.3),
+        ];
+        let colors = [[Rgb::WHITE; 2], [Rgb::WHITE, Rgb::BLACK], [Rgb::BLACK, Rgb::WHITE]];
+        let cylinders = Cylinders {
+            segments: segments.into(),
+            colors: colors.into(),
+            caps,
+            ..Default::default()
+        };
+        scene.objects.push(Object::from(cylinders));
+    }
+    scene
+}
+
+fn tessellated(scene: Scene, format: Format, tolerance: f64) -> Result<Export, String> {
+    let tessellate = Some(tolerance);
+    let options =
+        ExportOptions { format, tessellate, max_bytes: 1 << 30, ..ExportOptions::default() };
+    scene.export(&options, "b.ply").map_err(|error| error.to_string())
+}
+
+#[test]
+fn triangles_in_place_of_solids_are_closed_and_face_outwards() {
+    let export = tessellated(capsules(), Format::Ply, 0.02).expect("triangles");
+    let said = export.account.mapped.join("\n");
+    for wanted in ["2 cones become", "6 cylinders become", "1 box becomes 12 triangles", "0.02"] {
+        assert!(said.contains(wanted), "{said}");
+    }
+    assert!(!told(&export).contains("left out: `sphere"), "{}", told(&export));
+    let mut bytes = Vec::new();
+    export.files[0].write(&mut bytes).expect("memory");
+    let model = read_in(&Memory::new().with("b.ply", bytes), "b.ply").scene.expect("a model");
+    let Shape::Mesh(mesh) = &model.objects[0].shape else { panic!("a mesh") };
+    // Every edge is there as often one way as the other.
+    let mut edges = std::collections::BTreeMap::new();
+    let mut volume = 0.0;
+    for (face, corners) in mesh.indices.iter().enumerate() {
+        let places = corners.map(|i| mesh.positions[i as usize]);
+        let [a, b, c] = places.map(|p| p.as_dvec3());
+        volume += a.dot(b.cross(c)) / 6.0;
+        let normals =
+            if mesh.normal_indices.is_empty() { corners } else { &mesh.normal_indices[face] };
+        let flat = (b - a).cross(c - a);
+        for normal in normals.iter().map(|i| mesh.normals[*i as usize].as_dvec3()) {
+            assert!(flat.dot(normal) > 0.0, "{places:?} {normal}");
+        }
+        for i in 0..3 {
+            let [from, to] =
+                [places[i], places[(i + 1) % 3]].map(|p| p.to_array().map(f32::to_bits));
+            *edges.entry((from, to)).or_insert(0) += 1;
+            *edges.entry((to, from)).or_insert(0) -= 1;
+        }
+    }
+    assert!(edges.values().all(|open| *open == 0), "closed");
+    assert!(volume > 0.0, "{volume}");
+}
+
+#[test]
+fn triangles_stay_within_the_tolerance_wherever_they_are_placed() {
+    use std::f64::consts::PI;
+    // Spheres, as an ellipsoid and by an instance ten times as large; a torus: what their points are off.
+    let off: [(&str, &dyn Fn(DVec3) -> f64); 3] = [
+        ("[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nscale = 3\n", &|p| p.length() - 3.0),
+        (
+            "[groups.g]\n[[groups.g.sphere]]\ncenter = [0, 0, 0]\nradius = 0.1\n\
+             [[instance]]\ngroup = \"g\"\nscale = 10\n",
+            &|p| p.length() - 1.0,
+        ),
+        ("[[torus]]\ncenter = [0, 0, 0]\naxis = [0, 1, 0]\nradius = 2\ntube = 0.5\n", &|p| {
+            DVec3::new(DVec3::new(p.x, 0.0, p.z).length() - 2.0, p.y, 0.0).length() - 0.5
+        }),
+    ];
+    for (text, off) in off {
+        for tolerance in [0.2, 0.01, 0.002] {
+            let export = tessellated(scene(text), Format::Ply, tolerance).expect("triangles");
+            let mut bytes = Vec::new();
+            export.files[0].write(&mut bytes).expect("memory");
+            let model =
+                read_in(&Memory::new().with("b.ply", bytes), "b.ply").scene.expect("a model");
+            let Shape::Mesh(mesh) = &model.objects[0].shape else { panic!("a mesh") };
+            let mut most = 0.0_f64;
+            for corners in mesh.indices.iter() {
+                let [a, b, c] =
+                    corners.map(|i| mesh.origin + mesh.positions[i as usize].as_dvec3());
+                for shares in [[1.0, 1.0, 1.0], [1.0, 1.0, 0.0], [0.0, 1.0, 1.0], [1.0, 0.0, 1.0]] {
+                    let [i, j, k]: [f64; 3] = shares;
+                    most = most.max(off((i * a + j * b + k * c) / (i + j + k)).abs());
+                }
+            }
+            assert!(most <= tolerance && most > 0.1 * tolerance, "{text} {tolerance}: {most}");
+        }
+    }
+    // A circle of radius 1 within 1 − cos (π / 8) is cut into 8.
+    let disc = "[[disc]]\ncenter = [0, 0, 0]\nnormal = [0, 1, 0]\nradius = 1\n";
+    let export = tessellated(scene(disc), Format::Ply, 1.0 - (PI / 8.0).cos() + 1e-9);
+    assert_eq!(export.expect("a disc").account.carried["triangle"], 8);
+}
+
+#[test]
+fn a_tolerance_that_is_none_or_too_fine_is_refused() {
+    let ball = || scene("[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n");
+    for (tolerance, wanted) in [
+        (0.0, "a tolerance is a number above 0"),
+        (-1.0, "a tolerance is a number above 0"),
+        (f64::NAN, "a tolerance is a number above 0"),
+        (1e-9, "a.toml:8:1: error: a tolerance of 0.000000001 is finer than numbers"),
+    ] {
+        let error = tessellated(ball(), Format::Ply, tolerance).expect_err("refused");
+        assert!(error.contains(wanted), "{error}");
+    }
+    let mut many = ball();
+    for _ in 0..1000 {
+        many.objects.push(many.objects[0].clone());
+    }
+    let error = tessellated(many, Format::Ply, 1e-6).expect_err("refused");
+    assert!(error.contains("bytes of memory; 1073741824 are allowed"), "{error}");
+}

@@ -24,6 +24,7 @@ Examples:
   phong convert dragon.ply dragon.toml --view front    # a scene to go on with: camera, lights
   phong convert dragon.ply dragon.toml --size 600x800  # framed for a picture on end
   phong convert scene.toml scene.obj                   # and scene.mtl, with what MTL can hold
+  phong convert atoms.pdb atoms.glb --tessellate 0.02  # spheres and sticks as triangles
   phong convert model.obj model.ply --strict           # refused if anything would be lost
   phong convert scene.toml - --to ply > scene.ply
 
@@ -46,6 +47,11 @@ pub(crate) struct Args {
     /// PLY files as text instead of binary
     #[arg(long)]
     ascii: bool,
+
+    /// Triangles in place of spheres, cylinders, cones, tori, discs and boxes, nowhere farther than this
+    /// from the surface, in scene units
+    #[arg(long, value_name = "TOLERANCE", value_parser = tolerance, allow_hyphen_values = true)]
+    tessellate: Option<f64>,
 
     /// Width and height of the scene's picture, which a bare model is framed for
     #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true)]
@@ -81,7 +87,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     input::look(&mut input, &args.view)?;
     meter.stage("converting");
     let ply = if args.ascii { PlyEncoding::Ascii } else { PlyEncoding::Binary };
-    let options = ExportOptions { format, ply, bare: input.bare, max_bytes: memory::limit() };
+    let tessellate = args.tessellate;
+    let max_bytes = memory::limit();
+    let options = ExportOptions { format, ply, bare: input.bare, max_bytes, tessellate };
     let name = args.output.file_name().unwrap_or(OsStr::new("-")).to_string_lossy();
     let inputs = input.files().to_vec();
     let Export { files, account } =
@@ -130,6 +138,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         tell(&paths, &account);
     }
     Ok(())
+}
+
+/// A length above 0.
+fn tolerance(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number: &f64| *number > 0.0 && number.is_finite());
+    number.ok_or_else(|| "a tolerance is a number above 0".to_owned())
 }
 
 /// What to write, by `--to` or by OUT's name.

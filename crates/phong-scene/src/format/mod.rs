@@ -144,11 +144,20 @@ pub struct ExportOptions {
     pub bare: bool,
     /// Bytes of memory that unfolded instances may take. Default: no limit.
     pub max_bytes: u64,
+    /// Triangles in place of spheres, cylinders, cones, tori, discs and boxes, no point of which is farther
+    /// from the surface than this, in scene units, above 0. Default `None`: they stay what they are.
+    pub tessellate: Option<f64>,
 }
 
 impl Default for ExportOptions {
     fn default() -> Self {
-        Self { format: Format::Toml, ply: PlyEncoding::default(), bare: false, max_bytes: u64::MAX }
+        Self {
+            format: Format::Toml,
+            ply: PlyEncoding::default(),
+            bare: false,
+            max_bytes: u64::MAX,
+            tessellate: None,
+        }
     }
 }
 
@@ -168,8 +177,8 @@ impl Scene {
     /// apart from the numbers of objects where a mesh of several materials becomes several.
     ///
     /// # Errors
-    /// What makes the scene one that the format cannot hold at all, or the first error of
-    /// [`Scene::check`].
+    /// What makes the scene one that the format cannot hold at all, a tolerance that is none or needs
+    /// more memory than `max_bytes`, or the first error of [`Scene::check`].
     ///
     /// ```
     /// use phong_scene::{ExportOptions, Limits, Memory, read};
@@ -183,7 +192,11 @@ impl Scene {
     /// assert!(file.ends_with(b"[[sphere]]\ncenter = [0, 0, 0]\nradius = 0.5\n"));
     /// # Ok::<(), std::io::Error>(())
     /// ```
-    pub fn export(self, options: &ExportOptions, name: &str) -> Result<Export, Box<Diagnostic>> {
+    pub fn export(
+        mut self,
+        options: &ExportOptions,
+        name: &str,
+    ) -> Result<Export, Box<Diagnostic>> {
         let Some(write) = options.format.writer() else {
             let message = format!("{} files are not written yet", options.format);
             let help = format!("write {}", endings(&Format::writable(), "or"));
@@ -192,9 +205,12 @@ impl Scene {
         if let Some(error) = self.check().into_iter().find(Diagnostic::is_error) {
             return Err(Box::new(error));
         }
-        let ExportOptions { format, ply, bare, max_bytes } = *options;
+        let ExportOptions { format, ply, bare, max_bytes, tessellate } = *options;
         let writing = Writing { format: format.name(), ply, bare, max_bytes };
         let mut account = Account::default();
+        if let Some(tolerance) = tessellate {
+            export::tessellate::tessellate(&mut self, tolerance, max_bytes, &mut account)?;
+        }
         let files = write(self, &writing, name, &mut account)?;
         Ok(Export { files, account })
     }

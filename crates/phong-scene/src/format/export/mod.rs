@@ -3,6 +3,7 @@
 pub(crate) mod flat;
 pub(crate) mod merge;
 mod split;
+pub(crate) mod tessellate;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;

@@ -4,9 +4,7 @@ use glam::{DAffine3, DVec3, Vec3};
 
 use crate::color::Rgb;
 use crate::format::text::{Parsed, Words};
-use crate::material::{
-    ConstantMaterial, Dialect, Material, Model, OpacityMode, ShadowRule, Tint,
-};
+use crate::material::{ConstantMaterial, Dialect, Material, Model, OpacityMode, ShadowRule, Tint};
 use crate::texture::{Texture as Pattern, TextureId, TextureKind, TextureRef, TextureSpace};
 
 /// The colours of `TEXFUNC 1`, which no file says: those of its even cubes, and of its odd ones.
