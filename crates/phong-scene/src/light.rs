@@ -1,4 +1,4 @@
-//! Lights: distant, point and spot.
+//! Lights: distant, point and spot, and those with a surface: rectangle, disc and sphere.
 //!
 //! ```toml
 //! [[light]]
@@ -17,22 +17,37 @@
 //! target = [0, 0, 0]
 //! cone = 20
 //! edge = 25
+//! range = 12                      # nothing beyond it
+//!
+//! [[light]]
+//! kind = "rectangle"
+//! position = [0, 3, 0]
+//! direction = [0, -1, 0]
+//! width = 2
+//! height = 1
 //! ```
 //!
 //! | key | value | default | meaning |
 //! |---|---|---|---|
-//! | `kind` | `point`, `distant` or `spot` | required | Where its light comes from. |
+//! | `kind` | `point`, `distant`, `spot`, `rectangle`, `disc` or `sphere` | required | Where its light comes from. |
 //! | `name` | text | `light N`, N from 1 | What `explain` calls it. |
-//! | `position` (point, spot) | three numbers, `[x, y, z]` | required | Where it is, in scene units. |
+//! | `position` (point, spot, rectangle, disc, sphere) | three numbers, `[x, y, z]` | required | Where it is, in scene units. |
 //! | `direction` (distant) | three numbers, `[x, y, z]`, not all 0 | required | The way the light travels; any length. |
+//! | `direction` (rectangle, disc) | three numbers, `[x, y, z]`, not all 0 | required | The way the light travels from its middle, across its surface; any length. It shines to this side alone. |
+//! | `up` (rectangle) | three numbers, `[x, y, z]`, not all 0 | `[0, 1, 0]`; `[0, 0, -1]` where the light travels along Y | Along its height, made perpendicular to `direction`; any length. |
+//! | `width` (rectangle) | a number above 0 | required | Across `up`, scene units. |
+//! | `height` (rectangle) | a number above 0 | required | Along `up`, scene units. |
 //! | `target` (spot) | three numbers, `[x, y, z]` | required | A point on the axis of the cone. |
 //! | `cone` (spot) | a number from 0 to 90 | required | Half-angle of full light, degrees. |
 //! | `edge` (spot) | a number above 0 up to 90 | `cone` | Half-angle where the light ends, degrees, not below `cone`; between them smoothstep in the cosine. |
 //! | `color` | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name | `1` | `C_m,d` is this times the material's diffuse colour. |
 //! | `specular_color` | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name | `color` | `C_m,s` is this times the material's specular colour. |
-//! | `attenuation` (point, spot) | `[c, l, q]`, 0 or above, not all 0 | `[1, 0, 0]` | `[c, l, q]`: the light is divided by c + l d + q d², d the distance. |
+//! | `attenuation` (point, spot, rectangle, disc, sphere) | `[c, l, q]`, 0 or above, not all 0 | `[1, 0, 0]` | `[c, l, q]`: the light is divided by c + l d + q d², d the distance. |
+//! | `range` (point, spot, rectangle, disc, sphere) | a number above 0 | none | Distance from `position` beyond which there is nothing of it, scene units. |
 //! | `shadows` | `true` or `false` | `true` | Whether things in between take the light away. |
 //! | `radius` (point, spot) | a number 0 or above | `0` | Radius of the luminous sphere, scene units; 0: hard shadows. |
+//! | `radius` (disc, sphere) | a number above 0 | required | Radius of the disc or sphere, scene units. |
+//! | `visible` (rectangle, disc, sphere) | `true` or `false` | `true` | Whether rays see its surface, from the side to which it shines: an emission of `color`. |
 //! | `angle` (distant) | a number from 0 and below 180 | `0` | Degrees across of the luminous disc; 0: hard shadows. |
 
 use glam::DVec3;
@@ -55,6 +70,12 @@ pub struct Light {
     pub specular_color: Rgb,
     /// Whether things between the light and a point take the light away.
     pub shadows: bool,
+    /// How far from its position its light reaches, scene units, above 0; beyond there is none of it.
+    /// `None`: for ever. A distant light has no end.
+    pub range: Option<f64>,
+    /// Whether rays from the camera and mirrors see the surface of a light that has one. It glows in
+    /// the light's `color`, is an emission, and throws no shadow.
+    pub visible: bool,
     /// Where it was written.
     pub place: Place,
 }
@@ -68,6 +89,8 @@ impl Default for Light {
             color: Rgb::WHITE,
             specular_color: Rgb::WHITE,
             shadows: true,
+            range: None,
+            visible: true,
             place: Place::default(),
         }
     }
@@ -107,6 +130,43 @@ pub enum LightKind {
         /// As for a point light.
         radius: f64,
     },
+    /// A luminous rectangle: the mean, over the directions in which a point sees it, of what a point
+    /// light gives. It shines to one side.
+    Rectangle {
+        /// Its middle, in scene units.
+        position: DVec3,
+        /// The way the light travels from its middle, perpendicular to it; any length but 0.
+        direction: DVec3,
+        /// Along its height, made perpendicular to `direction`; any length but 0. `None`: +Y, and −Z
+        /// where the light travels along Y.
+        up: Option<DVec3>,
+        /// Across `up`, scene units.
+        width: f64,
+        /// Along `up`, scene units.
+        height: f64,
+        /// As for a point light; the distance is that of the point of it.
+        attenuation: [f64; 3],
+    },
+    /// A luminous disc, which shines to one side, as a rectangle does.
+    Disc {
+        /// Its middle, in scene units.
+        position: DVec3,
+        /// The way the light travels from its middle, perpendicular to it; any length but 0.
+        direction: DVec3,
+        /// Radius in scene units, above 0.
+        radius: f64,
+        /// As for a rectangle.
+        attenuation: [f64; 3],
+    },
+    /// A luminous sphere: a point light with an extent and a surface.
+    Sphere {
+        /// Its middle, in scene units.
+        position: DVec3,
+        /// Radius in scene units, above 0.
+        radius: f64,
+        /// As for a point light.
+        attenuation: [f64; 3],
+    },
 }
 
 impl LightKind {
@@ -122,14 +182,18 @@ impl LightKind {
     pub fn direction(&self) -> Option<DVec3> {
         match self {
             Self::Distant { direction, .. } => Some(*direction),
-            Self::Point { .. } | Self::Spot { .. } => None,
+            _ => None,
         }
     }
 
     /// Where its light comes from; `None`: from infinitely far away.
     pub fn position(&self) -> Option<DVec3> {
         match self {
-            Self::Point { position, .. } | Self::Spot { position, .. } => Some(*position),
+            Self::Point { position, .. }
+            | Self::Spot { position, .. }
+            | Self::Rectangle { position, .. }
+            | Self::Disc { position, .. }
+            | Self::Sphere { position, .. } => Some(*position),
             Self::Distant { .. } => None,
         }
     }
@@ -137,17 +201,55 @@ impl LightKind {
     /// `[c, l, q]`, by whose `c + l·d + q·d²` its light is divided; `None`: by nothing.
     pub fn attenuation(&self) -> Option<[f64; 3]> {
         match self {
-            Self::Point { attenuation, .. } | Self::Spot { attenuation, .. } => Some(*attenuation),
+            Self::Point { attenuation, .. }
+            | Self::Spot { attenuation, .. }
+            | Self::Rectangle { attenuation, .. }
+            | Self::Disc { attenuation, .. }
+            | Self::Sphere { attenuation, .. } => Some(*attenuation),
             Self::Distant { .. } => None,
         }
     }
 
-    /// Radius of the luminous sphere or, of light from infinitely far away, degrees across of the
-    /// luminous disc; 0: hard shadows.
+    /// Radius of the sphere that holds all of it or, of light from infinitely far away, degrees across
+    /// of the luminous disc; 0: hard shadows.
     pub fn extent(&self) -> f64 {
         match self {
-            Self::Point { radius, .. } | Self::Spot { radius, .. } => *radius,
+            Self::Point { radius, .. }
+            | Self::Spot { radius, .. }
+            | Self::Disc { radius, .. }
+            | Self::Sphere { radius, .. } => *radius,
+            Self::Rectangle { width, height, .. } => 0.5 * (width * width + height * height).sqrt(),
             Self::Distant { angle, .. } => *angle,
+        }
+    }
+
+    /// Whether it has a surface that rays can see.
+    pub fn has_surface(&self) -> bool {
+        matches!(self, Self::Rectangle { .. } | Self::Disc { .. } | Self::Sphere { .. })
+    }
+
+    /// The way a rectangle or a disc faces, any length; `None`: it shines all around, or in a cone.
+    pub fn facing(&self) -> Option<DVec3> {
+        match self {
+            Self::Rectangle { direction, .. } | Self::Disc { direction, .. } => Some(*direction),
+            _ => None,
+        }
+    }
+
+    /// Along the height of a rectangle that faces `direction`: perpendicular to that, unit. `None`: `up`
+    /// is parallel to it to rounding, or `direction` is none.
+    pub fn upright(direction: DVec3, up: Option<DVec3>) -> Option<DVec3> {
+        /// Below this sine of the angle between them, "up" is decided by rounding.
+        const PARALLEL: f64 = 1e-8;
+        let direction = direction.try_normalize()?;
+        let across = |up: DVec3| {
+            let up = up.try_normalize()?;
+            let across = up - up.dot(direction) * direction;
+            (across.length() >= PARALLEL).then(|| across.normalize())
+        };
+        match up {
+            Some(up) => across(up),
+            None => across(DVec3::Y).or_else(|| across(DVec3::NEG_Z)),
         }
     }
 }
@@ -163,6 +265,21 @@ words!(LightKind {
         attenuation: [1.0, 0.0, 0.0],
         radius: 0.0,
     },
+    "rectangle" = Rectangle {
+        position: DVec3::ZERO,
+        direction: -DVec3::Y,
+        up: None,
+        width: 1.0,
+        height: 1.0,
+        attenuation: [1.0, 0.0, 0.0],
+    },
+    "disc" = Disc {
+        position: DVec3::ZERO,
+        direction: -DVec3::Y,
+        radius: 0.5,
+        attenuation: [1.0, 0.0, 0.0],
+    },
+    "sphere" = Sphere { position: DVec3::ZERO, radius: 0.5, attenuation: [1.0, 0.0, 0.0] },
 });
 
 impl Default for LightKind {

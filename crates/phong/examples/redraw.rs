@@ -30,7 +30,11 @@ const CHANGES: [Change; 4] = [
         for light in lights.take(1) {
             match &mut light.kind {
                 LightKind::Distant { direction, .. } => direction.x += 0.1,
-                LightKind::Point { position, .. } | LightKind::Spot { position, .. } => {
+                LightKind::Point { position, .. }
+                | LightKind::Spot { position, .. }
+                | LightKind::Rectangle { position, .. }
+                | LightKind::Disc { position, .. }
+                | LightKind::Sphere { position, .. } => {
                     position.x += 0.1;
                 }
             }

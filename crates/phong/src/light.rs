@@ -1,6 +1,8 @@
 //! What one light sends to one point.
 
-use fearless_simd::{Simd, f32x8, prelude::*};
+mod area;
+
+use fearless_simd::{Simd, f32x8, f64x4, prelude::*};
 use glam::{DVec3, Vec3};
 use phong_bvh::{Lanes, halves};
 use phong_scene::{LightKind, Rgb};
@@ -8,6 +10,11 @@ use phong_scene::{LightKind, Rgb};
 use crate::camera::{concentric_disc, concentric_disc8};
 use crate::math::lanes::{add, dot, normalize, scale, select3, splat3, sub};
 use crate::math::{Dir3, wide};
+use area::{Area, Chosen, choose_of_disc, choose_of_sphere};
+
+/// The share of its way by which the surface of a light may lie behind another and still be seen: one that is
+/// mounted in a ceiling is meant to be before it.
+pub(crate) const MOUNTED: f32 = 4e-6;
 
 /// A light in the world.
 #[derive(Clone, Debug)]
@@ -19,12 +26,19 @@ pub struct Light {
     pub shadows: bool,
     /// Whether it has an extent, so that its samples differ.
     pub soft: bool,
+    /// How far from its position there is any of it; infinite: everywhere.
+    range: f32,
+    /// Radius of the sphere that holds all of it; 0 for a distant one.
+    extent: f64,
+    /// Whether rays see its surface.
+    pub(crate) is_seen: bool,
 }
 
 #[derive(Clone, Debug)]
 enum Kind {
     Distant { to_light: Dir3, half_angle_tan: f32 },
     Point { position: DVec3, attenuation: [f32; 3], radius: f32, cone: Option<Cone> },
+    Area { position: DVec3, attenuation: [f32; 3], area: Area },
 }
 
 #[derive(Clone, Debug)]
@@ -35,6 +49,8 @@ struct Cone {
     full: f32,
     /// Cosine of the half-angle where it ends.
     none: f32,
+    /// Cosine and sine of that angle.
+    edge: [f64; 2],
 }
 
 /// What one light sends to one point, before the surface answers and whatever stands between.
@@ -56,6 +72,16 @@ impl LightSample {
         let (color, specular_color) = (self.color * left, self.specular_color * left);
         Self { color, specular_color, ..*self }
     }
+}
+
+/// Which point of a light is looked for.
+enum Aim<F> {
+    /// Its middle.
+    Middle,
+    /// That of a place in the unit disc.
+    Place([F; 2]),
+    /// That which this is the way to.
+    Way([F; 3]),
 }
 
 /// How a light reaches a point, or eight: without colours.
@@ -83,8 +109,20 @@ impl Light {
             LightKind::Spot { position, target, cone, edge, attenuation, radius } => {
                 let axis = Dir3::from_unit((target - position).normalize_or(-DVec3::Y).as_vec3());
                 let [full, none] = [cone, edge].map(|a| wide::cos(a.to_radians()) as f32);
-                let cone = Cone { axis, full, none };
+                let (sin, cos) = wide::sin_cos(edge.to_radians());
+                let cone = Cone { axis, full, none, edge: [cos, sin] };
                 (point(about(position, center), attenuation, radius, Some(cone)), radius)
+            }
+            LightKind::Rectangle { position, direction, up, width, height, attenuation } => {
+                let area = Area::rectangle(direction, up, [width, height]);
+                (surface(about(position, center), attenuation, area), light.kind.extent())
+            }
+            LightKind::Disc { position, direction, radius, attenuation } => (
+                surface(about(position, center), attenuation, Area::disc(direction, radius)),
+                radius,
+            ),
+            LightKind::Sphere { position, radius, attenuation } => {
+                (surface(about(position, center), attenuation, Area::sphere(radius)), radius)
             }
         };
         Self {
@@ -93,7 +131,78 @@ impl Light {
             specular_color: light.specular_color,
             shadows: light.shadows,
             soft: size > 0.0,
+            range: light.range.map_or(f32::INFINITY, |range| range as f32),
+            extent: if light.kind.position().is_some() { size } else { 0.0 },
+            is_seen: light.kind.has_surface() && light.visible,
         }
+    }
+
+    /// Whether there are places that it sends nothing to, wherever its horizon is.
+    pub(crate) fn has_end(&self) -> bool {
+        match &self.kind {
+            Kind::Distant { .. } => false,
+            Kind::Point { cone, .. } => cone.is_some() || self.range < f32::INFINITY,
+            Kind::Area { area, .. } => area.facing().is_some() || self.range < f32::INFINITY,
+        }
+    }
+
+    /// Whether it may send anything into a box, given by its middle and half its size: never no where it
+    /// sends some.
+    pub(crate) fn may_reach(&self, [center, half]: [DVec3; 2]) -> bool {
+        let Some(position) = self.position() else { return true };
+        let (way, radius) = (center - position, half.length());
+        let distance = way.length();
+        // What rounding may make of it, many times over.
+        if distance - radius > f64::from(self.range) * (1.0 + 1e-5) {
+            return false;
+        }
+        let slack = radius + self.extent + 1e-3 * (distance + radius);
+        match &self.kind {
+            Kind::Point { cone: Some(cone), .. } => {
+                let along = way.dot(cone.axis.to_vec().as_dvec3());
+                let aside = (distance * distance - along * along).max(0.0).sqrt();
+                let [cos, sin] = cone.edge;
+                aside * cos - along * sin <= slack
+            }
+            Kind::Area { area, .. } => {
+                let behind = |facing: Vec3| way.dot(facing.as_dvec3()) < -slack;
+                !area.facing().is_some_and(behind)
+            }
+            Kind::Point { .. } | Kind::Distant { .. } => true,
+        }
+    }
+
+    /// How far rays go until they see its surface, eight of them; +∞ where they do not.
+    #[inline(always)]
+    pub(crate) fn meet8<S: Simd>(
+        &self,
+        simd: S,
+        origin: &[[f64; 8]; 3],
+        dir: [f32x8<S>; 3],
+    ) -> f32x8<S> {
+        match &self.kind {
+            Kind::Area { area, .. } => {
+                let [low, high] = self.toward8(simd, origin);
+                area.meet(narrow(low, high), dir)
+            }
+            Kind::Point { .. } | Kind::Distant { .. } => dir[0].splat(f32::INFINITY),
+        }
+    }
+
+    /// How far one ray goes until it sees its surface; +∞ where it does not, or its surface is not seen.
+    pub(crate) fn meet(&self, origin: DVec3, dir: Vec3) -> f32 {
+        match &self.kind {
+            Kind::Area { area, .. } if self.is_seen => {
+                let toward = self.toward(origin.to_array()).map(|v| v as f32);
+                area.meet(toward, dir.to_array())
+            }
+            _ => f32::INFINITY,
+        }
+    }
+
+    /// Its own colour: that of its surface, where it has one. Linear.
+    pub(crate) fn color(&self) -> Rgb {
+        self.color
     }
 
     /// What it sends to `p`. `place` in [0, 1)² picks a point of a soft light, (½, ½) its centre.
@@ -110,9 +219,18 @@ impl Light {
 
     /// How it reaches `p`, as [`Light::sample`] has it.
     pub(crate) fn reach(&self, p: DVec3, place: [f32; 2]) -> Option<Reach<Dir3, f32>> {
-        let place = self.soft.then(|| concentric_disc(place.map(f64::from)).map(|v| v as f32));
-        let Reach { l, distance, share } =
-            self.arrive(self.toward(p.to_array()).map(|v| v as f32), place);
+        let toward = self.toward(p.to_array());
+        let middle = toward.map(|v| v as f32);
+        let aim = match self.rectangle() {
+            Some(rectangle) => {
+                Aim::Way(rectangle.choose(toward, place.map(f64::from)).map(|v| v as f32))
+            }
+            None if self.soft => {
+                Aim::Place(concentric_disc(place.map(f64::from)).map(|v| v as f32))
+            }
+            None => Aim::Middle,
+        };
+        let Reach { l, distance, share } = self.arrive(middle, aim);
         (l != [0.0; 3]).then(|| Reach { l: Dir3::from_unit(Vec3::from(l)), distance, share })
     }
 
@@ -125,18 +243,35 @@ impl Light {
         p: &[[f64; 8]; 3],
         place: Option<&[[f32; 8]; 2]>,
     ) -> Reach<[f32x8<S>; 3], f32x8<S>> {
-        let place = match place {
-            Some(place) => {
-                let [low, high] = concentric_disc8(simd, place);
-                Some([low[0].narrow(high[0]), low[1].narrow(high[1])])
+        let [low, high] = self.toward8(simd, p);
+        let aim = match (self.rectangle(), place) {
+            (_, None) => Aim::Middle,
+            (Some(rectangle), Some([u, v])) => {
+                let [u, v] = [u, v].map(|place| f32x8::load_array_ref(simd, place).widen());
+                let low = rectangle.choose(low, [u.0, v.0]);
+                Aim::Way(narrow(low, rectangle.choose(high, [u.1, v.1])))
             }
-            None => None,
+            (None, Some(place)) => {
+                let [low, high] = concentric_disc8(simd, place);
+                Aim::Place([low[0].narrow(high[0]), low[1].narrow(high[1])])
+            }
         };
+        self.arrive(narrow(low, high), aim)
+    }
+
+    /// [`Light::toward`] from eight points, four by four.
+    #[inline(always)]
+    fn toward8<S: Simd>(&self, simd: S, p: &[[f64; 8]; 3]) -> [[f64x4<S>; 3]; 2] {
         let ([x, x_high], [y, y_high], [z, z_high]) =
             (halves(simd, &p[0]), halves(simd, &p[1]), halves(simd, &p[2]));
-        let (low, high) = (self.toward([x, y, z]), self.toward([x_high, y_high, z_high]));
-        let toward = [low[0].narrow(high[0]), low[1].narrow(high[1]), low[2].narrow(high[2])];
-        self.arrive(toward, place)
+        [self.toward([x, y, z]), self.toward([x_high, y_high, z_high])]
+    }
+
+    fn rectangle(&self) -> Option<&area::Rectangle> {
+        match &self.kind {
+            Kind::Area { area: Area::Rectangle(rectangle), .. } => Some(rectangle),
+            _ => None,
+        }
     }
 
     /// The way from one point, or several, to where the light is; of a distant one unspecified.
@@ -144,31 +279,30 @@ impl Light {
     fn toward<F: Lanes<Scalar = f64>>(&self, p: [F; 3]) -> [F; 3] {
         match self.kind {
             Kind::Distant { .. } => p,
-            Kind::Point { position, .. } => sub(splat3(p[0], position.to_array()), p),
+            Kind::Point { position, .. } | Kind::Area { position, .. } => {
+                sub(splat3(p[0], position.to_array()), p)
+            }
         }
     }
 
     /// How it reaches one point, or eight, given the way to where the light is; `l` is 0 where the light
-    /// is. `place`: of a soft light, a point of the unit disc.
+    /// is.
     #[inline(always)]
-    fn arrive<F: Lanes<Scalar = f32>>(
-        &self,
-        mut toward: [F; 3],
-        place: Option<[F; 2]>,
-    ) -> Reach<[F; 3], F> {
+    fn arrive<F: Lanes<Scalar = f32>>(&self, mut toward: [F; 3], aim: Aim<F>) -> Reach<[F; 3], F> {
         let width = toward[0];
         let like = |v: f32| width.splat(v);
         let all = |v: [f32; 3]| splat3(width, v);
         match &self.kind {
             Kind::Distant { to_light, half_angle_tan } => {
                 let mut l = all(to_light.to_array());
-                if let Some(place) = place {
+                if let Aim::Place(place) = aim {
                     l = normalize(add(l, across(like(*half_angle_tan), l, place)));
                 }
                 Reach { l, distance: like(f32::INFINITY), share: like(1.0) }
             }
             Kind::Point { attenuation, radius, cone, .. } => {
-                if let Some(place) = place {
+                let middle = toward;
+                if let Aim::Place(place) = aim {
                     let axis = normalize(toward);
                     let aside = across(like(*radius), axis, place);
                     // Where the light is there is no way aside.
@@ -181,16 +315,46 @@ impl Light {
                     let along = dot(all(cone.axis.to_array()), l);
                     share = share * along.map(|cos| cone.share(-cos));
                 }
-                Reach { l, distance, share }
+                Reach { l, distance, share: self.within(middle, share) }
+            }
+            Kind::Area { attenuation, area, .. } => {
+                let chosen = match (area, aim) {
+                    (Area::Sphere { radius }, Aim::Place(place)) => {
+                        choose_of_sphere(*radius, toward, place)
+                    }
+                    (&Area::Disc { facing, radius }, Aim::Place(place)) => {
+                        choose_of_disc((facing, radius), toward, place)
+                    }
+                    (_, Aim::Way(way)) => Chosen { toward: way, weight: like(1.0) },
+                    _ => Chosen { toward, weight: like(1.0) },
+                };
+                let Reach { l, distance, share } = arrival(chosen.toward, *attenuation);
+                let mut share = share * chosen.weight;
+                if let Some(facing) = area.facing() {
+                    let lit = dot(toward, all(facing.to_array())).lt(like(0.0));
+                    share = F::select(lit, share, like(0.0));
+                }
+                Reach { l, distance, share: self.within(toward, share) }
             }
         }
+    }
+
+    /// What is left of its share at a point from which its position is `toward`.
+    #[inline(always)]
+    fn within<F: Lanes<Scalar = f32>>(&self, toward: [F; 3], share: F) -> F {
+        if self.range == f32::INFINITY {
+            return share;
+        }
+        let zero = share.splat(0.0);
+        let distance = dot(toward, toward).sqrt();
+        F::select(distance.gt(share.splat(self.range)), zero, share)
     }
 
     /// Where it is, rounded as it is used; `None`: it is distant.
     pub(crate) fn position(&self) -> Option<DVec3> {
         match self.kind {
             Kind::Distant { .. } => None,
-            Kind::Point { position, .. } => Some(position),
+            Kind::Point { position, .. } | Kind::Area { position, .. } => Some(position),
         }
     }
 
@@ -244,6 +408,15 @@ fn point(position: DVec3, attenuation: [f64; 3], radius: f64, cone: Option<Cone>
     }
 }
 
+fn surface(position: DVec3, attenuation: [f64; 3], area: Area) -> Kind {
+    Kind::Area { position, attenuation: attenuation.map(|a| a as f32), area }
+}
+
+#[inline(always)]
+fn narrow<S: Simd>(low: [f64x4<S>; 3], high: [f64x4<S>; 3]) -> [f32x8<S>; 3] {
+    [low[0].narrow(high[0]), low[1].narrow(high[1]), low[2].narrow(high[2])]
+}
+
 /// A point, of the unit disc, of the disc of this radius perpendicular to `axis`: a luminous sphere
 /// seen from there is a disc. (The frame is that of Duff and others, *Building an orthonormal basis,
 /// revisited*, 2017.)
@@ -265,19 +438,12 @@ pub(crate) fn across<F: Lanes<Scalar = f32>>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use phong_scene::Place;
 
     const MIDDLE: [f32; 2] = [0.5, 0.5];
 
     fn light(kind: LightKind) -> Light {
-        let light = phong_scene::Light {
-            name: "light 1".to_owned(),
-            kind,
-            color: Rgb::grey(2.0),
-            specular_color: Rgb::WHITE,
-            shadows: true,
-            place: Place::default(),
-        };
+        let color = Rgb::grey(2.0);
+        let light = phong_scene::Light { kind, color, ..phong_scene::Light::default() };
         Light::new(&light, DVec3::ZERO)
     }
 
@@ -316,6 +482,21 @@ mod tests {
                     attenuation,
                     radius: size,
                 },
+                LightKind::Rectangle {
+                    position,
+                    direction: DVec3::new(0.3, -1.0, 0.2),
+                    up: None,
+                    width: 1.0 + size,
+                    height: 0.5,
+                    attenuation,
+                },
+                LightKind::Disc {
+                    position,
+                    direction: DVec3::new(0.3, -1.0, 0.2),
+                    radius: 0.4 + size,
+                    attenuation,
+                },
+                LightKind::Sphere { position, radius: 0.4 + size, attenuation },
             ]
         };
         for kind in [0.0, 0.5].into_iter().flat_map(kinds) {

@@ -150,7 +150,11 @@ impl TermSet {
     /// Those that a picture of the scene can have: the others are black all over it.
     pub fn of_scene(scene: &Scene) -> Self {
         let can_be_seen = |term: &Term| match term {
-            Term::Emission => scene.materials.iter().any(phong_scene::Material::glows),
+            Term::Emission => {
+                let is_seen = |l: &phong_scene::Light| l.visible && l.kind.has_surface();
+                scene.materials.iter().any(phong_scene::Material::glows)
+                    || scene.lights.iter().any(is_seen)
+            }
             Term::Fog => scene.fog.is_some(),
             _ => true,
         };

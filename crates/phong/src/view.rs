@@ -18,7 +18,7 @@ use thiserror::Error;
 use crate::camera::Camera;
 use crate::geometry::{Geometry, GeometryError, GeometryOptions, ObjectRecord, summary};
 use crate::interaction::SurfaceInteraction;
-use crate::light::Light;
+use crate::light::{Light, MOUNTED};
 use crate::look::Look;
 use crate::material::Material;
 use crate::math::Dir3;
@@ -67,6 +67,10 @@ pub struct View {
     has_filters: bool,
     /// Whether any light has an extent.
     has_soft_lights: bool,
+    /// Whether rays see the surface of any light.
+    has_lamps: bool,
+    /// Whether any light sends nothing to some places, wherever their horizon is.
+    has_ends: bool,
     /// Whether any material takes ambient light from each light.
     has_ambient_per_light: bool,
 }
@@ -153,6 +157,8 @@ impl View {
             has_see_through: look.materials.iter().any(phong_scene::Material::is_see_through),
             has_filters: look.materials.iter().any(filters),
             has_soft_lights: lights.iter().any(|light| light.soft),
+            has_lamps: lights.iter().any(|light| light.is_seen),
+            has_ends: lights.iter().any(Light::has_end),
             has_ambient_per_light: materials.iter().any(Material::takes_ambient_per_light),
             has_images: !varied.is_empty() && textures.iter().any(Texture::has_footprint),
             textures,
@@ -262,6 +268,26 @@ impl View {
     /// for what takes ambient light away.
     pub(crate) fn asks_for_samplers(&self) -> bool {
         self.has_soft_lights || self.occlusion.is_some()
+    }
+
+    /// Whether rays see the surface of any light.
+    #[inline]
+    pub(crate) fn has_lamps(&self) -> bool {
+        self.has_lamps
+    }
+
+    /// Whether any light sends nothing to some places, wherever their horizon is.
+    #[inline]
+    pub(crate) fn has_ends(&self) -> bool {
+        self.has_ends
+    }
+
+    /// How far a ray goes until it sees the surface of a light, before what it hits at `hit`; `None`: it
+    /// sees none.
+    pub(crate) fn lamp(&self, ray: &Ray, hit: f32) -> Option<f32> {
+        let meet = |light: &Light| light.meet(ray.origin, ray.dir);
+        let nearest = self.lights.iter().map(meet).fold(f32::INFINITY, f32::min);
+        (nearest < f32::INFINITY && nearest * (1.0 - MOUNTED) <= hit).then_some(nearest)
     }
 
     /// Whether any of the materials takes ambient light from each light.

@@ -101,6 +101,8 @@ pub trait Witness {
 
     /// A ray hit nothing and saw this background.
     fn missed(&mut self, ray: &Ray, background: Rgb);
+    /// A ray saw the surface of this light, by its number, so far along it, and brought this emission.
+    fn saw(&mut self, _ray: &Ray, _light: usize, _distance: f32, _emission: Rgb) {}
     /// A ray met a surface, with these terms, that belong to no light and to no ray that goes on.
     fn met(&mut self, ray: &Ray, at: &SurfaceInteraction, terms: Terms);
     /// This share of the surface just met is there; not told in scenes where nothing is see-through. What

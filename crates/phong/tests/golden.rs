@@ -31,8 +31,8 @@ golden! {
     cameras: fisheye landscape lens orthographic panorama perspective up wide;
     film: background empty filter_box filter_gaussian filter_mitchell filter_tent gradient odd_size
         one_pixel seed transparent transparent_mirror;
-    lights: attenuation below_horizon colored distant enclosed point shadow shadow_off
-        shadow_touching specular_color spot spot_hard;
+    lights: attenuation below_horizon colored disc distant enclosed point range rectangle shadow shadow_off
+        shadow_touching specular_color sphere spot spot_hard;
     materials: blinn_phong cook_torrance default ggx lambert normalize opacity oren_nayar per_light phong
         times_cosine tint ward;
     shapes: box_corner clip_box clip_plane coincident cone cone_frustum cylinder cylinder_open cylinders cylinders_flat

@@ -40,10 +40,7 @@ fn sun(direction: [f64; 3]) -> Light {
     Light {
         name: "sun".to_owned(),
         kind: LightKind::Distant { direction, angle: 0.0 },
-        color: Rgb::WHITE,
-        specular_color: Rgb::WHITE,
-        shadows: true,
-        place: Place::default(),
+        ..Light::default()
     }
 }
 
@@ -440,4 +437,110 @@ fn a_scene_too_large_for_its_numbers_is_refused() {
     scene.objects.push(sphere([1e300, 0.0, 0.0], 1e299));
     let error = View::of(&scene).unwrap_err();
     assert!(matches!(error, ViewError::Geometry(GeometryError::Scene(_))));
+}
+
+/// A floor under the plane of the picture, of 24 × 24 pixels, 6 units across.
+fn floor_seen_from_above(lights: Vec<Light>) -> Scene {
+    let mut scene = scene();
+    scene.image = Image { size: [24, 24], samples: 4, ..Image::default() };
+    scene.camera.kind = CameraKind::Orthographic { height: 6.0 };
+    scene.objects.push(plane([0.0, 0.0, 0.0], [0.0, 0.0, 1.0]));
+    scene.objects.push(sphere([0.5, 0.0, 0.4], 0.4));
+    scene.lights = lights;
+    scene
+}
+
+#[test]
+fn lights_are_left_out_where_they_end_and_no_bit_changes() {
+    let lamp = |i: i32| {
+        let position = DVec3::new(f64::from(i % 4) * 1.5 - 2.0, f64::from(i / 4) - 1.5, 1.0);
+        let (attenuation, radius) = ([1.0, 0.0, 0.0], 0.1 * f64::from(i % 2));
+        let direction = DVec3::new(1.0, 0.3, -0.2);
+        let kind = match i % 3 {
+            0 => LightKind::Point { position, attenuation, radius },
+            1 => LightKind::Spot {
+                position,
+                target: position + DVec3::new(0.3, 0.1, -1.0),
+                cone: 20.0,
+                edge: 40.0,
+                attenuation,
+                radius,
+            },
+            _ => LightKind::Disc { position, direction, radius: 0.3, attenuation },
+        };
+        Light { kind, range: (i % 5 != 0).then_some(1.6), ..Light::default() }
+    };
+    let scene = floor_seen_from_above((0..16).map(lamp).collect());
+    let view = View::of(&scene).unwrap();
+    let options = RenderOptions::of(&scene.image).unwrap();
+    let film = render(&view, &options, &|_| {}, &Cancel::new()).film;
+    for pixel in [[0, 0], [3, 20], [11, 11], [12, 5], [20, 9], [23, 23], [8, 16]] {
+        // Who is told of each light has none left out.
+        let told = phong::explain::explain(&view, &options, pixel).unwrap().linear;
+        let [x, y] = pixel;
+        assert_eq!(film.at(LayerKind::Picture, x, y).unwrap(), told.to_array(), "{pixel:?}");
+    }
+}
+
+#[test]
+fn nothing_of_a_light_is_beyond_its_range() {
+    let position = DVec3::new(0.0, 0.0, 1.0);
+    let kind = LightKind::Point { position, attenuation: [1.0, 0.0, 0.0], radius: 0.0 };
+    for (range, lit) in [(9.0, true), (1.001, true), (0.999, false)] {
+        let mut scene = scene();
+        scene.objects.push(plane([0.0; 3], [0.0, 0.0, 1.0]));
+        scene.lights.push(Light { kind, range: Some(range), ..Light::default() });
+        assert_eq!(terms(&scene).diffuse.r > 0.0, lit, "{range}");
+    }
+}
+
+#[test]
+fn a_tiny_light_with_a_surface_gives_what_a_point_light_gives() {
+    let (position, attenuation) = (DVec3::new(0.3, 0.2, 1.5), [0.5, 0.2, 0.1]);
+    let direction = DVec3::new(0.1, 0.0, -1.0);
+    let size = 1e-4;
+    let of = |kind: LightKind| {
+        let light = Light { kind, visible: false, ..Light::default() };
+        film_with(&floor_seen_from_above(vec![light]), |options| options)
+    };
+    let point = of(LightKind::Point { position, attenuation, radius: 0.0 });
+    for kind in [
+        LightKind::Rectangle {
+            position,
+            direction,
+            up: None,
+            width: size,
+            height: size,
+            attenuation,
+        },
+        LightKind::Disc { position, direction, radius: size, attenuation },
+        LightKind::Sphere { position, radius: size, attenuation },
+    ] {
+        let film = of(kind);
+        let values = |film: &Film| film.layer(LayerKind::Picture).unwrap().values.to_vec();
+        let differ = |(a, b): (f32, f32)| (a - b).abs() > 2e-4;
+        let pairs = values(&point).into_iter().zip(values(&film));
+        // At the rim of the shadow a sample may see a part of it.
+        let count = pairs.filter(|pair| differ(*pair)).count();
+        assert!(count <= 6, "{count} values differ for {kind:?}");
+    }
+}
+
+#[test]
+fn the_surface_of_a_light_is_an_emission_and_no_object() {
+    let mut scene = scene();
+    scene.objects.push(plane([0.0; 3], [0.0, 0.0, 1.0]));
+    let attenuation = [1.0, 0.0, 0.0];
+    let (position, direction) = (DVec3::new(0.0, 0.0, 2.0), DVec3::Z);
+    let kind = LightKind::Disc { position, direction, radius: 0.5, attenuation };
+    scene.lights.push(Light { kind, color: Rgb::new(3.0, 2.0, 1.0), ..Light::default() });
+    let seen = terms(&scene);
+    assert_eq!(seen, Terms { emission: Rgb::new(3.0, 2.0, 1.0), ..Terms::default() });
+    let film = film_with(&scene, |options| options.with_aovs(&[Aov::Depth, Aov::Object]));
+    assert_eq!(film.at(LayerKind::Aov(Aov::Depth), 0, 0).unwrap(), [8.0]);
+    assert_eq!(film.at(LayerKind::Aov(Aov::Object), 0, 0).unwrap(), [0.0]);
+    // It is in nobody's way, and from behind it is not there.
+    let kind = LightKind::Disc { position, direction: -direction, radius: 0.5, attenuation };
+    scene.lights[0] = Light { kind, ..Light::default() };
+    close(terms(&scene).diffuse, 0.7 * 0.8);
 }

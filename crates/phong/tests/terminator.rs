@@ -45,7 +45,7 @@ fn surfaces(scene: &Scene, options: &RenderOptions) -> Vec<([u32; 2], Surface, f
             let told = explain(&view, options, pixel).unwrap();
             match told.samples[0].ray.clone()?.end {
                 End::Surface(surface) => Some((pixel, *surface, told.linear.r)),
-                End::Background(_) => None,
+                End::Background(_) | End::Light { .. } => None,
             }
         })
         .collect()

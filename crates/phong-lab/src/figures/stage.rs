@@ -65,8 +65,7 @@ pub(super) fn distant(to_light: DVec3, color: f32) -> Light {
         kind: LightKind::Distant { direction: -to_light, angle: 0.0 },
         color: Rgb::grey(color),
         specular_color: Rgb::grey(color),
-        shadows: true,
-        place: Place::default(),
+        ..Light::default()
     }
 }
 

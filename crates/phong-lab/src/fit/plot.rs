@@ -188,10 +188,7 @@ fn ball_on_floor(lobe: Lobe) -> Scene {
     let light = |direction| Light {
         name: "light".to_owned(),
         kind: LightKind::Distant { direction, angle: 0.0 },
-        color: Rgb::WHITE,
-        specular_color: Rgb::WHITE,
-        shadows: true,
-        place: Place::default(),
+        ..Light::default()
     };
     Scene {
         image: Image { size: PICTURE, ..Image::default() },

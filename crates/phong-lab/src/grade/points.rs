@@ -210,6 +210,12 @@ impl Witness for Listener<'_> {
         }
     }
 
+    fn saw(&mut self, _: &Ray, _: usize, _: f32, emission: Rgb) {
+        if self.weights.is_empty() {
+            self.point.terms.emission = emission;
+        }
+    }
+
     fn met(&mut self, ray: &Ray, at: &SurfaceInteraction, terms: Terms) {
         if self.weights.is_empty() {
             self.point.terms = terms;

@@ -129,6 +129,8 @@ impl Shared<'_> {
     fn ray(&self, told: &RayTold, weight: f32) -> Value {
         match &told.end {
             End::Background(background) => json!({ "hit": 0, "bg": rgb(*background) }),
+            // Shown as what is behind everything: the page tells surfaces.
+            End::Light { emission, .. } => json!({ "hit": 0, "bg": rgb(*emission) }),
             End::Surface(surface) => self.surface(surface, weight),
         }
     }

@@ -73,6 +73,11 @@ fn ray_into(out: &mut Map<String, Value>, told: &RayTold) {
             put("hit", Value::Null);
             put("background", rgb(*background));
         }
+        End::Light { name, at, t, emission } => {
+            put("hit", Value::Null);
+            put("light", json!({ "name": name, "at": self::at(at), "t": number(*t) }));
+            put("emission", rgb(*emission));
+        }
         End::Surface(s) => {
             put("hit", hit(s));
             put("e", dir(s.e));

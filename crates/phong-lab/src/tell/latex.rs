@@ -73,6 +73,12 @@ impl Document {
                 let seen = self.color(*background);
                 self.line(format_args!("{road} meets nothing and sees ${seen}$."));
             }
+            End::Light { name, t, emission, .. } => {
+                let (name, t, seen) = (escaped(name), self.n(*t), self.color(*emission));
+                self.line(format_args!(
+                    "{road} meets {name} itself at $t = {t}$ and sees ${seen}$."
+                ));
+            }
             End::Surface(s) => {
                 let object = escaped(&named(&s.object, s.element));
                 let t = self.n(s.t);

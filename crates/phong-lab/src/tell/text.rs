@@ -58,6 +58,7 @@ fn listed(i: usize, sample: &Sample, numbers: Numbers) -> String {
     let met = match sample.ray.as_ref().map(|ray| &ray.end) {
         None => "outside the image circle".to_owned(),
         Some(End::Background(_)) => "background".to_owned(),
+        Some(End::Light { name, .. }) => name.clone(),
         Some(End::Surface(surface)) => named(&surface.object, surface.element),
     };
     format!("sample {:<4} at ({x}, {y})  {met}  {}", i + 1, numbers.color(sample.terms.total()))
@@ -120,6 +121,10 @@ impl Page {
                     "hit      nothing: background {}",
                     self.numbers.color(*background)
                 ));
+            }
+            End::Light { name, t, emission, .. } => {
+                let seen = self.numbers.color(*emission);
+                self.line(format_args!("hit      {name} itself, at t = {t}: emission {seen}"));
             }
             End::Surface(surface) => self.surface(surface),
         }

@@ -110,7 +110,7 @@ pub(crate) fn scene(w: &World) -> Scene {
         };
         let (color, place) = (rgb(lamp.color), Place::default());
         let (name, shadows) = (format!("light {}", i + 1), lamp.shadows);
-        Light { name, kind, color, specular_color: color, shadows, place }
+        Light { name, kind, color, specular_color: color, shadows, place, ..Light::default() }
     });
     let materials = w.things.iter().map(|Thing { stuff, .. }| ConstantMaterial {
         model: if stuff.blinn { Model::BlinnPhong } else { Model::Phong },

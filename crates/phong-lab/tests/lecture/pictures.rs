@@ -57,14 +57,7 @@ fn ball(lights: Vec<Light>) -> Scene {
 }
 
 fn light(kind: LightKind) -> Light {
-    Light {
-        name: "light".to_owned(),
-        kind,
-        color: Rgb::WHITE,
-        specular_color: Rgb::WHITE,
-        shadows: true,
-        place: Place::default(),
-    }
+    Light { name: "light".to_owned(), kind, ..Light::default() }
 }
 
 /// Light from the upper left, in front.

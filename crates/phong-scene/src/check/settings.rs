@@ -82,6 +82,13 @@ fn view(eye: DVec3, look_at: DVec3, up: DVec3, faults: &mut Faults) {
 /// Judges a light.
 pub(crate) fn light(light: &Light, faults: &mut Faults) {
     values(light, None, faults);
+    if let LightKind::Rectangle { direction, up: Some(up), .. } = light.kind
+        && faults.spare(&["direction", "up"])
+        && LightKind::upright(direction, Some(up)).is_none()
+    {
+        let help = "`up` says which way its height is: it must point elsewhere than `direction`";
+        faults.say("up", "`up` is parallel to `direction`").help = Some(help.to_owned());
+    }
     let LightKind::Spot { position, target, cone, edge, .. } = light.kind else { return };
     if faults.spare(&["position", "target"]) && (target - position).try_normalize().is_none() {
         let help = "the light shines from `position` to `target`; they must differ";

@@ -304,7 +304,7 @@ fn lights(camera: &Camera) -> Vec<Light> {
         color: Rgb::grey(color),
         specular_color: Rgb::grey(color),
         shadows,
-        place: Place::default(),
+        ..Light::default()
     };
     vec![
         light("key light", forward + 0.6 * right - 0.8 * up, 1.0, true),

@@ -26,7 +26,7 @@ pub(crate) fn of_key(table: &str, key: &str) -> Option<&'static str> {
             "scene",
             "point_light" | "pointlight" | "sun" | "spotlight" | "spot_light" | "area_light"
             | "directional_light" | "lamp",
-        ) => "every light is a `[[light]]`, with `kind = \"point\"`, \"distant\" or \"spot\"",
+        ) => "every light is a `[[light]]`, with `kind = \"point\"`, \"distant\", \"spot\", …",
         ("scene", "render" | "settings" | "output" | "film" | "picture") => {
             "the picture's settings are `[image]`"
         }
@@ -37,7 +37,8 @@ pub(crate) fn of_key(table: &str, key: &str) -> Option<&'static str> {
             "a light's strength is its `color`, which may be above 1: `color = 2` is twice white"
         }
         ("light", "size" | "width" | "samples") => {
-            "soft shadows come of `radius`, or of `angle` for a distant light"
+            "soft shadows come of `radius`, of `angle` for a distant light, or of \
+             `kind = \"rectangle\"`, with `width` and `height`"
         }
         ("light" | "camera" | "texture", "type") => "did you mean `kind`?",
         ("light" | "sphere" | "box" | "disc" | "torus", "location" | "pos" | "origin" | "at") => {

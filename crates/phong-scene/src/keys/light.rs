@@ -8,6 +8,9 @@ use crate::wording::Word;
 
 keyed!(Light, |_| &LIGHT);
 
+/// The kinds that are somewhere.
+const LOCAL: &[&str] = &["point", "spot", "rectangle", "disc", "sphere"];
+
 /// `[[light]]`.
 pub(crate) static LIGHT: Table = Table {
     name: "light",
@@ -29,8 +32,8 @@ pub(crate) static LIGHT: Table = Table {
         )
         .of(field!(Light.name)),
         Key::new("position", Kind::Point, Default::Required, "Where it is, in scene units.")
-            .of(field!(Light.kind = LightKind::{Point | Spot}.position))
-            .only(&["point", "spot"]),
+            .of(field!(Light.kind = LightKind::{Point | Spot | Rectangle | Disc | Sphere}.position))
+            .only(LOCAL),
         Key::new(
             "direction",
             Kind::Direction,
@@ -39,6 +42,39 @@ pub(crate) static LIGHT: Table = Table {
         )
         .of(field!(Light.kind = LightKind::{Distant}.direction))
         .only(&["distant"]),
+        Key::new(
+            "direction",
+            Kind::Direction,
+            Default::Required,
+            "The way the light travels from its middle, across its surface; any length. It shines to \
+             this side alone.",
+        )
+        .of(field!(Light.kind = LightKind::{Rectangle | Disc}.direction))
+        .only(&["rectangle", "disc"]),
+        Key::new(
+            "up",
+            Kind::Direction,
+            Default::Said("`[0, 1, 0]`; `[0, 0, -1]` where the light travels along Y"),
+            "Along its height, made perpendicular to `direction`; any length.",
+        )
+        .of(field!(Light.kind = LightKind::{Rectangle}.up))
+        .only(&["rectangle"]),
+        Key::new(
+            "width",
+            Kind::Number(Range::POSITIVE),
+            Default::Required,
+            "Across `up`, scene units.",
+        )
+        .of(field!(Light.kind = LightKind::{Rectangle}.width))
+        .only(&["rectangle"]),
+        Key::new(
+            "height",
+            Kind::Number(Range::POSITIVE),
+            Default::Required,
+            "Along `up`, scene units.",
+        )
+        .of(field!(Light.kind = LightKind::{Rectangle}.height))
+        .only(&["rectangle"]),
         Key::new("target", Kind::Point, Default::Required, "A point on the axis of the cone.")
             .of(field!(Light.kind = LightKind::{Spot}.target))
             .only(&["spot"]),
@@ -79,8 +115,16 @@ pub(crate) static LIGHT: Table = Table {
             Default::Vector([1.0, 0.0, 0.0]),
             "`[c, l, q]`: the light is divided by c + l d + q d², d the distance.",
         )
-        .of(field!(Light.kind = LightKind::{Point | Spot}.attenuation))
-        .only(&["point", "spot"]),
+        .of(field!(Light.kind = LightKind::{Point | Spot | Rectangle | Disc | Sphere}.attenuation))
+        .only(LOCAL),
+        Key::new(
+            "range",
+            Kind::Number(Range::POSITIVE),
+            Default::Said("none"),
+            "Distance from `position` beyond which there is nothing of it, scene units.",
+        )
+        .of(field!(Light.range))
+        .only(LOCAL),
         Key::new(
             "shadows",
             Kind::Flag,
@@ -96,6 +140,22 @@ pub(crate) static LIGHT: Table = Table {
         )
         .of(field!(Light.kind = LightKind::{Point | Spot}.radius))
         .only(&["point", "spot"]),
+        Key::new(
+            "radius",
+            Kind::Number(Range::POSITIVE),
+            Default::Required,
+            "Radius of the disc or sphere, scene units.",
+        )
+        .of(field!(Light.kind = LightKind::{Disc | Sphere}.radius))
+        .only(&["disc", "sphere"]),
+        Key::new(
+            "visible",
+            Kind::Flag,
+            Default::Flag(true),
+            "Whether rays see its surface, from the side to which it shines: an emission of `color`.",
+        )
+        .of(field!(Light.visible))
+        .only(&["rectangle", "disc", "sphere"]),
         Key::new(
             "angle",
             Kind::Number(LightKind::ANGLE),

@@ -161,16 +161,26 @@ prop_compose! {
     fn light()(
         color in color(), position in vector(), target in vector(), cone in length(),
         edge in length(), attenuation in prop::array::uniform3(length()), radius in length(),
-        kind in 0..3,
+        kind in 0..6, range in prop::option::of(length()),
     ) -> Light {
         let kind = match kind {
             0 => LightKind::Point { position, attenuation, radius },
             1 => LightKind::Distant { direction: target, angle: cone },
+            2 => LightKind::Disc { position, direction: target, radius, attenuation },
+            3 => LightKind::Sphere { position, radius, attenuation },
+            4 => LightKind::Rectangle {
+                position,
+                direction: target,
+                up: Some(position),
+                width: cone,
+                height: edge,
+                attenuation,
+            },
             _ => {
                 LightKind::Spot { position, target, cone, edge: cone + edge, attenuation, radius }
             }
         };
-        Light { color, kind, ..Light::default() }
+        Light { color, kind, range, ..Light::default() }
     }
 }
 

@@ -73,6 +73,7 @@ cases! {
     a_key_of_another_kind_is_told_so
     a_key_that_the_model_does_not_use_is_wrong
     a_light_within_a_ball_is_a_warning
+    a_light_with_a_surface_has_a_side_and_a_size
     a_material_defined_twice_shows_both_places
     a_model_of_another_format_is_told_where_it_is_named
     a_scene_without_lights_is_a_warning

@@ -174,7 +174,18 @@ impl Make {
         let attenuation = self.one(&[[1.0, 0.0, 0.0], [0.5, 0.25, 1e-9]]);
         let position = self.point();
         let radius = self.one(&[0.0, 0.125]);
-        let kind = match self.below(3) {
+        let direction = DVec3::new(self.number(), -1.0, 0.0);
+        let kind = match self.below(6) {
+            3 => LightKind::Rectangle {
+                position,
+                direction,
+                up: self.flag().then(|| DVec3::new(0.0, 0.5, self.number())),
+                width: 1.0 + self.number().abs(),
+                height: 0.25,
+                attenuation,
+            },
+            4 => LightKind::Disc { position, direction, radius: 0.5, attenuation },
+            5 => LightKind::Sphere { position, radius: 0.125, attenuation },
             0 => LightKind::Point { position, attenuation, radius },
             1 => LightKind::Distant {
                 direction: DVec3::new(self.number(), -1.0, 0.0),
@@ -190,12 +201,16 @@ impl Make {
             },
         };
         let color = self.color();
+        let is_distant = kind.position().is_none();
+        let has_surface = kind.has_surface();
         Light {
             name: if self.flag() { format!("light {number}") } else { self.name() },
             kind,
             color,
             specular_color: if self.flag() { color } else { self.color() },
             shadows: self.flag(),
+            range: (!is_distant && self.flag()).then_some(7.5),
+            visible: !has_surface || self.flag(),
             place: Place::default(),
         }
     }

@@ -42,7 +42,10 @@ pub(super) fn spots(scene: &Scene, text: Option<&str>, middles: &[DVec3]) -> Vec
     for (i, light) in scene.lights.iter().enumerate().filter(|_| written) {
         let key = |key: &str| format!("light.{}.{key}", i + 1);
         match light.kind {
-            LightKind::Point { position, .. } => {
+            LightKind::Point { position, .. }
+            | LightKind::Rectangle { position, .. }
+            | LightKind::Disc { position, .. }
+            | LightKind::Sphere { position, .. } => {
                 all.push(Spot::new("light", key("position"), &light.name, position));
             }
             LightKind::Spot { position, target, .. } => {

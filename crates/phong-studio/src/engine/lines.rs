@@ -71,6 +71,10 @@ impl Lines<'_> {
                     self.line(name, None, surface.p, met.p);
                     self.onward(met, bounces - 1);
                 }
+                End::Light { t, .. } => {
+                    let way = f64::from(*t) * ray.dir.to_vec().as_dvec3();
+                    self.line(name, None, surface.p, ray.origin + way);
+                }
                 End::Background(_) => {
                     let [x, y, z] = ray.dir.to_array().map(f64::from);
                     if let Some(unit) = self.unit(surface.p) {

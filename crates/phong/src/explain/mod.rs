@@ -72,6 +72,17 @@ pub struct RayTold {
 pub enum End {
     /// It met nothing and saw this background.
     Background(Rgb),
+    /// It saw the surface of a light, and brought its emission.
+    Light {
+        /// The light's name.
+        name: String,
+        /// Where it was written.
+        at: Place,
+        /// Distance along the ray.
+        t: f32,
+        /// What it brought. Linear.
+        emission: Rgb,
+    },
     /// It met a surface.
     Surface(Box<Surface>),
 }
@@ -388,6 +399,7 @@ impl RayTold {
     pub fn terms(&self) -> Terms {
         let terms = match &self.end {
             End::Background(background) => Terms { background: *background, ..Terms::default() },
+            End::Light { emission, .. } => Terms { emission: *emission, ..Terms::default() },
             End::Surface(surface) => surface.terms,
         };
         match self.fog {

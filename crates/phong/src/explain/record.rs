@@ -53,7 +53,7 @@ impl<'a> Recorder<'a> {
     fn surface(&mut self) -> Option<&mut Surface> {
         match &mut self.open.last_mut()?.told.as_mut()?.end {
             End::Surface(surface) => Some(surface),
-            End::Background(_) => None,
+            End::Background(_) | End::Light { .. } => None,
         }
     }
 
@@ -86,6 +86,12 @@ impl<'a> Recorder<'a> {
 impl Witness for Recorder<'_> {
     fn missed(&mut self, ray: &Ray, background: Rgb) {
         self.tell(ray, None, End::Background(background));
+    }
+
+    fn saw(&mut self, ray: &Ray, light: usize, t: f32, emission: Rgb) {
+        let written = &self.scene.written_lights()[light];
+        let (name, at) = (written.name.clone(), written.place.clone());
+        self.tell(ray, None, End::Light { name, at, t, emission });
     }
 
     fn met(&mut self, ray: &Ray, at: &SurfaceInteraction, terms: Terms) {

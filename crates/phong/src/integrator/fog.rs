@@ -51,7 +51,13 @@ pub(super) fn measure(
                 *way = *behind;
                 if met {
                     way.to = way.from + interactions.hits[i].get(lane).t * way.scale;
+                } else if let Some((_, t)) = interactions.lamp(i, lane) {
+                    way.to = way.from + t * way.scale;
                 }
+            } else if let Some((_, t)) = interactions.lamp(i, lane) {
+                let ray = rays.get(lane);
+                let p = ray.origin + f64::from(t) * ray.dir.as_dvec3();
+                (way.to, way.scale) = fog.distance(p, ray.dir);
             } else if met {
                 let p = glam::DVec3::from_array(surfaces.p.map(|all| all[lane]));
                 (way.to, way.scale) = fog.distance(p, direction(&rays.dir, lane).to_vec());

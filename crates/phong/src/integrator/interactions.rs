@@ -7,6 +7,7 @@ use phong_scene::{Background, Rgb};
 
 use super::bundle::Radiance8;
 use super::crossing::{Crossings, Departure};
+use super::lamps::{self, Lamps8};
 use super::{Integrator, Paths};
 use crate::interaction::SurfaceInteraction;
 use crate::material::Material;
@@ -35,6 +36,8 @@ pub(super) struct Interactions {
     pub(super) covers: Vec<[f32; 8]>,
     /// How wide each ray is at its surface, eight for eight rays. Empty: no image asks.
     pub(super) widths: Vec<[f32; 8]>,
+    /// The lamps that rays see, eight for eight rays. Empty: there are none.
+    pub(super) lamps: Vec<Lamps8>,
 }
 
 impl Interactions {
@@ -70,6 +73,7 @@ impl Interactions {
             None => scene.surface_eights(rays, &self.hits, &mut self.surfaces),
             Some(coincidences) => self.settle(scene, coincidences, rays, &paths.departures),
         }
+        lamps::find(scene, rays, &mut self.hits, &mut self.lamps);
         scene.world().run(BeginRadiance {
             scene,
             lift: integrator.shadows && integrator.terminator,
@@ -119,6 +123,24 @@ impl Interactions {
                 departure
             }
         }
+    }
+
+    /// The lamp that a ray sees: the number of its light, and how far it is.
+    pub(super) fn lamp(&self, i: usize, lane: usize) -> Option<(usize, f32)> {
+        let lamps = self.lamps.get(i).filter(|lamps| lamps.seen >> lane & 1 != 0)?;
+        Some((lamps.light[lane] as usize, lamps.t[lane]))
+    }
+
+    /// A box around all surfaces, by its middle and half its size; `None`: there are none.
+    pub(super) fn bounds(&self) -> Option<[DVec3; 2]> {
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for (hits, surfaces) in self.hits.iter().zip(&self.surfaces) {
+            for lane in lanes(hits.met) {
+                let p = DVec3::from_array(surfaces.p.map(|all| all[lane]));
+                (low, high) = (low.min(p), high.max(p));
+            }
+        }
+        (low.x <= high.x).then(|| [(low + high) / 2.0, (high - low) / 2.0])
     }
 
     /// The surface that one ray hit. `materials` are as many as the view has.
@@ -194,12 +216,21 @@ impl Kernel for BeginRadiance<'_> {
         /// What lights add to in any case, and the ambient term.
         const LOCAL: TermSet = TermSet::of(&[Term::Ambient, Term::Diffuse, Term::Specular]);
         let Self { scene, lift, height, rays, interactions, passed, out } = self;
-        let Interactions { hits, surfaces, shading, made, covers, widths, .. } = interactions;
+        let Interactions { hits, surfaces, shading, made, covers, widths, lamps, .. } =
+            interactions;
         let eights = rays.iter().zip(hits).zip(surfaces).zip(shading).zip(out);
         for (i, ((((rays, hits), surface), shading), out)) in eights.enumerate() {
             let met = hits.met;
-            out.begin(met);
-            let missed = rays.there & !met;
+            let seen = lamps.get(i).map_or(0, |lamps| lamps.seen);
+            out.begin(met | seen);
+            if let Some(lamps) = lamps.get(i).filter(|lamps| lamps.seen != 0) {
+                out.brought = out.brought.with(Term::Emission);
+                for lane in lanes(seen) {
+                    let light = &scene.lights()[lamps.light[lane] as usize];
+                    set(&mut out.terms[Term::Emission], lane, light.color().to_array());
+                }
+            }
+            let missed = rays.there & !met & !seen;
             if missed != 0 {
                 out.brought = out.brought.with(Term::Background);
                 let to = &mut out.terms[Term::Background];

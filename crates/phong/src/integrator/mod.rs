@@ -12,6 +12,7 @@ mod crossing;
 mod filtered;
 mod fog;
 mod interactions;
+mod lamps;
 mod lights;
 mod openness;
 mod optics;
@@ -233,7 +234,9 @@ impl Integrator<'_> {
             for (i, (rays8, out)) in rays.iter().zip(&*out).enumerate() {
                 for lane in lanes(rays8.there) {
                     let terms = out.terms.get(lane);
-                    if out.met >> lane & 1 != 0 {
+                    if let Some((light, distance)) = interactions.lamp(i, lane) {
+                        witness.saw(&rays8.get(lane), light, distance, terms.emission);
+                    } else if out.met >> lane & 1 != 0 {
                         witness.met(
                             &rays8.get(lane),
                             &interactions.at(rays, i, lane, self.scene.materials().len()),
@@ -251,9 +254,16 @@ impl Integrator<'_> {
                 }
             }
         }
+        // Who listens is told of each light.
+        let bounds = (self.scene.has_ends() && !W::LISTENS).then(|| interactions.bounds());
         for light in 0..self.scene.lights().len() {
             if self.is_stopped() {
                 return;
+            }
+            if let Some(bounds) = bounds
+                && !bounds.is_some_and(|bounds| self.scene.lights()[light].may_reach(bounds))
+            {
+                continue;
             }
             counts.shadow += self.sample_light(light, rays, interactions, samplers, lights);
             if self.scene.has_ambient_per_light() {

@@ -245,6 +245,10 @@ impl<'a> TileRenderer<'a> {
             let (hit, cost) = scene.world().intersect_counted(&ray);
             (scene.first_kept(&ray, hit, &mut Vec::new()), cost.nodes)
         });
+        let before = if hit.is_some() { hit.t } else { f32::INFINITY };
+        let lamp = ray.filter(|_| scene.has_lamps()).and_then(|ray| scene.lamp(&ray, before));
+        // A lamp is no object: of what it hides there is nothing to tell.
+        let hit = if lamp.is_some() { Hit::NONE } else { hit };
         let (ray, hit) = match ray {
             Some(ray) if hit.is_some() => {
                 let (ray, hit) = first_met(scene, ray, hit);
@@ -257,7 +261,11 @@ impl<'a> TileRenderer<'a> {
             let LayerKind::Aov(aov) = kind else { continue };
             match (aov, &at) {
                 (Aov::Cost, _) => values[place] = cost as f32,
-                (Aov::Depth, None) => values[place] = f32::INFINITY,
+                (Aov::Depth, None) => {
+                    let start = started.map_or(0.0, |started| started.start);
+                    let depth = lamp.map_or(f64::INFINITY, |t| start + f64::from(t));
+                    values[place] = depth as f32;
+                }
                 (_, None) => {}
                 (Aov::Depth, Some(at)) => {
                     let start = started.map_or(0.0, |started| started.start);

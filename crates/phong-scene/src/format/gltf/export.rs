@@ -52,6 +52,9 @@ pub(crate) fn write_gltf(
         if scene.lights.iter().any(|light| light.kind.extent() > 0.0) {
             lost.push("size of lights, and so no soft shadows");
         }
+        if scene.lights.iter().any(|light| light.kind.has_surface() && light.visible) {
+            lost.push("lights that are seen");
+        }
         for what in lost {
             account.drop(Diagnostic::warning(format!("glTF holds no {what}"), None));
         }
@@ -397,8 +400,12 @@ impl<'s> Writer<'s> {
         let most = r.max(g).max(b).max(f32::MIN_POSITIVE);
         let (kind, position, direction) = match light.kind {
             LightKind::Distant { direction, .. } => ("directional", glam::DVec3::ZERO, direction),
-            LightKind::Point { position, .. } => ("point", position, -glam::DVec3::Y),
+            LightKind::Point { position, .. } | LightKind::Sphere { position, .. } => {
+                ("point", position, -glam::DVec3::Y)
+            }
             LightKind::Spot { position, target, .. } => ("spot", position, target - position),
+            LightKind::Rectangle { position, direction, .. }
+            | LightKind::Disc { position, direction, .. } => ("spot", position, direction),
         };
         let mut value = json!({
             "type": kind, "name": light.name, "color": [r / most, g / most, b / most],
@@ -407,6 +414,14 @@ impl<'s> Writer<'s> {
         if let LightKind::Spot { cone, edge, .. } = light.kind {
             let (inner, outer) = (cone.to_radians(), edge.to_radians());
             value["spot"] = json!({ "innerConeAngle": inner, "outerConeAngle": outer });
+        }
+        if light.kind.facing().is_some() {
+            // To one side, as nearly as the format has it.
+            let half = std::f64::consts::FRAC_PI_2;
+            value["spot"] = json!({ "innerConeAngle": 0.999 * half, "outerConeAngle": half });
+        }
+        if let Some(range) = light.range {
+            value["range"] = json!(range);
         }
         let extensions = self.root.entry("extensions").or_insert_with(|| json!({}));
         let all = &mut extensions["KHR_lights_punctual"]["lights"];

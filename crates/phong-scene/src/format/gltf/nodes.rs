@@ -157,5 +157,5 @@ pub(super) fn light(root: &At<'_>, node: &Node<'_>, place: &Place) -> Result<Opt
     };
     let name = at.name("light");
     let place = place.clone();
-    Ok(Some(Light { name, kind, color, specular_color: color, shadows: true, place }))
+    Ok(Some(Light { name, kind, color, specular_color: color, place, ..Light::default() }))
 }

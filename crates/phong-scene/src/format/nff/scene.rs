@@ -266,7 +266,7 @@ fn lights(lamps: Vec<(DVec3, Option<Rgb>, Place)>) -> Vec<Light> {
         let color = own.unwrap_or(each);
         let kind = LightKind::Point { position, attenuation: [1.0, 0.0, 0.0], radius: 0.0 };
         let name = format!("light {}", i + 1);
-        Light { name, kind, color, specular_color: color, shadows: true, place }
+        Light { name, kind, color, specular_color: color, place, ..Light::default() }
     };
     lamps.into_iter().enumerate().map(light).collect()
 }

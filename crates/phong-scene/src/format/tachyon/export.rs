@@ -156,7 +156,8 @@ fn lights(scene: &Scene, text: &mut String, account: &mut Account) {
                 let way = vector(direction.normalize_or(DVec3::NEG_Z));
                 writeln!(text, "DIRECTIONAL_LIGHT DIRECTION {way} COLOR {shine}")
             }
-            LightKind::Point { position, attenuation, .. } => {
+            LightKind::Point { position, attenuation, .. }
+            | LightKind::Sphere { position, attenuation, .. } => {
                 let (at, far) = (vector(position), far(attenuation));
                 writeln!(text, "LIGHT CENTER {at} RAD 0.001{far} COLOR {shine}")
             }
@@ -168,9 +169,20 @@ fn lights(scene: &Scene, text: &mut String, account: &mut Account) {
                     "SPOTLIGHT CENTER {at} RAD 0.001 DIRECTION {way} FALLOFF_START {cone} FALLOFF_END {edge}{far} COLOR {shine}"
                 )
             }
+            LightKind::Rectangle { position, direction, attenuation, .. }
+            | LightKind::Disc { position, direction, attenuation, .. } => {
+                let way = vector(direction.normalize_or(DVec3::NEG_Y));
+                let (at, far) = (vector(position), far(attenuation));
+                writeln!(
+                    text,
+                    "SPOTLIGHT CENTER {at} RAD 0.001 DIRECTION {way} FALLOFF_START 89.9 FALLOFF_END 90{far} COLOR {shine}"
+                )
+            }
         };
         let lost = [
             (light.kind.extent() > 0.0, "a soft light's extent"),
+            (light.kind.has_surface() && light.visible, "a light that is seen"),
+            (light.range.is_some(), "where a light ends (`range`)"),
             (!light.shadows, "a light without shadows"),
             (light.specular_color != light.color, "another colour for highlights"),
         ];

@@ -406,6 +406,7 @@ impl<'a> Assembly<'a> {
                 specular_color: color,
                 shadows: !self.mode.no_shadows,
                 place,
+                ..Light::default()
             }
         };
         self.lamps.iter().enumerate().map(light).collect()

@@ -1,0 +1,454 @@
+//! Lights with a surface: points of them chosen by solid angle, and the surfaces as rays see them.
+//!
+//! A light's samples fill the solid angle that it is seen under evenly, so that their mean is that of a
+//! point light over all directions to it. The middle of the square of places is the light's own middle.
+
+use glam::{DVec3, Vec3};
+use phong_bvh::Lanes;
+
+use super::across;
+use crate::math::lanes::{add, dot, normalize, scale, select3, splat3, sub};
+use crate::math::wide;
+
+/// The surface of a light, about its middle.
+#[derive(Clone, Debug)]
+pub(super) enum Area {
+    Rectangle(Rectangle),
+    Disc {
+        /// The way it faces, unit.
+        facing: Vec3,
+        radius: f32,
+    },
+    Sphere {
+        radius: f32,
+    },
+}
+
+/// A rectangle.
+#[derive(Clone, Debug)]
+pub(super) struct Rectangle {
+    /// Along its width, its height, and the way it faces; unit and perpendicular to one another.
+    axes: [DVec3; 3],
+    /// Half its width and half its height.
+    half: [f64; 2],
+}
+
+impl Area {
+    pub(super) fn rectangle(direction: DVec3, up: Option<DVec3>, size: [f64; 2]) -> Self {
+        let facing = direction.normalize_or(DVec3::NEG_Y);
+        let up =
+            phong_scene::LightKind::upright(facing, up).unwrap_or(facing.any_orthonormal_vector());
+        let axes = [facing.cross(up), up, facing];
+        Self::Rectangle(Rectangle { axes, half: size.map(|size| 0.5 * size) })
+    }
+
+    pub(super) fn disc(direction: DVec3, radius: f64) -> Self {
+        let facing = direction.normalize_or(DVec3::NEG_Y).as_vec3();
+        Self::Disc { facing, radius: radius as f32 }
+    }
+
+    pub(super) fn sphere(radius: f64) -> Self {
+        Self::Sphere { radius: radius as f32 }
+    }
+
+    /// The way it faces; `None`: it shines all around.
+    pub(super) fn facing(&self) -> Option<Vec3> {
+        match self {
+            Self::Rectangle(Rectangle { axes: [.., facing], .. }) => Some(facing.as_vec3()),
+            Self::Disc { facing, .. } => Some(*facing),
+            Self::Sphere { .. } => None,
+        }
+    }
+
+    /// How far a ray goes until it meets the surface from the side to which it shines, for one ray or
+    /// several; +∞ where it does not. `toward` is the way from the ray's start to the light's middle.
+    #[inline(always)]
+    pub(super) fn meet<F: Lanes<Scalar = f32>>(&self, toward: [F; 3], dir: [F; 3]) -> F {
+        let (zero, none) = (dir[0].splat(0.0), dir[0].splat(f32::INFINITY));
+        let all = |v: Vec3| splat3(zero, v.to_array());
+        let plane = |facing: Vec3| {
+            let facing = all(facing);
+            let (along, slope) = (dot(toward, facing), dot(dir, facing));
+            let t = along / slope;
+            // Only who looks against the way it faces sees it.
+            let seen = along.lt(zero) & slope.lt(zero);
+            (F::select(seen, t, none), sub(scale(F::select(seen, t, zero), dir), toward))
+        };
+        match self {
+            Self::Rectangle(Rectangle { axes: [width, height, facing], half }) => {
+                let (t, from_middle) = plane(facing.as_vec3());
+                let [x, y] =
+                    [width, height].map(|axis| dot(from_middle, all(axis.as_vec3())).abs());
+                let [across, up] = half.map(|half| zero.splat(half as f32));
+                F::select(x.gt(across) | y.gt(up), none, t)
+            }
+            Self::Disc { facing, radius } => {
+                let (t, from_middle) = plane(*facing);
+                F::select(dot(from_middle, from_middle).gt(zero.splat(radius * radius)), none, t)
+            }
+            Self::Sphere { radius } => {
+                // By the point of the ray that is closest to the middle.
+                let closest = dot(toward, dir);
+                let aside = sub(toward, scale(closest, dir));
+                let square = zero.splat(radius * radius) - dot(aside, aside);
+                let half = F::select(square.gt(zero), square, zero).sqrt();
+                let t = closest - half;
+                F::select(square.gt(zero) & t.gt(zero), t, none)
+            }
+        }
+    }
+}
+
+/// A point of a light that was chosen, seen from a point.
+pub(super) struct Chosen<F> {
+    /// The way to it.
+    pub(super) toward: [F; 3],
+    /// What it counts, of the mean.
+    pub(super) weight: F,
+}
+
+impl Rectangle {
+    /// The way to a point of it: the spherical rectangle is filled evenly. `toward` leads to its middle,
+    /// `place` is of the unit square.
+    ///
+    /// After Ureña, Fajardo and King, *An Area-Preserving Parametrization for Spherical Rectangles*, 2013;
+    /// their angles are kept as points of the unit circle, so that one arc tangent is enough.
+    #[inline(always)]
+    pub(super) fn choose<F: Lanes<Scalar = f64>>(&self, toward: [F; 3], place: [F; 2]) -> [F; 3] {
+        /// Below this solid angle a spherical rectangle is a flat one to rounding.
+        const FLAT: f64 = 1e-8;
+        let like = |v: f64| place[0].splat(v);
+        let (zero, one) = (like(0.0), like(1.0));
+        let along = |axis: DVec3| {
+            let [x, y, z] = axis.to_array();
+            toward[0] * x + toward[1] * y + toward[2] * z
+        };
+        let [x, y, z] = self.axes.map(along);
+        let [half_width, half_height] = self.half;
+        let (x0, x1) = (x - half_width, x + half_width);
+        let (y0, y1) = (y - half_height, y + half_height);
+        // How far its plane is, and never 0; the sign is that of the paper.
+        let depth = -z.abs().at_least(1e-12 * (half_width + half_height));
+        let square = depth * depth;
+        // Normals of the planes through the edges: (0, a, b) for those along x, (c, 0, d) for those along y.
+        let normal = |edge: F| {
+            let length = (square + edge * edge).sqrt();
+            [depth / length, edge / length]
+        };
+        let ([a0, b0], [c1, d1]) = (normal(y0), normal(x1));
+        let ([a2, b2], [c3, d3]) = (normal(y1), normal(x0));
+        let (b0, d3) = (-b0, -d3);
+        let (a2, c1) = (-a2, -c1);
+        // The angle between the planes of (0, a, b) and (c, 0, d): cosine and sine.
+        let angle = |[a, b]: [F; 2], [c, d]: [F; 2]| {
+            let (p, q, r) = (a * d, b * c, a * c);
+            [-(b * d), (p * p + q * q + r * r).sqrt()]
+        };
+        let [g0, g1] = [angle([a0, b0], [c1, d1]), angle([a2, b2], [c1, d1])];
+        let [g2, g3] = [angle([a2, b2], [c3, d3]), angle([a0, b0], [c3, d3])];
+        let times = |[a, b]: [F; 2], [c, d]: [F; 2]| [a * c - b * d, a * d + b * c];
+        let far = times(g2, g3);
+        let solid_angle = turn(times(times(g0, g1), far));
+        // The angle of the paper's slice: k + u S, with k = −(g2 + g3).
+        let [cos, sin] = times([far[0], -far[1]], on_circle(place[0] * solid_angle));
+        let slope = (cos * b0 - b2) / sin;
+        let size = one / (slope * slope + b0 * b0).sqrt();
+        let cu = F::select(slope.gt(zero), size, -size);
+        let within = |v: F, low: F, high: F| {
+            let v = v.max(low);
+            F::select(v.gt(high), high, v)
+        };
+        let rest = (one - cu * cu).at_least(1e-30).sqrt();
+        let xu = within(-(cu * depth) / rest, x0, x1);
+        let distance = (xu * xu + square).sqrt();
+        let height = |y: F| y / (xu * xu + square + y * y).sqrt();
+        let (h0, h1) = (height(y0), height(y1));
+        let h = h0 + place[1] * (h1 - h0);
+        let yv = within(h * distance / (one - h * h).at_least(1e-30).sqrt(), y0, y1);
+        let flat = solid_angle.lt(like(FLAT));
+        let xu = F::select(flat, x0 + place[0] * (2.0 * half_width), xu);
+        let yv = F::select(flat, y0 + place[1] * (2.0 * half_height), yv);
+        let middle = place[0].eq(like(0.5)) & place[1].eq(like(0.5));
+        let (xu, yv) = (F::select(middle, x, xu), F::select(middle, y, yv));
+        let axes = self.axes.map(|axis| axis.to_array());
+        std::array::from_fn(|k| xu * axes[0][k] + yv * axes[1][k] + z * axes[2][k])
+    }
+}
+
+/// The angle of a point of the unit circle, given by cosine and sine, in [0, 2π); a hair below 0 is 0.
+#[inline(always)]
+fn turn<F: Lanes<Scalar = f64>>([cos, sin]: [F; 2]) -> F {
+    use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+    let zero = cos.splat(0.0);
+    let (x, y) = (cos.abs(), sin.abs());
+    let steep = y.gt(x);
+    let (low, high) = (F::select(steep, x, y), F::select(steep, y, x));
+    let slope = low / high;
+    // Beyond the tangent of π/8 it is counted from π/4.
+    let large = slope.gt(zero.splat(0.414_213_562_373_095));
+    let t = F::select(large, (low - high) / (low + high), slope);
+    let square = t * t;
+    // The series of the arc tangent, to 1e-11 of it.
+    let mut sum = zero.splat(1.0 / 25.0);
+    for k in (0..12).rev() {
+        let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
+        sum = sum * square + sign / f64::from(2 * k + 1);
+    }
+    let angle = sum * t + F::select(large, zero.splat(FRAC_PI_4), zero);
+    let angle = F::select(steep, -angle + FRAC_PI_2, angle);
+    let angle = F::select(cos.lt(zero), -angle + PI, angle);
+    let rounding = angle.lt(zero.splat(1e-9));
+    let angle = F::select(sin.lt(zero), -angle + 2.0 * PI, angle);
+    F::select(sin.lt(zero) & rounding, zero, angle)
+}
+
+/// Cosine and sine of an angle from 0 to 2π.
+#[inline(always)]
+fn on_circle<F: Lanes<Scalar = f64>>(angle: F) -> [F; 2] {
+    let (mut sin, mut cos) = wide::sin_cos_of_eighth(angle * 0.125);
+    for _ in 0..3 {
+        (sin, cos) = (sin * cos * 2.0, cos * cos - sin * sin);
+    }
+    [cos, sin]
+}
+
+/// The way to the sphere's middle turned into the cone that the sphere fills: evenly, by a `place` of the
+/// unit disc. It ends where it is closest to the middle; from within, all is in the half towards that.
+#[inline(always)]
+pub(super) fn choose_of_sphere<F: Lanes<Scalar = f32>>(
+    radius: f32,
+    toward: [F; 3],
+    place: [F; 2],
+) -> Chosen<F> {
+    let one = place[0].splat(1.0);
+    let axis = normalize(toward);
+    let distance = dot(toward, axis);
+    let sine = F::select(distance.gt(one * radius), one * radius / distance, one);
+    // 1 − cos of the cone, without cancellation.
+    let depth = sine * sine / ((one - sine * sine).sqrt() + one);
+    let lower = depth * (place[0] * place[0] + place[1] * place[1]);
+    let aside = across((depth * (-lower + 2.0)).sqrt(), axis, place);
+    let cos = one - lower;
+    let zero = one - one;
+    let is_somewhere = zero.lt(distance);
+    let way = select3(is_somewhere, add(scale(cos, axis), aside), [zero; 3]);
+    Chosen { toward: scale(distance * cos, way), weight: one }
+}
+
+/// The way to a point of a disc, chosen by a `place` of the unit disc.
+///
+/// The disc is seen as an elliptic cone. Its directions are (a ρ cos ψ, b ρ sin ψ, 1) with ρ ≤ 1; in each
+/// sector of ψ they are chosen evenly by solid angle, and what sectors of the same width hold differently
+/// is their weight: g(q) over its mean, q = a² cos² ψ + b² sin² ψ, g = 1 / (√(1 + q) (1 + √(1 + q))).
+#[inline(always)]
+pub(super) fn choose_of_disc<F: Lanes<Scalar = f32>>(
+    (facing, radius): (Vec3, f32),
+    toward: [F; 3],
+    place: [F; 2],
+) -> Chosen<F> {
+    /// The largest tangent of half an angle that the disc is seen under: that of 180° to rounding.
+    const WIDEST: f32 = 1e6;
+    /// Cosines of the odd multiples of π/16: the mean over ψ is that of 16 values evenly spread.
+    const SPREAD: [f32; 4] = [0.980_785_28, 0.831_469_6, 0.555_570_24, 0.195_090_32];
+    let like = |v: f32| place[0].splat(v);
+    let (zero, one) = (like(0.0), like(1.0));
+    let n = splat3(zero, facing.to_array());
+    let depth = dot(toward, n);
+    let aside = sub(toward, scale(depth, n));
+    // Away from where the point is below the disc; there, anywhere across.
+    let length = dot(aside, aside);
+    let is_aside = length.gt(dot(toward, toward) * 1e-10);
+    let anywhere = splat3(zero, facing.any_orthonormal_vector().to_array());
+    let length = F::select(is_aside, length, one).sqrt();
+    let away = scale(one / length, aside);
+    let away = select3(is_aside, away, anywhere);
+    let offset = F::select(is_aside, length, zero);
+    // The nearest and the farthest point of the rim.
+    let square = depth * depth;
+    let [near, far] = [offset - radius, offset + radius];
+    let [near_length, far_length] = [near, far].map(|y| (square + y * y).sqrt());
+    let sum = near_length + far_length;
+    // Where the cone's axis meets the disc, from its middle, and half the chord there.
+    let shift = -(offset / (sum * sum)) * (4.0 * radius * radius);
+    let chord = (-(shift * shift) + radius * radius).at_least(0.0).sqrt();
+    let axis = add(toward, scale(shift, away));
+    let axis_length = dot(axis, axis).at_least(1e-30).sqrt();
+    let axis = scale(one / axis_length, axis);
+    let at_most = |v: F| F::select(v.lt(like(WIDEST)), v, like(WIDEST));
+    let a = at_most(chord / axis_length);
+    // Half the angle between the two points of the rim: by its sine and cosine, in the form that does not
+    // cancel.
+    let (lengths, cosine) = (near_length * far_length, near * far + square);
+    let sine = (depth.abs() * (2.0 * radius)).at_least(1e-30);
+    let b =
+        at_most(F::select(cosine.gt(zero), sine / (lengths + cosine), (lengths - cosine) / sine));
+    let cross =
+        |[a, b, c]: [F; 3], [x, y, z]: [F; 3]| [b * z - c * y, c * x - a * z, a * y - b * x];
+    let wide = cross(n, away);
+    let narrow = cross(axis, wide);
+    let g = |q: F| {
+        let root = (q + one).sqrt();
+        one / (root * (root + one))
+    };
+    let (a2, b2) = (a * a, b * b);
+    let [x2, y2] = place.map(|v| v * v);
+    let share = x2 + y2;
+    let is_off = share.gt(zero);
+    let q = (a2 * x2 + b2 * y2) / F::select(is_off, share, one);
+    let (middle, swing) = ((a2 + b2) * 0.5, (a2 - b2) * 0.5);
+    let mut mean = zero;
+    for cos in SPREAD {
+        mean = mean + g(middle + swing * cos) + g(middle - swing * cos);
+    }
+    let own = g(q);
+    let w = one - share * q * own;
+    let stretch = (own * (w + one)).sqrt() / w;
+    let dir =
+        add(axis, add(scale(a * place[0] * stretch, wide), scale(b * place[1] * stretch, narrow)));
+    let t = depth / dot(dir, n);
+    // The middle of all places is the disc's own.
+    Chosen {
+        toward: select3(is_off, scale(t, dir), toward),
+        weight: F::select(is_off, own * 8.0 / mean, one),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::concentric_disc;
+
+    const FACING: DVec3 = DVec3::NEG_Z;
+    /// Points to the light's middle: straight, aslant, near, far, grazing, and so near that it fills half of
+    /// all directions but for a little.
+    const TOWARD: [[f64; 3]; 6] = [
+        [0.0, 0.0, 1.5],
+        [0.7, -1.2, 0.8],
+        [-0.3, 0.2, 0.4],
+        [30.0, 10.0, 40.0],
+        [2.0, 0.5, 0.1],
+        [0.1, 0.05, 0.3],
+    ];
+
+    /// The mean direction over the solid angle of what is told by points about the middle, each of as much
+    /// area, and how many of the points are to be had.
+    fn mean_of_area(toward: [f64; 3], points: impl Iterator<Item = [f64; 2]>) -> DVec3 {
+        let (mut sum, mut whole) = (DVec3::ZERO, 0.0);
+        for [x, y] in points {
+            let way = DVec3::from_array(toward) + DVec3::new(x, y, 0.0);
+            let solid_angle = -way.normalize().dot(FACING) / way.length_squared();
+            sum += solid_angle * way.normalize();
+            whole += solid_angle;
+        }
+        sum / whole
+    }
+
+    fn grid(n: usize) -> impl Iterator<Item = [f64; 2]> {
+        let at = move |i: usize| (i as f64 + 0.5) / n as f64;
+        (0..n * n).map(move |i| [at(i % n), at(i / n)])
+    }
+
+    #[test]
+    fn places_of_a_rectangle_are_even_over_its_solid_angle() {
+        let [width, height] = [0.8, 0.5];
+        let Area::Rectangle(rectangle) = Area::rectangle(FACING, Some(DVec3::Y), [width, height])
+        else {
+            panic!("a rectangle");
+        };
+        for toward in TOWARD {
+            let points = grid(300).map(|[u, v]| [(u - 0.5) * width, (v - 0.5) * height]);
+            let expected = mean_of_area(toward, points);
+            let ways = grid(40).map(|place| DVec3::from_array(rectangle.choose(toward, place)));
+            let mut mean = DVec3::ZERO;
+            for way in ways {
+                let aside = way - DVec3::from_array(toward);
+                assert!(aside.x.abs() <= width / 2.0 + 1e-9, "{toward:?}: {aside}");
+                assert!(aside.y.abs() <= height / 2.0 + 1e-9 && aside.z.abs() < 1e-9);
+                mean += way.normalize() / 1600.0;
+            }
+            assert!(mean.distance(expected) < 2e-3, "{toward:?}: {mean} instead of {expected}");
+            assert_eq!(rectangle.choose(toward, [0.5; 2]), toward, "its middle");
+        }
+    }
+
+    #[test]
+    fn a_rectangle_far_away_is_filled_as_a_flat_one() {
+        let Area::Rectangle(rectangle) = Area::rectangle(FACING, Some(DVec3::Y), [1e-3, 2e-3])
+        else {
+            panic!("a rectangle");
+        };
+        for distance in [0.5, 5.0, 50.0, 1e4] {
+            let toward = [0.3 * distance, 0.0, distance];
+            let [x, y, _] = rectangle.choose(toward, [0.25, 0.75]);
+            // Facing −Z with +Y up, the width runs along −X.
+            let [x, y] = [(x - toward[0]) / 1e-3, (y - toward[1]) / 2e-3];
+            assert!(
+                (x.abs() - 0.25).abs() < 1e-3 && (y - 0.25).abs() < 1e-3,
+                "{distance}: {x} {y}"
+            );
+        }
+    }
+
+    #[test]
+    fn places_of_a_disc_are_even_over_its_solid_angle() {
+        let radius = 0.5;
+        for toward in TOWARD {
+            let on = |place: [f64; 2]| concentric_disc(place).map(|v| radius * v);
+            let expected = mean_of_area(toward, grid(400).map(on));
+            let (mut mean, mut weights) = (DVec3::ZERO, 0.0);
+            for place in grid(60) {
+                let place = concentric_disc(place).map(|v| v as f32);
+                let toward = toward.map(|v| v as f32);
+                let facing = FACING.as_vec3();
+                let Chosen { toward: way, weight } =
+                    choose_of_disc((facing, radius as f32), toward, place);
+                let aside = Vec3::from(way) - Vec3::from(toward);
+                let slack = 1e-5 * Vec3::from(toward).length();
+                assert!(aside.length() <= 0.5 + slack, "{toward:?}: {aside}");
+                assert!(aside.z.abs() <= slack);
+                mean += f64::from(weight) * Vec3::from(way).as_dvec3().normalize() / 3600.0;
+                weights += f64::from(weight) / 3600.0;
+            }
+            assert!((weights - 1.0).abs() < 2e-3, "{toward:?}: {weights}");
+            assert!(mean.distance(expected) < 3e-3, "{toward:?}: {mean} instead of {expected}");
+        }
+    }
+
+    #[test]
+    fn places_of_a_sphere_are_even_over_its_cone() {
+        for distance in [1.1_f64, 2.0, 20.0] {
+            let toward = [0.6 * distance as f32, 0.0, 0.8 * distance as f32];
+            let edge = (1.0 - 1.0 / (distance * distance)).sqrt();
+            let mut mean = 0.0;
+            for place in grid(60) {
+                let place = concentric_disc(place).map(|v| v as f32);
+                let Chosen { toward: way, .. } = choose_of_sphere(1.0, toward, place);
+                let cos = normalize(way)[0] * 0.6 + normalize(way)[2] * 0.8;
+                assert!(f64::from(cos) > edge - 1e-6);
+                assert!((dot(way, normalize(way)) - distance as f32 * cos).abs() < 1e-5);
+                mean += f64::from(cos) / 3600.0;
+            }
+            // Evenly over a cone the cosine is evenly from the edge's to 1.
+            assert!((mean - f64::midpoint(edge, 1.0)).abs() < 1e-3, "{mean}");
+        }
+    }
+
+    #[test]
+    fn surfaces_are_seen_from_the_side_to_which_they_shine() {
+        let lamps = [
+            (Area::rectangle(FACING, None, [2.0, 1.0]), [0.9, 0.0, 2.0], [0.0, 0.6, 2.0]),
+            (Area::disc(FACING, 1.0), [0.9, 0.0, 2.0], [0.8, 0.7, 2.0]),
+        ];
+        let ahead = [0.0, 0.0, 1.0];
+        for (area, within, beside) in lamps {
+            assert_eq!(area.meet(within, ahead), 2.0);
+            assert_eq!(area.meet(beside, ahead), f32::INFINITY, "{area:?}");
+            assert_eq!(area.meet(within.map(|v: f32| -v), [0.0, 0.0, -1.0]), f32::INFINITY);
+            assert_eq!(area.meet(within, [0.0, 0.0, -1.0]), f32::INFINITY, "looking away");
+        }
+        let ball = Area::sphere(1.0);
+        assert_eq!(ball.meet([0.0, 0.0, 3.0], ahead), 2.0);
+        assert_eq!(ball.meet([1.1, 0.0, 3.0], ahead), f32::INFINITY);
+        assert_eq!(ball.meet([0.0, 0.0, 0.5], ahead), f32::INFINITY, "from within");
+    }
+}
