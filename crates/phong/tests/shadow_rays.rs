@@ -152,7 +152,7 @@ fn light_at(text: &str, pixel: [u32; 2]) -> Lit {
     let told = explain(&View::of(&scene).unwrap(), &options, pixel).unwrap();
     match told.samples[0].ray.clone().unwrap().end {
         End::Surface(mut surface) => surface.lights.remove(0),
-        End::Background(_) => panic!("nothing there"),
+        End::Background(_) | End::Light { .. } => panic!("nothing there"),
     }
 }
 
