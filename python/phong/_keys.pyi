@@ -50,11 +50,7 @@ class Light(Keys):
     ``kind``: Where its light comes from.
     ``name``: What `explain` calls it.
     ``position``: Where it is, in scene units.
-    ``direction``: The way the light travels; any length. / The way the light travels from its
-        middle, across its surface; any length. It shines to this side alone.
-    ``up``: Along its height, made perpendicular to `direction`; any length.
-    ``width``: Across `up`, scene units.
-    ``height``: Along `up`, scene units.
+    ``direction``: The way the light travels; any length.
     ``target``: A point on the axis of the cone.
     ``cone``: Half-angle of full light, degrees.
     ``edge``: Half-angle where the light ends, degrees, not below `cone`; between them
@@ -63,35 +59,26 @@ class Light(Keys):
     ``specular_color``: `C_m,s` is this times the material's specular colour.
     ``attenuation``: `[c, l, q]`: the light is divided by c + l d + q d², d the distance.
         Default: [1.0, 0.0, 0.0].
-    ``range``: Distance from `position` beyond which there is nothing of it, scene units.
     ``shadows``: Whether things in between take the light away. Default: true.
-    ``radius``: Radius of the luminous sphere, scene units; 0: hard shadows. / Radius of the
-        disc or sphere, scene units.
-    ``visible``: Whether rays see its surface, from the side to which it shines: an emission of
-        `color`. Default: true.
+    ``radius``: Radius of the luminous sphere, scene units; 0: hard shadows. Default: 0.0.
     ``angle``: Degrees across of the luminous disc; 0: hard shadows. Default: 0.0.
     """
 
     def __init__(
         self,
         *,
-        kind: Literal["point", "distant", "spot", "rectangle", "disc", "sphere"],
+        kind: Literal["point", "distant", "spot"],
         name: str | None = None,
         position: ArrayLike | None = None,
         direction: ArrayLike | None = None,
-        up: ArrayLike | None = None,
-        width: float | None = None,
-        height: float | None = None,
         target: ArrayLike | None = None,
         cone: float | None = None,
         edge: float | None = None,
         color: _Color | None = None,
         specular_color: _Color | None = None,
         attenuation: ArrayLike | None = None,
-        range: float | None = None,
         shadows: bool | None = None,
         radius: float | None = None,
-        visible: bool | None = None,
         angle: float | None = None,
     ) -> None: ...
 
@@ -211,7 +198,17 @@ class Texture(Keys):
     ``to``: Where t is 1. Default: 1.0.
     ``stops``: Its colours; between two stops they run linearly, beyond the last they stay. A
         colour map has 33 of them.
-    ``space``: The space it lies in. Default: "object".
+    ``file``: The image: PNG, JPEG, Radiance HDR or OpenEXR. Its left edge lies at 0 of the first
+        coordinate and its right edge at 1, its lower edge at 0 of the second and its upper edge at
+        1.
+    ``wrap``: What is beside it: the image again, the image mirrored, its edge, or `border`.
+        Default: "repeat".
+    ``border``: The colour beside it with `wrap = "border"`; its opacity is 0. Default: 0.0.
+    ``filter``: `nearest`: the pixel there; `linear`: between pixels; `auto`: that, and the mean of
+        all that a sample of the picture covers. Default: "auto".
+    ``encoding``: What its numbers mean; `auto`: colours of bytes and 16-bit numbers are sRGB, all
+        else is linear. Default: "auto".
+    ``space``: The space it lies in. / The space it lies in; `object` and `world`: along z.
     ``rotate``: Turns it: right-handed about an axis; or a list of them, in order.
     ``translate``: Then: shifts it. Default: [0.0, 0.0, 0.0].
     ``matrix``: Instead of all that place it: four rows of four, for column vectors.
@@ -222,7 +219,7 @@ class Texture(Keys):
         called: str | None = None,
         /,
         *,
-        kind: Literal["checker", "gradient"],
+        kind: Literal["checker", "gradient", "image"],
         colors: ArrayLike | None = None,
         scale: float | ArrayLike | None = None,
         by: Literal["axis", "radius"] | None = None,
@@ -230,6 +227,11 @@ class Texture(Keys):
         from_: float | None = None,
         to: float | None = None,
         stops: Literal["viridis", "cividis", "plasma", "inferno", "magma", "turbo", "coolwarm"] | ArrayLike | None = None,
+        file: str | None = None,
+        wrap: Literal["repeat", "mirror", "clamp", "border"] | None = None,
+        border: _Color | None = None,
+        filter: Literal["auto", "nearest", "linear"] | None = None,
+        encoding: Literal["auto", "srgb", "linear"] | None = None,
         space: Literal["object", "world", "uv"] | None = None,
         rotate: ArrayLike | None = None,
         translate: ArrayLike | None = None,

@@ -32,7 +32,7 @@ fn surfaces(scene: &Scene, pixel: [u32; 2]) -> Vec<Surface> {
     let told = explain(&View::of(scene).unwrap(), &options, pixel).unwrap();
     let met = told.samples.into_iter().filter_map(|sample| match sample.ray?.end {
         End::Surface(surface) => Some(*surface),
-        End::Background(_) => None,
+        End::Background(_) | End::Light { .. } => None,
     });
     met.collect()
 }
