@@ -1,13 +1,13 @@
 //! `phong.Image`: a picture that was rendered.
 
 use std::io::Cursor;
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use numpy::PyArrayMethods as _;
 use phong::film::{Film, LayerKind};
 use phong::finish::{Finished, Finishing, finish};
 use phong::image::{Bits, Content, Encoding, Format, SaveError, save, write};
-use phong::part::{self, Join, Part, Settings};
+use phong::part::{self, Join, Part, ReadError, Settings};
 use phong::render::RenderOptions;
 use phong_scene::{Diagnostic, Scene};
 use pyo3::prelude::*;
@@ -318,6 +318,10 @@ pub(crate) fn merge(py: Python<'_>, parts: &Bound<'_, PyAny>) -> PyResult<Image>
     for (index, item) in parts.try_iter()?.enumerate() {
         let item = item?;
         let name = format!("parts[{index}]");
+        if let Ok(bytes) = item.cast::<PyBytes>() {
+            add(py, &mut join, &name, bytes.as_bytes())?;
+            continue;
+        }
         let bytes: Vec<u8> = match item.extract::<Vec<u8>>() {
             Ok(bytes) if !item.is_instance_of::<PyList>() => bytes,
             _ => {
@@ -326,12 +330,47 @@ pub(crate) fn merge(py: Python<'_>, parts: &Bound<'_, PyAny>) -> PyResult<Image>
                     .map_err(|error| unreadable(&format!("{name}: {}", path.display()), &error))?
             }
         };
-        let limit = memory();
-        let part = py.detach(|| Part::read(&mut bytes.as_slice(), limit));
-        let part = part.map_err(|error| value_error(format!("{name}: {error}")))?;
-        let added = py.detach(|| join.add(&name, part));
-        added.map_err(|error| value_error(error.to_string()))?;
+        add(py, &mut join, &name, &bytes)?;
     }
+    whole(join)
+}
+
+/// Adds a part file to what was gathered before.
+fn add(py: Python<'_>, join: &mut Join, name: &str, bytes: &[u8]) -> PyResult<()> {
+    let (limit, mut bytes) = (memory(), bytes);
+    py.detach(|| join.read(name, &mut bytes, limit)).map_err(|error| match error {
+        ReadError::Part(error) => value_error(format!("{name}: {error}")),
+        ReadError::Join(error) => value_error(error.to_string()),
+    })
+}
+
+/// What was gathered, which has to be the whole picture.
+fn whole(join: Join) -> PyResult<Image> {
     let (film, settings) = join.finish().map_err(|error| value_error(error.to_string()))?;
     Ok(Image::joined(film, settings, Vec::new()))
+}
+
+/// Shares of a picture, put together as they come: `phong.merge` for who has them one after another.
+#[pyclass(module = "phong._phong", name = "_Join", frozen)]
+#[derive(Default)]
+pub(crate) struct Joining(Mutex<Join>);
+
+#[pymethods]
+impl Joining {
+    #[new]
+    fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds the bytes of a part file; `name` is what errors call it.
+    fn add(&self, py: Python<'_>, name: &str, part: &Bound<'_, PyBytes>) -> PyResult<()> {
+        let mut join = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        add(py, &mut join, name, part.as_bytes())
+    }
+
+    /// The picture, and nothing is left here. Raises `ValueError` where shares are missing.
+    fn finish(&self) -> PyResult<Image> {
+        let mut join = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        whole(std::mem::take(&mut *join))
+    }
 }

@@ -26,7 +26,7 @@ mod _phong {
     use pyo3::prelude::*;
 
     #[pymodule_export]
-    use crate::image::{_image_of_part, Image, merge};
+    use crate::image::{_image_of_part, Image, Joining, merge};
     #[pymodule_export]
     use crate::keys::check_keys;
     #[pymodule_export]
@@ -34,7 +34,7 @@ mod _phong {
     #[pymodule_export]
     use crate::part::Part;
     #[pymodule_export]
-    use crate::render::{_explain, _render, _render_part, Token};
+    use crate::render::{_compile, _explain, _render, _render_part, _tiles, Token};
     #[pymodule_export]
     use crate::scene::Scene;
 

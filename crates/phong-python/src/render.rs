@@ -299,6 +299,26 @@ pub(crate) fn _render_part<'py>(
     Ok(PyBytes::new(py, &bytes))
 }
 
+/// Compiles a scene for such pictures, so that rendering begins at once.
+#[pyfunction]
+pub(crate) fn _compile(scene: &Bound<'_, Scene>, keys: &Bound<'_, PyDict>) -> PyResult<()> {
+    let (py, scene) = (scene.py(), scene.get());
+    let Asked { snapshot, image, max_bytes, threads, .. } = Asked::new(scene, keys)?;
+    let work = move |_: &Cancel| snapshot.prepare(image, max_bytes);
+    let done = work::run(py, threads, &Arc::default(), work, |_| Ok(()))?;
+    let ready = done.map_err(|error| view_error(py, &error))?;
+    scene.state().keep(&ready);
+    Ok(())
+}
+
+/// Into how many tiles such a picture is cut: shares are made of whole ones.
+#[pyfunction]
+pub(crate) fn _tiles(scene: &Bound<'_, Scene>, keys: &Bound<'_, PyDict>) -> PyResult<u64> {
+    let options = Asked::new(scene.get(), keys)?.options;
+    let (window, edge) = (options.window(), options.tile());
+    Ok(u64::from(window.width().div_ceil(edge)) * u64::from(window.height().div_ceil(edge)))
+}
+
 /// Explains a pixel; as JSON, text and LaTeX. See `phong.explain`.
 #[pyfunction]
 pub(crate) fn _explain(

@@ -263,6 +263,15 @@ impl Film {
         self.sums.remove(&index);
     }
 
+    /// Takes a tile as another film of the same picture holds it.
+    pub(crate) fn put_tile(&mut self, FilmTile { index, values, sums }: FilmTile) {
+        if sums.is_some() {
+            self.put_unfinished(index, &values, sums);
+        } else {
+            self.put(index, &values);
+        }
+    }
+
     /// Takes a tile that lacks samples: its values, and the sums from which it goes on; none
     /// where it begins anew.
     pub(crate) fn put_unfinished(

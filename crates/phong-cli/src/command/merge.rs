@@ -3,7 +3,7 @@
 use std::io::BufReader;
 use std::path::PathBuf;
 
-use phong::part::{Join, Part, PartError};
+use phong::part::{Join, PartError, ReadError};
 
 use crate::args::EncodingArgs;
 use crate::failure::Failure;
@@ -36,19 +36,19 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
-    // One part beside what is put together already.
+    // The tiles of one part beside what is put together already.
     let limit = memory::limit() / 2;
     let mut join = Join::default();
     for path in &args.parts {
         let at_fault = |why: String| Failure::usage(format!("{}: {why}", path.display()));
         let file = open_file(path)?;
-        let part = Part::read(&mut BufReader::with_capacity(1 << 18, file), limit);
-        let part = part.map_err(|error| match error {
-            PartError::Io(error) => Failure::reading(path, &error),
-            error => at_fault(error.to_string()),
+        let mut file = BufReader::with_capacity(1 << 18, file);
+        let joined = join.read(&path.display().to_string(), &mut file, limit);
+        joined.map_err(|error| match error {
+            ReadError::Part(PartError::Io(error)) => Failure::reading(path, &error),
+            ReadError::Part(error) => at_fault(error.to_string()),
+            ReadError::Join(error) => Failure::usage(error.to_string()),
         })?;
-        let joined = join.add(&path.display().to_string(), part);
-        joined.map_err(|error| Failure::usage(error.to_string()))?;
     }
     let (film, mut settings) = join.finish().map_err(|error| Failure::usage(error.to_string()))?;
     memory::set_aside(settings.film_bytes())?;

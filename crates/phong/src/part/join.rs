@@ -1,16 +1,21 @@
 //! Shares put together.
 
+use std::io::Read;
+
 use thiserror::Error;
 
-use super::{Part, Settings};
+use super::{Part, PartError, Settings, read_settings, read_tiles};
 use crate::film::{Film, MergeError};
+
+/// The name of a part, and which share it is.
+type Member = (String, Option<(u32, u32)>);
 
 /// Shares of one picture, gathered one after another.
 #[derive(Debug, Default)]
 pub struct Join {
     whole: Option<Part>,
     /// What is in it: the name of each file, and which share it is.
-    members: Vec<(String, Option<(u32, u32)>)>,
+    members: Vec<Member>,
 }
 
 /// Why parts are not the shares of one picture.
@@ -48,6 +53,17 @@ pub enum JoinError {
     Missing(String),
 }
 
+/// Why a file could not be added.
+#[derive(Debug, Error)]
+pub enum ReadError {
+    /// It could not be read.
+    #[error(transparent)]
+    Part(#[from] PartError),
+    /// It does not belong to what was gathered before.
+    #[error(transparent)]
+    Join(#[from] JoinError),
+}
+
 impl Join {
     /// Adds a part; `name` is what errors call it.
     ///
@@ -56,39 +72,51 @@ impl Join {
     pub fn add(&mut self, name: &str, part: Part) -> Result<(), JoinError> {
         let share = part.settings.share;
         if let Some(whole) = &mut self.whole {
-            let first = self.members[0].0.clone();
-            let second = name.to_owned();
-            if let Some((what, here, there)) = whole.settings.difference(&part.settings) {
-                return Err(JoinError::Differ { first, second, what, here, there });
-            }
-            let same = |(_, other): &&(String, Option<(u32, u32)>)| *other == share;
-            match (whole.film.merge(&part.film), share) {
-                (Ok(()), _) => {}
-                (Err(MergeError::Overlap(tile)), share) => {
-                    let twin = self.members.iter().find(same);
-                    let (first, share) = match (twin, share) {
-                        (Some((twin, _)), Some((i, n))) => {
-                            (twin.clone(), format!("both are share {i}/{n}"))
-                        }
-                        _ => (first, format!("both have tile {tile}")),
-                    };
-                    return Err(JoinError::Overlap { first, second, share });
-                }
-                (Err(MergeError::Differ(what)), _) => {
-                    let (here, there) = ("one thing".to_owned(), "another".to_owned());
-                    return Err(JoinError::Differ {
-                        first,
-                        second,
-                        what: what.to_owned(),
-                        here,
-                        there,
-                    });
-                }
-            }
+            check_settings(&self.members, whole, name, &part.settings)?;
+            whole.film.merge(&part.film).map_err(|error| match error {
+                MergeError::Overlap(tile) => overlap(&self.members, name, share, tile),
+                MergeError::Differ(what) => JoinError::Differ {
+                    first: self.members[0].0.clone(),
+                    second: name.to_owned(),
+                    what: what.to_owned(),
+                    here: "one thing".to_owned(),
+                    there: "another".to_owned(),
+                },
+            })?;
         } else {
             self.whole = Some(part);
         }
         self.members.push((name.to_owned(), share));
+        Ok(())
+    }
+
+    /// Reads a part, of which every tile has all its samples, into what was gathered before: it takes
+    /// no film of its own. As [`Part::read`] and [`Join::add`] otherwise.
+    ///
+    /// # Errors
+    /// [`ReadError`]; what was gathered before is as it was.
+    pub fn read(
+        &mut self,
+        name: &str,
+        input: &mut impl Read,
+        max_bytes: u64,
+    ) -> Result<(), ReadError> {
+        let Some(whole) = &mut self.whole else {
+            return Ok(self.add(name, Part::read(input, max_bytes)?)?);
+        };
+        let settings = read_settings(input, max_bytes)?;
+        check_settings(&self.members, whole, name, &settings)?;
+        let mut tiles = Vec::new();
+        read_tiles(&settings, input, max_bytes, |tile| tiles.push(tile))?;
+        // As in `Film::merge`, what lacks samples is not taken.
+        tiles.retain(|tile| tile.sums.is_none());
+        if let Some(tile) = tiles.iter().find(|tile| whole.film.done[tile.index]) {
+            return Err(overlap(&self.members, name, settings.share, tile.index).into());
+        }
+        for tile in tiles {
+            whole.film.put_tile(tile);
+        }
+        self.members.push((name.to_owned(), settings.share));
         Ok(())
     }
 
@@ -117,4 +145,26 @@ impl Join {
         };
         Err(JoinError::Missing(what))
     }
+}
+
+/// Whether a part is of the same picture as what was gathered before.
+fn check_settings(
+    members: &[Member],
+    whole: &Part,
+    name: &str,
+    settings: &Settings,
+) -> Result<(), JoinError> {
+    let Some((what, here, there)) = whole.settings.difference(settings) else { return Ok(()) };
+    let (first, second) = (members[0].0.clone(), name.to_owned());
+    Err(JoinError::Differ { first, second, what, here, there })
+}
+
+/// What is said of a part that has a tile which is there already.
+fn overlap(members: &[Member], name: &str, share: Option<(u32, u32)>, tile: usize) -> JoinError {
+    let twin = members.iter().find(|(_, other)| *other == share);
+    let (first, share) = match (twin, share) {
+        (Some((twin, _)), Some((i, n))) => (twin.clone(), format!("both are share {i}/{n}")),
+        _ => (members[0].0.clone(), format!("both have tile {tile}")),
+    };
+    JoinError::Overlap { first, second: name.to_owned(), share }
 }

@@ -17,9 +17,9 @@ use std::sync::Arc;
 use crc32fast::hash as checksum;
 use thiserror::Error;
 
-use crate::film::{Film, FilmTile, Layer, Sums8, TileSums, eights_of};
+use crate::film::{Film, FilmTile, LayerKind, Sums8, TileSums, eights_of};
 pub use fingerprint::fingerprint;
-pub use join::{Join, JoinError};
+pub use join::{Join, JoinError, ReadError};
 pub use settings::Settings;
 
 /// The first line of every part file: what it is, and the version of its format.
@@ -125,55 +125,70 @@ impl Part {
     /// # Errors
     /// [`PartError`].
     pub fn read(input: &mut impl Read, max_bytes: u64) -> Result<Self, PartError> {
-        let (header, sum) = header(input)?;
-        let damaged = |what: &str| PartError::Damaged(what.to_owned());
-        if sum != format!("{:08x}", checksum(header.as_bytes())) {
-            return Err(damaged("its header was altered"));
-        }
-        let senseless = || damaged("its header makes no sense");
-        let body = header[MAGIC.len()..].strip_prefix("arithmetic ").ok_or_else(senseless)?;
-        let (theirs, body) = body.split_once('\n').ok_or_else(senseless)?;
-        let theirs = theirs.parse().map_err(|_| senseless())?;
-        if theirs != ARITHMETIC {
-            return Err(PartError::Arithmetic { theirs });
-        }
-        let settings = Settings::from_text(body).ok_or_else(senseless)?;
-        let within = |needed: u64| {
-            if needed > max_bytes {
-                return Err(PartError::TooLarge { needed, limit: max_bytes });
-            }
-            Ok(())
-        };
-        let mut needed = settings.film_bytes();
-        within(needed)?;
+        let settings = read_settings(input, max_bytes)?;
         let mut film = settings.empty_film();
-        let mut count = 0_u64;
-        while let Some(tile) = tile(&film, input)? {
-            needed += tile.sums.as_ref().map_or(0, |sums| sums.bytes());
-            within(needed)?;
-            let FilmTile { index, values, sums } = tile;
-            if sums.is_some() {
-                film.put_unfinished(index, &values, sums);
-            } else {
-                film.put(index, &values);
-            }
-            count += 1;
-        }
-        let mut end = [0; 8];
-        let mut sum = [0; 4];
-        if !fill(input, &mut end)? || !fill(input, &mut sum)? {
-            return Err(damaged("it ends before its end"));
-        }
-        let whole = [END.to_le_bytes(), end].concat();
-        if u64::from_le_bytes(end) != count || checksum(&whole) != u32::from_le_bytes(sum) {
-            return Err(damaged("its end was altered"));
-        }
-        match input.read(&mut [0]) {
-            Ok(0) => Ok(Self { settings, film }),
-            Ok(_) => Err(damaged("something follows its end")),
-            Err(error) => Err(error.into()),
-        }
+        read_tiles(&settings, input, max_bytes, |tile| film.put_tile(tile))?;
+        Ok(Self { settings, film })
     }
+}
+
+/// Reads the header of a part whose film takes at most `max_bytes` of memory.
+fn read_settings(input: &mut impl Read, max_bytes: u64) -> Result<Settings, PartError> {
+    let (header, sum) = header(input)?;
+    let damaged = |what: &str| PartError::Damaged(what.to_owned());
+    if sum != format!("{:08x}", checksum(header.as_bytes())) {
+        return Err(damaged("its header was altered"));
+    }
+    let senseless = || damaged("its header makes no sense");
+    let body = header[MAGIC.len()..].strip_prefix("arithmetic ").ok_or_else(senseless)?;
+    let (theirs, body) = body.split_once('\n').ok_or_else(senseless)?;
+    let theirs = theirs.parse().map_err(|_| senseless())?;
+    if theirs != ARITHMETIC {
+        return Err(PartError::Arithmetic { theirs });
+    }
+    let settings = Settings::from_text(body).ok_or_else(senseless)?;
+    within(settings.film_bytes(), max_bytes)?;
+    Ok(settings)
+}
+
+/// Reads all that follows the header, and gives each tile to `take`.
+fn read_tiles(
+    settings: &Settings,
+    input: &mut impl Read,
+    max_bytes: u64,
+    mut take: impl FnMut(FilmTile),
+) -> Result<(), PartError> {
+    let damaged = |what: &str| PartError::Damaged(what.to_owned());
+    let mut needed = settings.film_bytes();
+    let mut seen = vec![false; settings.tiles()];
+    let mut count = 0_u64;
+    while let Some(tile) = tile(settings, &mut seen, input)? {
+        needed += tile.sums.as_ref().map_or(0, |sums| sums.bytes());
+        within(needed, max_bytes)?;
+        take(tile);
+        count += 1;
+    }
+    let mut end = [0; 8];
+    let mut sum = [0; 4];
+    if !fill(input, &mut end)? || !fill(input, &mut sum)? {
+        return Err(damaged("it ends before its end"));
+    }
+    let whole = [END.to_le_bytes(), end].concat();
+    if u64::from_le_bytes(end) != count || checksum(&whole) != u32::from_le_bytes(sum) {
+        return Err(damaged("its end was altered"));
+    }
+    match input.read(&mut [0]) {
+        Ok(0) => Ok(()),
+        Ok(_) => Err(damaged("something follows its end")),
+        Err(error) => Err(error.into()),
+    }
+}
+
+fn within(needed: u64, limit: u64) -> Result<(), PartError> {
+    if needed > limit {
+        return Err(PartError::TooLarge { needed, limit });
+    }
+    Ok(())
 }
 
 /// The header up to its checksum, and that checksum.
@@ -199,7 +214,11 @@ fn header(input: &mut impl Read) -> Result<(String, String), PartError> {
 }
 
 /// The next tile's record; `None` where the last one has been.
-fn tile(film: &Film, input: &mut impl Read) -> Result<Option<FilmTile>, PartError> {
+fn tile(
+    settings: &Settings,
+    seen: &mut [bool],
+    input: &mut impl Read,
+) -> Result<Option<FilmTile>, PartError> {
     let cut = || PartError::Damaged("it ends in the middle of a tile".to_owned());
     let mut number = [0; 8];
     if !fill(input, &mut number)? {
@@ -209,8 +228,9 @@ fn tile(film: &Film, input: &mut impl Read) -> Result<Option<FilmTile>, PartErro
         return Ok(None);
     }
     let index = u64::from_le_bytes(number) as usize;
-    if film.done.get(index) != Some(&false) || film.sums(index).is_some() {
-        return Err(PartError::Damaged(format!("tile {index} is out of place")));
+    match seen.get_mut(index) {
+        Some(seen) if !*seen => *seen = true,
+        _ => return Err(PartError::Damaged(format!("tile {index} is out of place"))),
     }
     let mut samples = [0; 4];
     if !fill(input, &mut samples)? {
@@ -218,9 +238,9 @@ fn tile(film: &Film, input: &mut impl Read) -> Result<Option<FilmTile>, PartErro
     }
     let mut record = [&number[..], &samples].concat();
     let samples = u32::from_le_bytes(samples);
-    let window = film.tile_window(index);
-    let values = |layer: &Layer| window.pixels() as usize * layer.kind.channels();
-    let lengths: Vec<usize> = film.layers.iter().map(values).collect();
+    let window = settings.window.tile(settings.tile, index);
+    let values = |kind: &LayerKind| window.pixels() as usize * kind.channels();
+    let lengths: Vec<usize> = settings.layers.iter().map(values).collect();
     let begin = record.len();
     let middle = begin + 4 * lengths.iter().sum::<usize>();
     let eights = if samples == 0 { 0 } else { eights_of(window) };

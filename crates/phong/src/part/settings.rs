@@ -78,6 +78,12 @@ impl Settings {
         Film::new(self.size, self.window, self.tile, &self.layers)
     }
 
+    /// Tiles in the window, whatever is done of them.
+    pub(super) fn tiles(&self) -> usize {
+        let [across, down] = [self.window.width(), self.window.height()];
+        across.div_ceil(self.tile) as usize * down.div_ceil(self.tile) as usize
+    }
+
     /// Bytes that the film takes.
     pub fn film_bytes(&self) -> u64 {
         let values: usize = self.layers.iter().map(|kind| kind.channels()).sum();

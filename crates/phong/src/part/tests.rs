@@ -44,12 +44,21 @@ fn read(mut bytes: &[u8]) -> Result<Part, PartError> {
     Part::read(&mut bytes, NO_LIMIT)
 }
 
+/// Puts parts together, as films and as files, which is the same.
 fn join(parts: &[(&str, Part)]) -> Result<(Film, Settings), JoinError> {
-    let mut join = Join::default();
+    let [mut join, mut reading] = [Join::default(), Join::default()];
     for (name, part) in parts {
-        join.add(name, part.clone())?;
+        let added = join.add(name, part.clone());
+        match reading.read(name, &mut &*bytes(part), NO_LIMIT) {
+            Ok(()) => assert_eq!(added, Ok(())),
+            Err(ReadError::Join(error)) => assert_eq!(added, Err(error)),
+            Err(ReadError::Part(error)) => panic!("{error}"),
+        }
+        added?;
     }
-    join.finish()
+    let whole = join.finish();
+    assert_eq!(reading.finish(), whole);
+    whole
 }
 
 #[test]
@@ -159,6 +168,17 @@ fn a_missing_share_is_named() {
     let error = join(&parts).unwrap_err();
     assert_eq!(error.to_string(), "the picture is not complete: share 1/3 is missing");
     assert_eq!(join(&[]).unwrap_err(), JoinError::Empty);
+}
+
+#[test]
+fn a_damaged_part_adds_nothing_to_what_was_gathered_before() {
+    let mut join = Join::default();
+    join.read("a", &mut &*bytes(&part(Some((0, 2)))), NO_LIMIT).unwrap();
+    let whole = bytes(&part(Some((1, 2))));
+    let cut = join.read("b", &mut &whole[..whole.len() - 1], NO_LIMIT).unwrap_err();
+    assert!(matches!(cut, ReadError::Part(PartError::Damaged(_))), "{cut}");
+    join.read("b", &mut &*whole, NO_LIMIT).unwrap();
+    assert!(join.finish().unwrap().0.is_complete());
 }
 
 #[test]
