@@ -7,7 +7,8 @@ with the package and Dask installed. Told are seconds and CPU seconds of both, i
 half of the program's seconds, and no CPU second more than its own: on a busy machine only the second
 can be relied on. CPU seconds of the cluster are those of both workers, the scheduler and the client
 together, from the call to the file; what Dask uses in as many seconds without any work is told too,
-for it grows with the seconds that others take from the machine. Both write the same bytes, or it ends
+for it grows with the seconds that others take from the machine. "At shares" is the part of the seconds
+that both workers were rendering: it holds on a busy machine too. Both write the same bytes, or it ends
 in an error.
 """
 
@@ -39,15 +40,19 @@ def of_program(program: str, scene: Path, options: list[str], out: Path) -> tupl
     return wall, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
-def of_cluster(client, scene: Path, size, samples: int, out: Path) -> tuple[float, float]:
-    """Seconds and CPU seconds of the cluster, each worker's first share included."""
+def of_cluster(client, scene: Path, size, samples: int, out: Path) -> tuple[float, float, float]:
+    """Seconds, CPU seconds, and seconds at shares of the cluster, each worker's first share included."""
     import phong.dask
+    from distributed import get_task_stream
 
     cpu = used() + sum(client.run(used).values())
     began = time.perf_counter()
-    phong.dask.render(scene, client, size=size, samples=samples, progress=False).save(out)
-    wall = time.perf_counter() - began
-    return wall, used() + sum(client.run(used).values()) - cpu
+    with get_task_stream(client) as stream:
+        phong.dask.render(scene, client, size=size, samples=samples, progress=False).save(out)
+        wall = time.perf_counter() - began
+    cpu = used() + sum(client.run(used).values()) - cpu
+    spans = (span for task in stream.data for span in task["startstops"])
+    return wall, cpu, sum(s["stop"] - s["start"] for s in spans if s["action"] == "compute")
 
 
 def ticking(client) -> float:
@@ -88,11 +93,12 @@ def main() -> None:
             if a.read_bytes() != b.read_bytes():
                 sys.exit("the pictures differ")
     print(f"the cluster uses {rate:.3f} CPU seconds a second without work")
-    for (wall, cpu), (wall_2, cpu_2) in zip(alone, shared):
+    for (wall, cpu), (wall_2, cpu_2, at_shares) in zip(alone, shared):
         print(
             f"program {wall:7.2f} s, CPU {cpu:7.2f} s   two workers {wall_2:7.2f} s, CPU {cpu_2:7.2f} s"
             f"   of the ideal {wall / wall_2 / 2:.3f}, CPU ratio {cpu_2 / cpu:.3f}"
-            f" ({(cpu_2 - rate * wall_2) / cpu:.3f} without what it uses without work)"
+            f" ({(cpu_2 - rate * wall_2) / cpu:.3f} without what it uses without work),"
+            f" at shares {at_shares / wall_2 / 2:.3f}"
         )
 
 

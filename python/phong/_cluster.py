@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import queue
 import time
+from collections import Counter
 from collections.abc import Callable, Iterator
 from concurrent.futures import CancelledError
 from dataclasses import dataclass
@@ -13,6 +14,7 @@ if TYPE_CHECKING:
     from distributed import Future
 
 Name = TypeVar("Name")
+Result = TypeVar("Result")
 
 #: Seconds after which the cluster is looked at, where nothing was heard of it.
 _LOOK = 1.0
@@ -25,58 +27,80 @@ class ClusterError(RuntimeError):
 
 
 @dataclass(frozen=True)
-class Task(Generic[Name]):
+class Task(Generic[Name, Result]):
     """Something to be done by a worker."""
 
     name: Name
     #: What messages call it.
     title: str
-    #: Gives it to the scheduler, under a new key each time.
-    submit: Callable[[], Future[Any]]
+    #: Gives it to the scheduler, under a new key each time, with these keywords of ``submit``.
+    submit: Callable[..., Future[Result]]
 
 
 @dataclass
-class _Submitted(Generic[Name]):
+class _Submitted(Generic[Name, Result]):
     """A task that the scheduler knows."""
 
-    task: Task[Name]
-    future: Future[Any]
+    task: Task[Name, Result]
+    future: Future[Result]
+    #: The worker that it was meant for; empty where Dask chose.
+    worker: str
     tried: int
     #: How many tasks were done when it was submitted.
     done_before: int
 
 
 def run_tasks(
-    client: Any, tasks: Iterator[Task[Name]], *, timeout: float | None
-) -> Iterator[tuple[Name, bytes]]:
+    client: Any,
+    next_task: Callable[[int], Task[Name, Result] | None],
+    *,
+    timeout: float | None,
+) -> Iterator[tuple[Name, Result]]:
     """What comes of each task, as it comes.
 
-    At most two tasks a thread of the cluster are submitted at once, so that a worker that dies
-    takes few with it and the scheduler holds few arguments. Leaving the iterator, by Ctrl-C too,
-    cancels what is under way.
+    ``next_task`` is asked for the next task, and told how many threads the cluster has now; None is
+    the end. At most two tasks a thread of the cluster are submitted at once, so that a worker that
+    dies takes few with it, the scheduler holds few arguments, and a worker that is done has the
+    next task at hand. Leaving the iterator, by Ctrl-C too, cancels what is under way.
 
     Raises ClusterError, or what the task raised.
     """
-    heard: queue.SimpleQueue[Future[Any]] = queue.SimpleQueue()
-    under_way: dict[object, _Submitted[Name]] = {}
+    heard: queue.SimpleQueue[Future[Result]] = queue.SimpleQueue()
+    under_way: dict[object, _Submitted[Name, Result]] = {}
     watch = _Watch(client, timeout)
     done = 0
 
-    def submit(task: Task[Name], tried: int) -> None:
-        future = task.submit()
-        under_way[future.key] = _Submitted(task, future, tried, done)
+    def submit(task: Task[Name, Result], tried: int, worker: str = "") -> None:
+        where = {"workers": [worker], "allow_other_workers": True} if worker else {}
+        future = task.submit(**where)
+        under_way[future.key] = _Submitted(task, future, worker, tried, done)
         future.add_done_callback(heard.put)
+
+    def first_worker() -> str:
+        """For whom a task is, as long as no worker has done one.
+
+        Dask would give them all to the one that has the scene, and think better of it most of a
+        second later.
+        """
+        return watch.idlest(Counter(one.worker for one in under_way.values())) if not done else ""
 
     try:
         while True:
-            while len(under_way) < watch.at_once and (task := next(tasks, None)) is not None:
-                submit(task, 0)
+            while len(under_way) < watch.at_once and (task := next_task(watch.threads)) is not None:
+                submit(task, 0, first_worker())
             if not under_way:
                 return
             try:
                 future = heard.get(timeout=_LOOK)
             except queue.Empty:
-                watch.look()
+                if not watch.look():
+                    # A task that was meant for a worker which died as the last one waits for ever.
+                    for known in [one for one in under_way.values() if one.worker]:
+                        del under_way[known.future.key]
+                        client.cancel([known.future], force=True)
+                        submit(known.task, known.tried)
+                continue
+            if future.key not in under_way:
                 continue
             known = under_way.pop(future.key)
             result = _result(known, done, timeout)
@@ -94,13 +118,13 @@ def run_tasks(
             client.cancel(left, force=True)
 
 
-def _result(known: _Submitted[Name], done: int, timeout: float | None) -> bytes | None:
+def _result(known: _Submitted[Name, Result], done: int, timeout: float | None) -> Result | None:
     """What a finished task gave; None where it is worth another try."""
     from distributed import KilledWorker
 
     title = known.task.title
     try:
-        result: bytes = known.future.result(timeout=timeout)
+        result = known.future.result(timeout=timeout)
     except KilledWorker as error:
         # Dask counts the deaths that a task met for as long as it knows it, and scenes are kept for
         # many pictures: one that was unlucky too often is sent anew.
@@ -130,11 +154,32 @@ class _Watch:
     def __init__(self, client: Any, timeout: float | None) -> None:
         self.client = client
         self.timeout = timeout
-        #: How many tasks are submitted at once.
-        self.at_once = 2
+        #: Threads of the workers that can take tasks.
+        self._threads_of: dict[str, int] = {}
         self._since = time.monotonic()
         self._looked = 0.0
         self._count(self._workers())
+
+    @property
+    def threads(self) -> int:
+        """How many threads the cluster has."""
+        return sum(self._threads_of.values())
+
+    @property
+    def at_once(self) -> int:
+        """How many tasks are submitted at once."""
+        return max(2, 2 * self.threads)
+
+    def idlest(self, tasks: Counter[str]) -> str:
+        """The worker with the fewest tasks a thread; empty where Dask is to choose.
+
+        It is, where the caller has said what workers are wanted (``dask.annotate``).
+        """
+        from dask.base import get_annotations
+
+        if not self._threads_of or get_annotations():
+            return ""
+        return min(self._threads_of, key=lambda one: tasks[one] / self._threads_of[one])
 
     def heard(self) -> None:
         """A task was done."""
@@ -142,29 +187,28 @@ class _Watch:
         if self._since - self._looked > 5 * _LOOK:
             self._count(self._workers())
 
-    def look(self) -> None:
-        """Raises ClusterError where nobody could work for too long."""
-        if self.client.status != "running":
-            if self.client.status in ("closed", "closing"):
-                raise ClusterError("the client was closed")
-        else:
+    def look(self) -> bool:
+        """Whether the workers that are there do something; raises ClusterError where nobody could
+        work for too long."""
+        trouble: str | None = "the scheduler does not answer"
+        running = False
+        if self.client.status == "running":
             workers = self._workers()
             self._count(workers)
+            running = bool(self._threads_of)
             trouble = self._trouble(workers)
-            if trouble is None:
-                self._since = time.monotonic()
-                return
-            self._hopeless(trouble)
-            return
-        self._hopeless("the scheduler does not answer")
-
-    def _hopeless(self, trouble: str) -> None:
-        if self.timeout is not None and time.monotonic() - self._since > self.timeout:
+        elif self.client.status in ("closed", "closing"):
+            raise ClusterError("the client was closed")
+        if trouble is None:
+            self._since = time.monotonic()
+        elif self.timeout is not None and time.monotonic() - self._since > self.timeout:
             raise ClusterError(f"nothing was done for {self.timeout:g} s: {trouble}")
+        return trouble is None or not running
 
     def _workers(self) -> dict[str, dict[str, object]]:
         try:
-            info = self.client.scheduler_info()
+            # Some versions of Dask tell of five workers unless all are asked for.
+            info = self.client.scheduler_info(n_workers=-1)
         except (OSError, TimeoutError):
             return {}
         workers: dict[str, dict[str, object]] = dict(info["workers"])
@@ -172,8 +216,11 @@ class _Watch:
         return workers
 
     def _count(self, workers: dict[str, dict[str, object]]) -> None:
-        threads = sum(int(str(worker["nthreads"])) for worker in workers.values())
-        self.at_once = max(2, 2 * threads)
+        self._threads_of = {
+            address: int(str(worker["nthreads"]))
+            for address, worker in workers.items()
+            if worker["status"] == "running"
+        }
 
     def _trouble(self, workers: dict[str, dict[str, object]]) -> str | None:
         """Why nobody works, or None where somebody does."""

@@ -18,9 +18,11 @@ __all__ = [
     "Image",
     "Part",
     "Scene",
+    "_Join",
     "__version__",
     "_check",
     "_compare",
+    "_compile",
     "_convert",
     "_evaluate",
     "_explain",
@@ -31,6 +33,7 @@ __all__ = [
     "_image_of_part",
     "_render",
     "_render_part",
+    "_tiles",
     "arithmetic",
     "check_keys",
     "main",
@@ -170,6 +173,19 @@ def check_keys(kind: str, keys: dict[str, Any]) -> None: ...
 def main(args: Sequence[str]) -> int: ...
 def schema() -> str: ...
 def arithmetic() -> int: ...
+
+@final
+class _Join:
+    """Shares of a picture, put together as they come."""
+
+    def __new__(cls) -> Self: ...
+    def add(self, name: str, part: bytes) -> None:
+        """Adds the bytes of a part file; ``name`` is what errors call it."""
+    def finish(self) -> Image:
+        """The picture, and nothing is left here. Raises ValueError where shares are missing."""
+
+def _compile(scene: Scene, keys: dict[str, Any]) -> None: ...
+def _tiles(scene: Scene, keys: dict[str, Any]) -> int: ...
 def _image_of_part(bytes: bytes, seconds: list[tuple[str, float]]) -> Image: ...
 def _render(
     scene: Scene,

@@ -53,17 +53,19 @@ class Store:
         self.folder = Path(folder)
         self.folder.mkdir(parents=True, exist_ok=True)
 
-    def read(self, asked: str) -> dict[tuple[int, int], bytes]:
-        """What is there of what was asked for, by (share, of how many)."""
-        found: dict[tuple[int, int], bytes] = {}
-        for path in sorted(self.folder.glob(f"{asked}-*.part")):
+    def names(self, asked: str) -> set[tuple[int, int]]:
+        """What there is of what was asked for, as (share, of how many); some may be damaged."""
+        matches = (_NAME.fullmatch(path.name) for path in self.folder.glob(f"{asked}-*.part"))
+        return {(int(match[2]), int(match[3])) for match in matches if match is not None}
+
+    def read(self, asked: str, index: int, count: int) -> bytes | None:
+        """A share; None where it is not there, or damaged."""
+        for path in sorted(self.folder.glob(f"{asked}-{index}of{count}-*.part")):
             match = _NAME.fullmatch(path.name)
-            if match is None:
-                continue
             content = path.read_bytes()
-            if hashlib.sha256(content).hexdigest()[:16] == match[4]:
-                found[int(match[2]), int(match[3])] = content
-        return found
+            if match is not None and hashlib.sha256(content).hexdigest()[:16] == match[4]:
+                return content
+        return None
 
     def write(self, asked: str, index: int, count: int, content: bytes) -> None:
         """Keeps a share."""

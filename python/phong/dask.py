@@ -1,6 +1,7 @@
 """Pictures, films and sweeps by a Dask cluster, with the bits of one machine.
 
-A picture is rendered in shares, which partition its pixels; each is a task. The scene goes to the
+A picture is rendered in shares, which partition its pixels; each is a task. The first are large and
+the last small, so that no worker waits long for another at the end. The scene goes to the
 scheduler once and to each worker once, by its content; a client's last few scenes are kept there. A
 share that was under way or kept on a worker that died is rendered again by another, and no other
 share is. With ``store=FOLDER`` finished shares are also kept in files, so that a call goes on where
@@ -19,6 +20,8 @@ import json
 import os
 import pickle
 import tempfile
+import threading
+import time
 import uuid
 import weakref
 from collections import OrderedDict
@@ -30,8 +33,9 @@ from typing import TYPE_CHECKING, Any, Final
 import phong
 
 from ._cluster import ClusterError, Task, run_tasks
-from ._phong import arithmetic
+from ._phong import _compile, _Join, _tiles, arithmetic
 from ._progress import Listener
+from ._shares import Equal, Falling, Share, fitting
 from ._store import Store, digest_of, write_whole
 
 if TYPE_CHECKING:
@@ -41,8 +45,6 @@ __all__ = ["ClusterError", "Variation", "render", "render_frames", "sweep"]
 
 #: How many scenes of a client its workers keep.
 SCENES_KEPT: Final = 4
-#: How many shares a picture is made of for each thread of the cluster, where nobody says.
-SHARES_A_THREAD: Final = 4
 
 Progress = bool | Callable[[float], object] | None
 #: Pictures of two versions of the arithmetic do not go together.
@@ -73,8 +75,8 @@ def render(
 ) -> phong.Image:
     """What ``phong.render(scene, **options)`` draws, to the bit, by the workers of ``client``.
 
-    ``client``: None is the current one. ``shares``: how many tasks the picture is made of; None is
-    four for each thread of the cluster, or as many as ``store`` has some of. ``store``: a folder
+    ``client``: None is the current one. ``shares``: so many tasks of one size; None is tasks that
+    get smaller the less is left of the picture. ``store``: a folder
     for finished shares; it may be deleted when the picture is there. ``progress``: as in
     ``phong.render``, told for each share. ``timeout``: seconds without a worker that can work
     before giving up; None waits for ever. ``options``: those of ``phong.render``; ``threads``
@@ -87,31 +89,60 @@ def render(
     digest = scene.digest()
     threads = options.pop("threads", None)
     asked = digest_of(digest, _text(options), _ARITHMETIC)
+    if shares is not None and shares < 1:
+        raise ValueError(f"shares is {shares}; wanted is a whole number above 0")
+    # What is wrong with an option is told here, before anything is sent.
+    tiles = _tiles(scene, options)
     kept = Store(store) if store is not None else None
-    there = kept.read(asked) if kept is not None else {}
-    count = _count(shares, there, on)
-    parts = {index: part for (index, of), part in there.items() if of == count}
+    whole = _Join()
+    cut, done = _begun(tiles, shares, kept, asked, whole)
     kind = f"phong-share-{uuid.uuid4().hex[:12]}"
     tries = itertools.count()
 
-    def task(index: int) -> Task[int]:
-        def submit() -> Any:
+    def next_task(threads_now: int) -> Task[Share, tuple[bytes, float]] | None:
+        share = cut.next(threads_now)
+        if share is None:
+            return None
+        index, count = share.index, share.count
+
+        def submit(**where: Any) -> Any:
             return on.submit(
                 _share, _sent(scene, digest, on), index, count, threads, options,
-                key=f"{kind}-{index}-{next(tries)}", pure=False,
+                key=f"{kind}-{index}of{count}-{next(tries)}", pure=False, **where,
             )  # fmt: skip
 
-        return Task(index, f"share {index} of {count}", submit)
+        return Task(share, _title(share), submit)
 
     with Listener(progress) as listener:
-        _tell(listener, len(parts), count)
-        left = (task(index) for index in range(count) if index not in parts)
-        for index, part in run_tasks(on, left, timeout=timeout):
-            parts[index] = part
+        _tell(listener, done, cut.finest)
+        for share, (part, seconds) in run_tasks(on, next_task, timeout=timeout):
+            cut.took(share, seconds)
+            whole.add(_title(share), part)
             if kept is not None:
-                kept.write(asked, index, count, part)
-            _tell(listener, len(parts), count)
-    return phong.merge([parts[index] for index in range(count)])
+                kept.write(asked, share.index, share.count, part)
+            done += cut.finest // share.count
+            _tell(listener, done, cut.finest)
+    return whole.finish()
+
+
+def _begun(
+    tiles: int, shares: int | None, kept: Store | None, asked: str, whole: _Join
+) -> tuple[Equal | Falling, int]:
+    """How a picture is cut, and how many of its finest shares are stored; they are joined."""
+    stored = {Share(*one) for one in kept.names(asked)} if kept is not None else set()
+    count, there = fitting(tiles, shares, stored)
+    done = []
+    for share in there:
+        part = kept.read(asked, share.index, share.count) if kept is not None else None
+        if part is not None:
+            whole.add(_title(share), part)
+            done.append(share)
+    cut = Falling(tiles, done) if count is None else Equal(count, done)
+    return cut, sum(cut.finest // share.count for share in done)
+
+
+def _title(share: Share) -> str:
+    return f"share {share.index} of {share.count}"
 
 
 def render_frames(
@@ -148,7 +179,7 @@ def render_frames(
     tries = itertools.count()
     total = len(scenes) if isinstance(scenes, Sequence) else 0
 
-    def tasks() -> Iterator[Task[int]]:
+    def tasks() -> Iterator[Task[int, bytes]]:
         for number, one in enumerate(scenes):
             path = Path(pattern.format(number))
             files.append(path)
@@ -158,18 +189,23 @@ def render_frames(
             packed = pickle.dumps(_read(one), protocol=5)
 
             def submit(
-                packed: bytes = packed, number: int = number, suffix: str = path.suffix
+                packed: bytes = packed,
+                number: int = number,
+                suffix: str = path.suffix,
+                **where: Any,
             ) -> Any:
                 with _large():
                     return on.submit(
                         _file, packed, suffix, bits, exposure, threads, options,
-                        key=f"{kind}-{number}-{next(tries)}", pure=False,
+                        key=f"{kind}-{number}-{next(tries)}", pure=False, **where,
                     )  # fmt: skip
 
             yield Task(number, f"frame {number}", submit)
 
+    left = tasks()
     with Listener(progress) as listener:
-        for done, (number, content) in enumerate(run_tasks(on, tasks(), timeout=timeout), 1):
+        come = run_tasks(on, lambda _: next(left, None), timeout=timeout)
+        for done, (number, content) in enumerate(come, 1):
             write_whole(files[number], content)
             _tell(listener, done, total or len(files))
     return files
@@ -212,25 +248,29 @@ def sweep(
     kind = f"phong-variation-{uuid.uuid4().hex[:12]}"
     tries = itertools.count()
 
-    def tasks() -> Iterator[Task[int]]:
+    def tasks() -> Iterator[Task[int, bytes]]:
         for number, (paths, own) in enumerate(changes):
-            there = kept.read(names[number]) if kept is not None else {}
-            if (0, 1) in there:
-                images[number] = phong.merge([there[0, 1]])
+            there = kept.read(names[number], 0, 1) if kept is not None else None
+            if there is not None:
+                images[number] = phong.merge([there])
                 continue
 
             def submit(
-                number: int = number, paths: dict[str, Any] = paths, own: dict[str, Any] = own
+                number: int = number,
+                paths: dict[str, Any] = paths,
+                own: dict[str, Any] = own,
+                **where: Any,
             ) -> Any:
                 return on.submit(
                     _variation, _sent(scene, base, on), paths, threads, {**options, **own},
-                    key=f"{kind}-{number}-{next(tries)}", pure=False,
+                    key=f"{kind}-{number}-{next(tries)}", pure=False, **where,
                 )  # fmt: skip
 
             yield Task(number, f"variation {number} ({chosen[number]})", submit)
 
+    left = tasks()
     with Listener(progress) as listener:
-        for number, part in run_tasks(on, tasks(), timeout=timeout):
+        for number, part in run_tasks(on, lambda _: next(left, None), timeout=timeout):
             images[number] = phong.merge([part])
             if kept is not None:
                 kept.write(names[number], 0, 1, part)
@@ -246,10 +286,20 @@ def _unpacked(packed: bytes) -> phong.Scene:
     return scene
 
 
+#: Held while a worker compiles a scene: the tasks that it begins at once do it once.
+_compiling = threading.Lock()
+
+
 def _share(
     scene: phong.Scene, index: int, count: int, threads: int | None, options: dict[str, Any]
-) -> bytes:
-    return phong.render_part(scene, index, count, threads=_threads(threads), **options)
+) -> tuple[bytes, float]:
+    """The share, and the seconds that its rays took."""
+    options = {**options, "threads": _threads(threads)}
+    with _compiling:
+        _compile(scene, options)
+    began = time.perf_counter()
+    part = phong.render_part(scene, index, count, **options)
+    return part, time.perf_counter() - began
 
 
 def _variation(
@@ -342,18 +392,6 @@ def _read(scene: SceneOrPath) -> phong.Scene:
 
 def _text(options: Mapping[str, Any]) -> str:
     return json.dumps(options, default=repr, sort_keys=True)
-
-
-def _count(shares: int | None, there: Mapping[tuple[int, int], bytes], client: Any) -> int:
-    if shares is not None:
-        if shares < 1:
-            raise ValueError(f"shares is {shares}; wanted is a whole number above 0")
-        return shares
-    begun = [of for _, of in there]
-    if begun:
-        return max(set(begun), key=lambda of: (begun.count(of) / of, of))
-    threads: int = sum(client.nthreads().values())
-    return max(1, SHARES_A_THREAD * threads)
 
 
 def _tell(listener: Listener, done: int, total: int) -> None:

@@ -89,6 +89,60 @@ def test_progress_is_told_for_each_share(client: Any) -> None:
     assert told == [done / 5 for done in range(6)]
 
 
+def test_shares_get_smaller_and_make_the_whole_picture(client: Any) -> None:
+    scene = balls()
+    options: dict[str, Any] = {"size": (480, 270), "tile": 16, "samples": 1}
+    told: list[float] = []
+    image = phong.dask.render(scene, client, progress=told.append, **options)
+    assert np.array_equal(np.asarray(image), np.asarray(phong.render(scene, **options)))
+    shares = np.diff(told)
+    assert shares[0] == 1 / 8, "a quarter of what each of two threads has to do"
+    assert shares[-1] < shares[0]
+    assert told[-1] == 1
+
+
+def test_what_is_left_is_cut_anew_whatever_is_done() -> None:
+    from phong._shares import Falling, Share, fitting
+
+    def tiles(share: Share) -> set[int]:
+        return set(range(share.index, 100, share.count))
+
+    for done in ([], [Share(1, 4)], [Share(3, 8), Share(0, 2), Share(63, 64)]):
+        for threads in (0, 1, 2, 7, 1000):
+            cut = Falling(100, done)
+            shares: list[Share] = []
+            while (share := cut.next(threads)) is not None:
+                shares.append(share)
+                cut.took(share, 0.01)
+            covered = [tile for share in [*done, *shares] for tile in tiles(share)]
+            assert sorted(covered) == list(range(100))
+            assert all(map(tiles, shares)), "none is empty"
+    stored = [Share(0, 4), Share(4, 8), Share(5, 12), Share(6, 12), Share(3, 1 << 40)]
+    assert fitting(100, None, stored) == (None, [Share(0, 4)]), "4 of 8 is in 0 of 4"
+    assert fitting(100, None, stored[2:4]) == (12, stored[2:4])
+    assert fitting(100, 12, stored) == (12, stored[2:4])
+    assert fitting(100, None, []) == (None, [])
+
+
+def test_what_is_stored_of_a_picture_is_kept_by_another_number_of_shares(
+    client: Any, tmp_path: Path
+) -> None:
+    def stop(done: float) -> None:
+        if done > 0.5:
+            raise KeyboardInterrupt
+
+    options: dict[str, Any] = {"size": (480, 270), "samples": 1, "store": tmp_path}
+    with pytest.raises(KeyboardInterrupt):
+        phong.dask.render(balls(), client, progress=stop, **options)
+    kept = {path.name: path.stat().st_mtime_ns for path in tmp_path.iterdir()}
+    told: list[float] = []
+    image = phong.dask.render(balls(), client, progress=told.append, **options)
+    assert told[0] > 0.5
+    assert kept.items() <= {p.name: p.stat().st_mtime_ns for p in tmp_path.iterdir()}.items()
+    options.pop("store")
+    assert np.array_equal(np.asarray(image), np.asarray(phong.render(balls(), **options)))
+
+
 def test_what_is_wrong_is_raised_here(client: Any) -> None:
     with pytest.raises(ValueError, match="samples"):
         phong.dask.render(balls(), client, size=(32, 32), samples=-1)
@@ -339,7 +393,7 @@ def test_an_unlucky_scene_is_sent_anew_and_a_share_that_kills_its_workers_is_not
 
     def result(task: str, tried: int) -> bytes | None:
         lost: Any = Lost(task)
-        known = _Submitted(Task(0, "share 0", lambda: lost), lost, tried, done_before=0)
+        known = _Submitted(Task(0, "share 0", lambda: lost), lost, "", tried, done_before=0)
         return _result(known, 0, None)
 
     assert result("phong-scene-1", 0) is None
