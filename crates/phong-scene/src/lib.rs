@@ -57,7 +57,7 @@ pub use light::{Light, LightKind};
 pub use limits::{LARGEST, Limits};
 pub use material::{
     AmbientRule, ConstantMaterial, Dialect, Distribution, Fresnel, Material, MaterialId, Model,
-    OpacityMode, ShadowRule, Shadowing, Tint, Viewer, WardForm,
+    NormalFormat, OpacityMode, ShadowRule, Shadowing, Tint, Viewer, WardForm,
 };
 pub use mesh::{Caps, Cylinders, Mesh, NO_INDEX, Points, Shared};
 pub use scene::{Background, FilterKind, Group, Image, Object, Reading, Scene};

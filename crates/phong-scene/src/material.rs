@@ -48,7 +48,11 @@
 //! | `reflection` | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name; or `{ texture = .. }` | `0` | Weight of the mirror ray. |
 //! | `transmission` | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name; or `{ texture = .. }` | `0` | Weight of the refracted ray. |
 //! | `opacity` | a number from 0 to 1; or `{ texture = .. }` | `1` | Share of the surface that is there; the rest shows what is behind, in a straight line. |
-//! | `opacity_mode` | `plain` or `angle` | `"plain"` | Whether the share is the same from everywhere, or grows towards the rim, as in VMD and Raster3D: (½ + ½ cos(π (1 − opacity) N·E))². |
+//! | `opacity_mode` | `plain`, `angle` or `mask` | `"plain"` | Whether the share is the same from everywhere, or grows towards the rim, as in VMD and Raster3D: (½ + ½ cos(π (1 − opacity) N·E))²; or a mask: all or nothing. |
+//! | `cutoff` | a number from 0 to 1 | `0.5` | With `opacity_mode = "mask"`: from this opacity on the surface is there. |
+//! | `normal` | a table `{ texture = .. }` | none | A map of normals about u, v and the surface's own normal, whose red, green and blue stand for −1 to 1; `scale` is of the first two. On meshes tangents are those of MikkTSpace. |
+//! | `normal_format` | `opengl` or `directx` | `"opengl"` | Whether the map's green grows up the image, or down it. |
+//! | `bump` | a table `{ texture = .. }` | none | Heights in the object's own units, times `scale`: normals are turned as if the surface were raised. |
 //! | `surfaces` | a whole number from 1 to 1000000 | all | A ray shows the material only until it has passed so many see-through surfaces; 1: the first surface alone. |
 //! | `shadow` | `full` or `filtered` | full for glass, filtered for opacity | What a light loses behind it: all, or what is not let through in a straight line: of `opacity`, and where this says `filtered` of `transmission` as well. |
 //! | `ior` | a number above 0 up to 100 | `1.5` | Index of refraction of the inside relative to the outside. |
@@ -61,12 +65,12 @@
 //! | `ambient_rule` | `once`, `per-light` or `both` | the dialect's | How often the ambient term is added: once under the ambient light, once for every light times the light's colour, or both. |
 //! | `viewer` (phong, blinn-phong, blinn-fast) | `local` or `distant` | the dialect's | Where highlights are seen from: the eye, or from infinitely far along the camera's axis, which gives each distant light one halfway vector. |
 
-use std::cell::{RefCell, RefMut};
+mod parameters;
 
 use crate::color::Rgb;
 use crate::diagnostic::Place;
 use crate::limits::Range;
-use crate::texture::{Param, TextureId, TextureRef, TextureUse};
+use crate::texture::{Param, TextureRef, TextureUse};
 use crate::wording::{Word, words};
 
 /// Index into [`Scene::materials`](crate::Scene::materials).
@@ -116,6 +120,15 @@ pub struct Material<N = Param<f32>, C = Param<Rgb>> {
     pub opacity: N,
     /// How that depends on the angle. Default plain.
     pub opacity_mode: OpacityMode,
+    /// With [`OpacityMode::Mask`]: from which opacity on the surface is there.
+    pub cutoff: f32,
+    /// A map of normals, in the space of u, v and the normal: red, green and blue from 0 to 1 stand for −1 to
+    /// 1. Its scale is of u and v. `None`: none.
+    pub normal: Option<TextureRef>,
+    /// Which way the map's v grows.
+    pub normal_format: NormalFormat,
+    /// Heights, in the object's own units, by which normals are turned. `None`: none.
+    pub bump: Option<TextureRef>,
     /// The material is seen only until a ray has passed so many see-through surfaces, ≥ 1; `None`: always.
     pub surfaces: Option<u32>,
     /// What a light loses behind it; `None`: all, but for what `opacity` lets through.
@@ -166,6 +179,10 @@ impl Default for ConstantMaterial {
             transmission: Rgb::BLACK,
             opacity: 1.0,
             opacity_mode: OpacityMode::Plain,
+            cutoff: 0.5,
+            normal: None,
+            normal_format: NormalFormat::OpenGl,
+            bump: None,
             surfaces: None,
             shadow: None,
             ior: 1.5,
@@ -217,110 +234,6 @@ impl Material {
     /// What it is where textures have the values that `look_up` says.
     pub fn at(&self, look_up: impl Fn(TextureUse) -> Rgb) -> ConstantMaterial {
         self.map(|_, number| number.at(&look_up), |_, color| color.at(&look_up))
-    }
-
-    /// The parameters that take their values from textures, by their keys in the text.
-    pub fn textured(&self) -> Vec<(&'static str, TextureRef)> {
-        let textured = RefCell::new(Vec::new());
-        let note = |key, by: Option<TextureRef>| {
-            let mut noted: RefMut<'_, Vec<(&'static str, TextureRef)>> = textured.borrow_mut();
-            // The exponent of Blinn's facets is their roughness too.
-            if !noted.iter().any(|&(other, _)| other == key) {
-                noted.extend(by.map(|by| (key, by)));
-            }
-        };
-        let _: Material<(), ()> =
-            self.map(|key, n| note(key, n.texture()), |key, c| note(key, c.texture()));
-        textured.into_inner()
-    }
-
-    /// What each parameter that takes its values from a texture asks it for, by its key in the text.
-    pub fn texture_uses(&self) -> Vec<(&'static str, TextureUse)> {
-        let colors = RefCell::new(Vec::new());
-        let note = |key, by: Option<TextureRef>| {
-            let mut colors: RefMut<'_, Vec<&'static str>> = colors.borrow_mut();
-            colors.extend(by.map(|_| key));
-        };
-        let _: Material<(), ()> = self.map(|_, _| (), |key, c| note(key, c.texture()));
-        let colors = colors.into_inner();
-        let asked = |(key, by): (&'static str, TextureRef)| {
-            let TextureRef { texture, channel, .. } = by;
-            (key, TextureUse { texture, channel, is_color: colors.contains(&key) })
-        };
-        self.textured().into_iter().map(asked).collect()
-    }
-
-    /// The same with its textures numbered anew.
-    #[must_use]
-    pub fn renumber_textures(&self, new: impl Fn(TextureId) -> TextureId) -> Self {
-        fn renumber<T>(parameter: Param<T>, new: &impl Fn(TextureId) -> TextureId) -> Param<T> {
-            match parameter {
-                Param::Constant(_) => parameter,
-                Param::Textured(by) => {
-                    Param::Textured(TextureRef { texture: new(by.texture), ..by })
-                }
-            }
-        }
-        self.map(|_, number| renumber(number, &new), |_, color| renumber(color, &new))
-    }
-}
-
-impl<N: Copy, C: Copy> Material<N, C> {
-    /// The same with other numbers and colours: of each its key in the text is told.
-    fn map<M, D>(
-        &self,
-        number: impl Fn(&'static str, N) -> M,
-        color: impl Fn(&'static str, C) -> D,
-    ) -> Material<M, D> {
-        Material {
-            name: self.name.clone(),
-            model: match self.model {
-                Model::Lambert => Model::Lambert,
-                Model::Phong => Model::Phong,
-                Model::BlinnPhong => Model::BlinnPhong,
-                Model::BlinnFast => Model::BlinnFast,
-                Model::Microfacet { distribution, roughness, shadowing, fresnel } => {
-                    // Blinn's distribution goes by the exponent.
-                    let key = match distribution {
-                        Distribution::Blinn => "shininess",
-                        Distribution::Beckmann | Distribution::Ggx => "roughness",
-                    };
-                    let roughness = number(key, roughness);
-                    Model::Microfacet { distribution, roughness, shadowing, fresnel }
-                }
-                Model::OrenNayar { sigma, full } => Model::OrenNayar { sigma, full },
-                Model::Ward { roughness_x, roughness_y, form } => Model::Ward {
-                    roughness_x: number("roughness_x", roughness_x),
-                    roughness_y: number("roughness_y", roughness_y),
-                    form,
-                },
-            },
-            color: color("color", self.color),
-            ambient_color: self.ambient_color.map(|c| color("ambient_color", c)),
-            specular_color: self.specular_color.map(|c| color("specular_color", c)),
-            k_a: number("k_a", self.k_a),
-            k_d: number("k_d", self.k_d),
-            k_s: number("k_s", self.k_s),
-            k_e: number("k_e", self.k_e),
-            emission_color: self.emission_color.map(|c| color("emission_color", c)),
-            shininess: number("shininess", self.shininess),
-            reflection: color("reflection", self.reflection),
-            transmission: color("transmission", self.transmission),
-            opacity: number("opacity", self.opacity),
-            opacity_mode: self.opacity_mode,
-            surfaces: self.surfaces,
-            shadow: self.shadow,
-            ior: self.ior,
-            priority: self.priority,
-            fresnel: self.fresnel,
-            dialect: self.dialect,
-            times_cosine: self.times_cosine,
-            normalize: self.normalize,
-            tint: self.tint,
-            ambient_rule: self.ambient_rule,
-            viewer: self.viewer,
-            place: self.place.clone(),
-        }
     }
 }
 
@@ -434,7 +347,9 @@ words!(Tint { "light" = Light, "object" = Object, "metallic" = Metallic });
 
 words!(AmbientRule { "once" = Once, "per-light" = PerLight, "both" = Both });
 
-words!(OpacityMode { "plain" = Plain, "angle" = Angle });
+words!(OpacityMode { "plain" = Plain, "angle" = Angle, "mask" = Mask });
+
+words!(NormalFormat { "opengl" = OpenGl, "directx" = DirectX });
 
 words!(ShadowRule { "full" = Full, "filtered" = Filtered });
 
@@ -583,6 +498,18 @@ pub enum OpacityMode {
     Plain,
     /// It grows from `(½ − ½ cos(π opacity))²`, seen from the front, to 1 at the rim: VMD, `Raster3D`.
     Angle,
+    /// Where the opacity is at least the cutoff all of the surface is there, elsewhere nothing.
+    Mask,
+}
+
+/// Which way the second direction of a map of normals grows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum NormalFormat {
+    /// Up the image, with v: glTF and most programs.
+    #[default]
+    OpenGl,
+    /// Down the image.
+    DirectX,
 }
 
 /// What a light loses behind a surface.

@@ -41,6 +41,8 @@ pub struct Material {
     /// it counts the rest.
     pub opacity: f32,
     opacity_mode: OpacityMode,
+    /// With a mask: from which opacity on the surface is there.
+    cutoff: f32,
     /// How many see-through surfaces a ray may have passed and still meet it: fewer than this.
     surfaces: u32,
     shadow: Option<ShadowRule>,
@@ -71,6 +73,7 @@ impl Material {
             transmission: material.transmission,
             opacity: material.opacity,
             opacity_mode: material.opacity_mode,
+            cutoff: material.cutoff,
             surfaces: material.surfaces.unwrap_or(u32::MAX),
             shadow: material.shadow,
             ior: material.ior,
@@ -134,6 +137,7 @@ impl Material {
         }
         match self.opacity_mode {
             OpacityMode::Plain => n_dot_e.splat(opacity),
+            OpacityMode::Mask => n_dot_e.splat(if opacity >= self.cutoff { 1.0 } else { 0.0 }),
             OpacityMode::Angle => n_dot_e.map(|cos| {
                 let root = 0.5 + 0.5 * math::cos(PI * (1.0 - opacity) * cos.clamp(0.0, 1.0));
                 root * root

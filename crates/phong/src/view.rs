@@ -6,6 +6,7 @@ mod far;
 mod fixture;
 mod fog;
 mod occlusion;
+mod relief;
 mod shading;
 mod varied;
 
@@ -16,7 +17,7 @@ use phong_scene::{Background, Cap, Diagnostic, Rgb, Scene, ShadowRule};
 use thiserror::Error;
 
 use crate::camera::Camera;
-use crate::geometry::{Geometry, GeometryError, GeometryOptions, ObjectRecord, summary};
+use crate::geometry::{Geometry, GeometryError, GeometryOptions, ObjectRecord, Tangents, summary};
 use crate::interaction::SurfaceInteraction;
 use crate::light::{Light, MOUNTED};
 use crate::look::Look;
@@ -29,6 +30,7 @@ pub use far::StartedRay;
 pub(crate) use fixture::Fixture;
 pub(crate) use fog::Fog;
 pub(crate) use occlusion::Occlusion;
+use relief::{Relief, Turned};
 use shading::Shading;
 pub(crate) use shading::Shading8;
 pub(crate) use varied::MadeMaterial;
@@ -49,6 +51,10 @@ pub struct View {
     /// What varies of each; empty where no material takes a value from a texture.
     varied: Vec<Varied>,
     textures: Vec<Texture>,
+    /// What turns normals, of each material; empty: nothing does.
+    reliefs: Vec<Option<Relief>>,
+    /// The tangents of meshes, by their parts; empty: no texture turns normals.
+    tangents: Vec<Option<Arc<Tangents>>>,
     /// Whether a texture that a material uses is an image.
     has_images: bool,
     /// Where rays need more than the closest hit; `None`: nowhere.
@@ -130,7 +136,20 @@ impl View {
         };
         let fixtures = lights.iter().map(fixture).collect();
         let mut varied: Vec<_> = look.materials.iter().map(Varied::of).collect();
-        if varied.iter().all(|&varied| varied == Varied::Nothing) {
+        let mut reliefs: Vec<_> = look.materials.iter().map(Relief::of).collect();
+        let mut tangents = Vec::new();
+        if reliefs.iter().all(Option::is_none) {
+            reliefs = Vec::new();
+        } else {
+            let parts = 0..geometry.world().parts() as u32;
+            let turned = |number: u32| reliefs.get(number as usize).is_some_and(Option::is_some);
+            let of_part = |part: u32| {
+                let mut used = geometry.batch(part).materials_used();
+                used.any(turned).then(|| geometry.tangents(part)).flatten()
+            };
+            tangents = parts.map(of_part).collect();
+        }
+        if reliefs.is_empty() && varied.iter().all(|&varied| varied == Varied::Nothing) {
             varied = Vec::new();
         }
         let textures: Vec<_> = look.textures.iter().map(Texture::new).collect();
@@ -162,6 +181,8 @@ impl View {
             has_ambient_per_light: materials.iter().any(Material::takes_ambient_per_light),
             has_images: !varied.is_empty() && textures.iter().any(Texture::has_footprint),
             textures,
+            reliefs,
+            tangents,
             fixtures,
             geometry,
             look,
@@ -344,6 +365,16 @@ impl View {
         let (ng, e) = (Dir3::from_unit(ng), -Dir3::from_unit(ray.dir));
         let Shading { n, material, color } = self.shading(hit, ng, e);
         let color = color.unwrap_or_else(|| self.color_at(material, ray, hit, &surface));
+        let n = match self.relief(material) {
+            Some(relief) => {
+                let (point, front) =
+                    (self.texture_point(ray, hit, p, ng.to_vec(), 0.0), ng.facing(e));
+                let (n, front, ng) = (n.to_vec(), front.to_vec(), ng.to_vec());
+                let at = Turned { ray, hit, point: &point, n, front, ng };
+                Dir3::from_unit(self.turned_normal(relief, &at))
+            }
+            None => n,
+        };
         let (hit, eta, width) = (*hit, None, 0.0);
         SurfaceInteraction { hit, material, p, p_error, ng, n, e, color, eta, width }
     }

@@ -12,7 +12,8 @@ use crate::light::Light;
 use crate::material::Material;
 use crate::scene::{Object, Scene};
 use crate::shape::{GroupId, Shape};
-use crate::wording::list;
+use crate::texture::TextureSpace;
+use crate::wording::{list, quoted};
 
 /// Most pairs of a light and an object that are looked at: a check must not outlast the render.
 const MOST_PAIRS: usize = 10_000_000;
@@ -24,6 +25,7 @@ const MOST_NAMED: usize = 5;
 /// `bounds` are the boxes of the objects.
 pub(super) fn check(scene: &Scene, bounds: &[Bounds], say: &mut dyn FnMut(Diagnostic)) {
     unseen(scene, bounds, say);
+    without_coordinates(scene, say);
     if scene.objects.is_empty() {
         let help = "add a shape, such as `[[sphere]]`";
         say(Diagnostic::warning("the scene has no objects", None).with_help(help));
@@ -34,6 +36,37 @@ pub(super) fn check(scene: &Scene, bounds: &[Bounds], say: &mut dyn FnMut(Diagno
     }
     if scene.objects.len().saturating_mul(scene.lights.len()) <= MOST_PAIRS {
         scene.objects.iter().for_each(|object| shut_in(scene, object, say));
+    }
+}
+
+/// Says which meshes have no texture coordinates although a material of theirs asks for some.
+fn without_coordinates(scene: &Scene, say: &mut dyn FnMut(Diagnostic)) {
+    let asks = |material: &Material| {
+        let uses = material.textured().into_iter();
+        uses.filter_map(|(_, by)| scene.textures.get(by.texture.0 as usize))
+            .find(|texture| texture.space == TextureSpace::Uv)
+            .map(|texture| texture.name.as_str())
+    };
+    let asked: Vec<Option<&str>> = scene.materials.iter().map(asks).collect();
+    if asked.iter().all(Option::is_none) {
+        return;
+    }
+    let in_groups = scene.groups.iter().flat_map(|group| &group.objects);
+    for object in scene.objects.iter().chain(in_groups) {
+        let Shape::Mesh(mesh) = &object.shape else { continue };
+        if !mesh.uvs.is_empty() {
+            continue;
+        }
+        let of_faces = mesh.face_materials.iter().copied().collect::<BTreeSet<u32>>();
+        let numbers = if of_faces.is_empty() { [object.material.0].into() } else { of_faces };
+        let asked = |number: &u32| asked.get(*number as usize).copied().flatten();
+        let Some(texture) = numbers.iter().find_map(asked) else { continue };
+        let texture = quoted(texture);
+        let message =
+            format!("{} has no texture coordinates, where the texture {texture} lies", object.name);
+        let help =
+            "each of its triangles shows the texture for itself; `space = \"object\"` needs none";
+        say(Diagnostic::warning(message, at(&object.place)).with_help(help));
     }
 }
 

@@ -43,6 +43,8 @@ pub(crate) enum Kind {
     Group,
     /// The name of a texture.
     Texture,
+    /// What only a texture can give.
+    Map,
     /// `[width, height]`, whole numbers from 1 to 1,048,576.
     Size,
     /// `[c, l, q]`, none negative, not all 0.
@@ -117,6 +119,7 @@ impl Kind {
             Self::Material => "the name of a material, in quotes".to_owned(),
             Self::Group => "the name of a group, in quotes".to_owned(),
             Self::Texture => "the name of a texture, in quotes".to_owned(),
+            Self::Map => "a table `{ texture = .. }`".to_owned(),
             Self::Size => {
                 format!("`[width, height]`, whole numbers from 1 to {}", Image::LARGEST)
             }

@@ -5,8 +5,8 @@ use super::value::{Stored, Value, degrees};
 use super::{Default, Key, Kind, Table};
 use crate::limits::Range;
 use crate::material::{
-    AmbientRule, Dialect, Distribution, Material, Model, OpacityMode, ShadowRule, Shadowing, Tint,
-    Viewer, WardForm,
+    AmbientRule, Dialect, Distribution, Material, Model, NormalFormat, OpacityMode, ShadowRule,
+    Shadowing, Tint, Viewer, WardForm,
 };
 use crate::wording::Word;
 
@@ -216,9 +216,42 @@ pub(crate) static MATERIAL: Table = Table {
             Kind::Word(OpacityMode::WORDS),
             Default::Word("plain"),
             "Whether the share is the same from everywhere, or grows towards the rim, as in VMD \
-             and Raster3D: (½ + ½ cos(π (1 − opacity) N·E))².",
+             and Raster3D: (½ + ½ cos(π (1 − opacity) N·E))²; or a mask: all or nothing.",
         )
         .of(field!(Material.opacity_mode)),
+        Key::new(
+            "cutoff",
+            Kind::Number(Material::OPACITY),
+            Default::Number(0.5),
+            "With `opacity_mode = \"mask\"`: from this opacity on the surface is there.",
+        )
+        .of(field!(Material.cutoff)),
+        Key::new(
+            "normal",
+            Kind::Map,
+            Default::Said("none"),
+            "A map of normals about u, v and the surface's own normal, whose red, green and blue \
+             stand for −1 to 1; `scale` is of the first two. On meshes tangents are those of \
+             MikkTSpace.",
+        )
+        .of(field!(Material.normal))
+        .varies(),
+        Key::new(
+            "normal_format",
+            Kind::Word(NormalFormat::WORDS),
+            Default::Word("opengl"),
+            "Whether the map's green grows up the image, or down it.",
+        )
+        .of(field!(Material.normal_format)),
+        Key::new(
+            "bump",
+            Kind::Map,
+            Default::Said("none"),
+            "Heights in the object's own units, times `scale`: normals are turned as if the surface \
+             were raised.",
+        )
+        .of(field!(Material.bump))
+        .varies(),
         Key::new(
             "surfaces",
             Kind::Integer(1, 1_000_000),

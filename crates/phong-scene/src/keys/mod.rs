@@ -98,7 +98,8 @@ impl Key {
     /// What may stand as its value, for the reference.
     pub(crate) fn words(&self) -> String {
         let words = self.kind.words();
-        if self.varies { format!("{words}; or `{{ texture = .. }}`") } else { words }
+        let is_more = self.varies && !matches!(self.kind, Kind::Map);
+        if is_more { format!("{words}; or `{{ texture = .. }}`") } else { words }
     }
 
     /// Whether it applies where the selecting key says `word` (`None`: that is not known).

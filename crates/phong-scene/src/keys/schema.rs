@@ -96,7 +96,7 @@ fn conditions(table: &Table, select: &str) -> Value {
 /// What may stand as a key's value, with its meaning and default.
 fn value(key: &Key) -> Value {
     let mut schema = kind(key.kind);
-    if key.varies {
+    if key.varies && !matches!(key.kind, Kind::Map) {
         schema = json!({ "anyOf": [schema, object(&TEXTURED)] });
     }
     if let Value::Object(schema) = &mut schema {
@@ -155,6 +155,7 @@ fn kind(kind: Kind) -> Value {
                 "maxItems": 2,
             },
         }] }),
+        Kind::Map => Value::Object(object(&TEXTURED)),
         Kind::Table(table) => Value::Object(object(table)),
         Kind::Tables(table) => json!({ "type": "array", "items": object(table) }),
         Kind::Named(table) => json!({ "type": "object", "additionalProperties": object(table) }),

@@ -72,6 +72,7 @@ stored! {
     [Rgb; 2]: Colors, |colors| *colors, |colors| colors;
     Vec<(f32, Rgb)>: Stops, Clone::clone, |stops| stops;
     String: Text, Clone::clone, |text| text;
+    TextureRef: Textured, |by| *by, |by| by;
 }
 
 impl<W: Word> Stored for W {

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use super::{Texels, jpeg, png};
+#[cfg(feature = "exr")]
+use super::openexr;
+use super::{Texels, jpeg, png, radiance};
 use crate::limits::Limits;
 use crate::source::{Source, trouble};
 
@@ -33,6 +35,11 @@ pub(crate) fn decode(bytes: &[u8], limits: &Limits) -> Result<Texels, String> {
         [] => Err("it is empty".to_owned()),
         [0x89, b'P', b'N', b'G', ..] => png::decode(bytes, limits),
         [0xff, 0xd8, ..] => jpeg::decode(bytes, limits),
+        [b'#', b'?', ..] => radiance::decode(bytes, limits),
+        #[cfg(feature = "exr")]
+        [0x76, 0x2f, 0x31, 0x01, ..] => openexr::decode(bytes, limits),
+        #[cfg(not(feature = "exr"))]
+        [0x76, 0x2f, 0x31, 0x01, ..] => Err("it is an EXR, which is not read here".to_owned()),
         _ => Err("it is no PNG, JPEG, HDR or EXR".to_owned()),
     }
 }

@@ -6,7 +6,10 @@
 mod file;
 mod halve;
 mod jpeg;
+#[cfg(feature = "exr")]
+mod openexr;
 mod png;
+mod radiance;
 
 pub(crate) use file::load;
 

@@ -5,9 +5,9 @@ use phong_scene::{
     AmbientOcclusion, AmbientRule, Background, Camera, CameraKind, Cap, Caps, Channel, Clip,
     ClipKind, ConstantMaterial as Material, Cylinders, Dialect, Distribution, FilterKind, Fog,
     FogDistance, FogKind, Fresnel, GradientBy, Group, GroupId, Image, Keep, Light, LightKind,
-    MaterialId, Mesh, Model, NO_INDEX, Object, OcclusionDistance, OpacityMode, Place, Points, Rgb,
-    Scene, ShadowRule, Shadowing, Shape, Texture, TextureId, TextureKind, TextureRef, TextureSpace,
-    Tint, Viewer, WardForm,
+    MaterialId, Mesh, Model, NO_INDEX, NormalFormat, Object, OcclusionDistance, OpacityMode, Place,
+    Points, Rgb, Scene, ShadowRule, Shadowing, Shape, Texture, TextureId, TextureKind, TextureRef,
+    TextureSpace, Tint, Viewer, WardForm,
 };
 use proptest::prelude::*;
 
@@ -288,7 +288,7 @@ impl Make {
         textures: usize,
     ) -> phong_scene::Material {
         let mut material = material;
-        for what in 0..6 {
+        for what in 0..8 {
             if textures == 0 || self.flag() {
                 continue;
             }
@@ -304,6 +304,8 @@ impl Make {
                 2 => material.reflection = by.into(),
                 3 => material.emission_color = Some(by.into()),
                 4 => material.k_e = by.into(),
+                5 => material.normal = Some(by),
+                6 => material.bump = Some(by),
                 _ => material.ambient_color = Some(by.into()),
             }
         }
@@ -346,7 +348,11 @@ impl Make {
             reflection: if self.flag() { Rgb::BLACK } else { self.color() },
             transmission,
             opacity: self.one(&[1.0, 1.0, 0.25]),
-            opacity_mode: self.one(&[OpacityMode::Plain, OpacityMode::Angle]),
+            opacity_mode: self.one(&[OpacityMode::Plain, OpacityMode::Angle, OpacityMode::Mask]),
+            cutoff: self.one(&[0.5, 0.25]),
+            normal: None,
+            normal_format: self.one(&[NormalFormat::OpenGl, NormalFormat::DirectX]),
+            bump: None,
             surfaces: self.one(&[None, Some(1), Some(12)]),
             shadow: self.one(&[None, Some(ShadowRule::Full), Some(ShadowRule::Filtered)]),
             ior: self.one(&[1.5, 1.0, 0.666_666_7]),

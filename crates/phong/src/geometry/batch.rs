@@ -187,7 +187,7 @@ impl Batch {
 
 /// The values at a triangle's corners; `None` where there are none.
 #[inline]
-fn at_corners<T: Copy>(
+pub(super) fn at_corners<T: Copy>(
     values: &[T],
     indices: &[[u32; 3]],
     local: u32,

@@ -13,6 +13,7 @@ mod flatten;
 mod scale;
 mod smooth;
 mod solid;
+mod tangents;
 mod trees;
 
 use glam::{DAffine3, DVec3};
@@ -22,6 +23,8 @@ use thiserror::Error;
 
 pub(crate) use batch::Batch;
 use scale::Scale;
+use tangents::KnownTangents;
+pub(crate) use tangents::Tangents;
 use trees::Trees;
 
 /// What rays meet: immutable, and shared freely between threads and pictures.
@@ -61,6 +64,8 @@ pub struct Geometry {
     trees: Trees,
     /// The arrays of meshes and clouds, which are sound.
     sound: SoundArrays,
+    /// The tangents of meshes that were asked for.
+    tangents: KnownTangents,
     /// How it was built, and is built again.
     options: GeometryOptions,
 }
@@ -219,6 +224,7 @@ impl Geometry {
             closed,
             trees,
             sound,
+            tangents: KnownTangents::default(),
             options,
         })
     }

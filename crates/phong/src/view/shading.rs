@@ -67,7 +67,7 @@ impl View {
 
     /// The shading normal, where the geometry brings one.
     #[inline]
-    fn own_normal(&self, hit: &Hit) -> Option<Dir3> {
+    pub(super) fn own_normal(&self, hit: &Hit) -> Option<Dir3> {
         let corners = self.geometry.corners(hit.part, hit.prim)?;
         self.geometry.batch(hit.part).normal(hit.prim, corners, hit)
     }

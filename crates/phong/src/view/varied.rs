@@ -5,6 +5,7 @@ use phong_bvh::{Hit, Hits8, Ray, Rays8, Surface, Surfaces8, lanes};
 use phong_scene::{ConstantMaterial, Param, Rgb, TextureRef, TextureUse};
 
 use super::View;
+use super::relief::Turned;
 use super::shading::Shading8;
 use crate::interaction::SurfaceInteraction;
 use crate::material::Material;
@@ -35,7 +36,10 @@ pub(crate) struct MadeMaterial {
 impl Varied {
     pub(super) fn of(material: &phong_scene::Material) -> Self {
         let color = material.color.texture();
-        match (material.textured().len(), color) {
+        // Normals are no parameters: they are turned by themselves.
+        let textured = material.textured().into_iter();
+        let count = textured.filter(|(key, _)| !matches!(*key, "normal" | "bump")).count();
+        match (count, color) {
             (0, _) => Self::Nothing,
             (1, Some(color)) => Self::Color(color),
             _ => Self::More(color),
@@ -67,7 +71,8 @@ impl View {
         for lane in lanes(hits.met) {
             let number = shading.material[lane];
             let varied = self.varied(number);
-            if varied == Varied::Nothing {
+            let relief = self.relief(number);
+            if varied == Varied::Nothing && relief.is_none() {
                 continue;
             }
             let (ray, hit) = (rays.get(lane), hits.get(lane));
@@ -75,6 +80,13 @@ impl View {
             let ng = Vec3::from(get(&surfaces.ng, lane));
             let width = widths.map_or(0.0, |widths| widths[lane]);
             let point = self.texture_point(&ray, &hit, p, ng, width);
+            if let Some(relief) = relief {
+                let n = Vec3::from(get(&shading.n, lane));
+                let front = Vec3::from(get(&shading.front, lane));
+                let at = Turned { ray: &ray, hit: &hit, point: &point, n, front, ng };
+                let n = self.turned_normal(relief, &at);
+                set(&mut shading.n, lane, n.to_array());
+            }
             if let Some(by) = varied.color()
                 && !self.has_own_color(&hit)
             {
@@ -136,7 +148,7 @@ impl View {
     }
 
     /// `width` is that of the ray there.
-    fn texture_point(
+    pub(super) fn texture_point(
         &self,
         ray: &Ray,
         hit: &Hit,
@@ -165,7 +177,7 @@ impl View {
     }
 
     /// How texture coordinates change along two vectors that are tangent to the surface at a hit.
-    fn uv_changes(&self, ray: &Ray, hit: &Hit, along: [DVec3; 2]) -> [DVec2; 2] {
+    pub(super) fn uv_changes(&self, ray: &Ray, hit: &Hit, along: [DVec3; 2]) -> [DVec2; 2] {
         if self.cap(hit).is_none() {
             return self.geometry.uv_changes(ray, hit, along);
         }
@@ -178,7 +190,7 @@ impl View {
     }
 
     /// A texture's value; black where the look has no such texture.
-    fn look_up(&self, asked: TextureUse, point: &TexturePoint) -> Rgb {
+    pub(super) fn look_up(&self, asked: TextureUse, point: &TexturePoint) -> Rgb {
         let texture = self.textures.get(asked.texture.0 as usize);
         texture.map_or(Rgb::BLACK, |texture| texture.value(point, asked))
     }

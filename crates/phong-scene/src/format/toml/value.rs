@@ -107,6 +107,7 @@ impl ValueReader<'_> {
             Kind::Names if !value.get_ref().is_array() => self.mismatch(value),
             Kind::Files | Kind::Names => self.files(value).map(Value::Texts),
             Kind::Numbers => self.some_numbers(value).map(Value::Numbers),
+            Kind::Map => self.mismatch(value),
             Kind::Table(_)
             | Kind::Tables(_)
             | Kind::Named(_)

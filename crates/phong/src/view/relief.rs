@@ -1,0 +1,144 @@
+//! Shading normals that textures turn: by a map of normals, or by one of heights.
+
+use glam::{DVec3, Vec3};
+use phong_bvh::{Hit, Ray};
+use phong_scene::{NormalFormat, TextureRef, TextureUse};
+
+use super::View;
+use crate::texture::{Footprint, TexturePoint};
+
+/// What turns the normals of a material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Relief {
+    normal: Option<(TextureRef, NormalFormat)>,
+    bump: Option<TextureRef>,
+}
+
+/// How far above the surface a normal looks at least: the cosine to the geometric one.
+const LEAST_COSINE: f64 = 0.01;
+
+/// How far apart heights are asked for where a look-up stands for a point, in the object's own units.
+const STEP: f64 = 1.0 / 1024.0;
+
+impl Relief {
+    /// That of a material; `None`: nothing turns its normals.
+    pub(super) fn of(material: &phong_scene::Material) -> Option<Self> {
+        let normal = material.normal.map(|by| (by, material.normal_format));
+        let bump = material.bump;
+        (normal.is_some() || bump.is_some()).then_some(Self { normal, bump })
+    }
+}
+
+/// A surface whose normal is to be turned.
+pub(super) struct Turned<'a> {
+    pub(super) ray: &'a Ray,
+    pub(super) hit: &'a Hit,
+    pub(super) point: &'a TexturePoint,
+    /// The shading normal, on the side of `front`.
+    pub(super) n: Vec3,
+    /// The geometric normal on the side that is seen.
+    pub(super) front: Vec3,
+    /// The geometric normal as the surface has it.
+    pub(super) ng: Vec3,
+}
+
+impl View {
+    /// What turns the normals of a material.
+    #[inline]
+    pub(super) fn relief(&self, material: u32) -> Option<Relief> {
+        self.reliefs.get(material as usize).copied().flatten()
+    }
+
+    /// The shading normal where textures turn it, still on the side that is seen.
+    pub(super) fn turned_normal(&self, relief: Relief, at: &Turned<'_>) -> Vec3 {
+        let facing = at.n.as_dvec3();
+        // The texture lies about the normal as the surface has it, whichever side is seen.
+        let outer = self.outer_normal(at);
+        let own = if outer.dot(facing) < 0.0 { -facing } else { facing };
+        let side = if own.dot(facing) < 0.0 { -1.0 } else { 1.0 };
+        let Some([t, b]) = self.tangents_at(at, own) else { return at.n };
+        let mut n = own;
+        if let Some((by, format)) = relief.normal {
+            let value = self.look_up(number(by), at.point);
+            let [x, y, z] = value.to_array().map(|v| 2.0 * f64::from(v) - 1.0);
+            let strength = f64::from(by.scale);
+            let y = if format == NormalFormat::DirectX { -y } else { y };
+            n = (strength * x * t + strength * y * b + z * own).normalize_or(own);
+        }
+        if let Some(by) = relief.bump {
+            n = self.bumped(by, at, [t, b], n);
+        }
+        let front = at.front.as_dvec3();
+        let n = side * n;
+        let up = n.dot(front);
+        let n = if up < LEAST_COSINE { n + (LEAST_COSINE - up) * front } else { n };
+        n.normalize_or(facing).as_vec3()
+    }
+
+    /// The normal of what the heights of a texture raise.
+    fn bumped(&self, by: TextureRef, at: &Turned<'_>, across: [DVec3; 2], n: DVec3) -> DVec3 {
+        let height = |point: &TexturePoint| {
+            let value = self.look_up(number(by), point);
+            f64::from(phong_scene::Param::<f32>::from(by).at(|_| value))
+        };
+        let here = height(at.point);
+        let own = |v: DVec3| self.geometry.own_vector(at.hit, v).length();
+        // As far as the look-up stands for, or a little way.
+        let width = at.point.footprint.world[0].length();
+        let mut slope = DVec3::ZERO;
+        for direction in across {
+            let scale = own(direction);
+            if scale.is_nan() || scale <= 0.0 {
+                continue;
+            }
+            let step = if width > 0.0 { width } else { STEP / scale };
+            let beside = self.beside(at, step * direction);
+            slope += (height(&beside) - here) / (step * scale) * direction;
+        }
+        (n - slope).normalize_or(n)
+    }
+
+    /// Where textures are that far along the surface.
+    fn beside(&self, at: &Turned<'_>, by: DVec3) -> TexturePoint {
+        let TexturePoint { object, world, uv, tangent, footprint } = *at.point;
+        let [du, _] = self.uv_changes(at.ray, at.hit, [by, by]);
+        TexturePoint {
+            object: object + self.geometry.own_vector(at.hit, by),
+            world: world + by,
+            uv: [uv[0] + du.x as f32, uv[1] + du.y as f32],
+            tangent,
+            footprint: Footprint { ..footprint },
+        }
+    }
+
+    /// The directions in which u and v grow, unit and at right angles to `n`; `None`: there are none.
+    fn tangents_at(&self, at: &Turned<'_>, n: DVec3) -> Option<[DVec3; 2]> {
+        let tangents = self.tangents.get(at.hit.part as usize).and_then(Option::as_ref);
+        let of_mesh = tangents.filter(|_| self.cap(at.hit).is_none());
+        let (t, hand) = match of_mesh.and_then(|all| self.geometry.tangent(at.hit, all)) {
+            Some((t, hand)) => (t, Some(hand)),
+            None => (Vec3::from(at.point.tangent).as_dvec3(), None),
+        };
+        let t = (t - t.dot(n) * n).try_normalize()?;
+        let b = n.cross(t);
+        // Where the surface itself says no hand, v is asked which way it grows.
+        let hand = hand.unwrap_or_else(|| {
+            let [_, change] = self.uv_changes(at.ray, at.hit, [t, b]);
+            if change.y < 0.0 { -1.0 } else { 1.0 }
+        });
+        Some([t, hand * b])
+    }
+
+    /// The normal on the surface's own outer side: of a mesh that of its normals.
+    fn outer_normal(&self, at: &Turned<'_>) -> DVec3 {
+        if self.cap(at.hit).is_some() {
+            return at.front.as_dvec3();
+        }
+        self.own_normal(at.hit).map_or(at.ng, |n| n.to_vec()).as_dvec3()
+    }
+}
+
+/// What a map of normals or heights is asked for: numbers as they are.
+fn number(by: TextureRef) -> TextureUse {
+    TextureUse { texture: by.texture, channel: by.channel, is_color: false }
+}
