@@ -119,7 +119,17 @@ class Material(Keys):
     ``opacity``: Share of the surface that is there; the rest shows what is behind, in a
         straight line. Default: 1.0.
     ``opacity_mode``: Whether the share is the same from everywhere, or grows towards the rim,
-        as in VMD and Raster3D: (½ + ½ cos(π (1 − opacity) N·E))². Default: "plain".
+        as in VMD and Raster3D: (½ + ½ cos(π (1 − opacity) N·E))²; or a mask: all or nothing.
+        Default: "plain".
+    ``cutoff``: With `opacity_mode = "mask"`: from this opacity on the surface is there.
+        Default: 0.5.
+    ``normal``: A map of normals about u, v and the surface's own normal, whose red, green and
+        blue stand for −1 to 1; `scale` is of the first two. On meshes tangents are those of
+        MikkTSpace.
+    ``normal_format``: Whether the map's green grows up the image, or down it. Default:
+        "opengl".
+    ``bump``: Heights in the object's own units, times `scale`: normals are turned as if the
+        surface were raised.
     ``surfaces``: A ray shows the material only until it has passed so many see-through
         surfaces; 1: the first surface alone.
     ``shadow``: What a light loses behind it: all, or what is not let through in a straight
@@ -170,7 +180,11 @@ class Material(Keys):
         reflection: _Color | Texture | dict[str, Any] | None = None,
         transmission: _Color | Texture | dict[str, Any] | None = None,
         opacity: float | Texture | dict[str, Any] | None = None,
-        opacity_mode: Literal["plain", "angle"] | None = None,
+        opacity_mode: Literal["plain", "angle", "mask"] | None = None,
+        cutoff: float | None = None,
+        normal: Texture | dict[str, Any] | None = None,
+        normal_format: Literal["opengl", "directx"] | None = None,
+        bump: Texture | dict[str, Any] | None = None,
         surfaces: int | None = None,
         shadow: Literal["full", "filtered"] | None = None,
         ior: float | None = None,
@@ -198,16 +212,17 @@ class Texture(Keys):
     ``to``: Where t is 1. Default: 1.0.
     ``stops``: Its colours; between two stops they run linearly, beyond the last they stay. A
         colour map has 33 of them.
-    ``file``: The image: PNG, JPEG, Radiance HDR or OpenEXR. Its left edge lies at 0 of the first
-        coordinate and its right edge at 1, its lower edge at 0 of the second and its upper edge at
-        1.
+    ``file``: The image: PNG, JPEG, Radiance HDR or OpenEXR. Its left edge lies at 0 of the
+        first coordinate and its right edge at 1, its lower edge at 0 of the second and its
+        upper edge at 1.
     ``wrap``: What is beside it: the image again, the image mirrored, its edge, or `border`.
         Default: "repeat".
     ``border``: The colour beside it with `wrap = "border"`; its opacity is 0. Default: 0.0.
-    ``filter``: `nearest`: the pixel there; `linear`: between pixels; `auto`: that, and the mean of
-        all that a sample of the picture covers. Default: "auto".
-    ``encoding``: What its numbers mean; `auto`: colours of bytes and 16-bit numbers are sRGB, all
-        else is linear. Default: "auto".
+    ``tint``: What its colours are multiplied by. Default: 1.0.
+    ``filter``: `nearest`: the pixel there; `linear`: between pixels; `auto`: that, and the mean
+        of all that a sample of the picture covers. Default: "auto".
+    ``encoding``: What its numbers mean; `auto`: colours of bytes and 16-bit numbers are sRGB,
+        all else is linear. Default: "auto".
     ``space``: The space it lies in. / The space it lies in; `object` and `world`: along z.
     ``rotate``: Turns it: right-handed about an axis; or a list of them, in order.
     ``translate``: Then: shifts it. Default: [0.0, 0.0, 0.0].
@@ -230,6 +245,7 @@ class Texture(Keys):
         file: str | None = None,
         wrap: Literal["repeat", "mirror", "clamp", "border"] | None = None,
         border: _Color | None = None,
+        tint: _Color | None = None,
         filter: Literal["auto", "nearest", "linear"] | None = None,
         encoding: Literal["auto", "srgb", "linear"] | None = None,
         space: Literal["object", "world", "uv"] | None = None,

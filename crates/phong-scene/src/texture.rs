@@ -38,6 +38,7 @@
 //! | `file` (image) | the path of a file, in quotes | required | The image: PNG, JPEG, Radiance HDR or OpenEXR. Its left edge lies at 0 of the first coordinate and its right edge at 1, its lower edge at 0 of the second and its upper edge at 1. |
 //! | `wrap` (image) | `repeat`, `mirror`, `clamp` or `border` | `"repeat"` | What is beside it: the image again, the image mirrored, its edge, or `border`. |
 //! | `border` (image) | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name | `0` | The colour beside it with `wrap = "border"`; its opacity is 0. |
+//! | `tint` (image) | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name | `1` | What its colours are multiplied by. |
 //! | `filter` (image) | `auto`, `nearest` or `linear` | `"auto"` | `nearest`: the pixel there; `linear`: between pixels; `auto`: that, and the mean of all that a sample of the picture covers. |
 //! | `encoding` (image) | `auto`, `srgb` or `linear` | `"auto"` | What its numbers mean; `auto`: colours of bytes and 16-bit numbers are sRGB, all else is linear. |
 //! | `space` (checker, gradient) | `object`, `world` or `uv` | `"object"` | The space it lies in. |
@@ -195,6 +196,8 @@ pub enum TextureKind {
         wrap: Wrap,
         /// The colour beside it, where [`Wrap::Border`] says so. Linear; its opacity is 0.
         border: Rgb,
+        /// What its colours are multiplied by. Linear.
+        tint: Rgb,
         /// What is between its pixels, and what stands for many of them.
         filter: TexelFilter,
         /// What its numbers mean.
@@ -387,6 +390,7 @@ words!(TextureKind {
         texels: Arc::new(Texels::white()),
         wrap: Wrap::Repeat,
         border: Rgb::BLACK,
+        tint: Rgb::WHITE,
         filter: TexelFilter::Auto,
         encoding: Encoding::Auto,
     },
@@ -407,10 +411,10 @@ impl Texture {
     /// The values between which all of its values lie, of this channel: for [`Channel::Alpha`] greys.
     pub fn values(&self, channel: Option<Channel>) -> Vec<Rgb> {
         match &self.kind {
-            TextureKind::Image { texels, wrap, border, encoding, .. } => {
+            TextureKind::Image { texels, wrap, border, tint, encoding, .. } => {
                 let value = |[r, g, b, alpha]: [f32; 4]| match channel {
                     Some(Channel::Alpha) => Rgb::grey(alpha),
-                    _ => Rgb::new(r, g, b),
+                    _ => *tint * Rgb::new(r, g, b),
                 };
                 let mut values = texels.bounds(*encoding == Encoding::Srgb).map(value).to_vec();
                 if *wrap == Wrap::Border {

@@ -14,8 +14,9 @@ pub(crate) fn texture(texture: &Texture, faults: &mut Faults) {
     {
         faults.say("to", "`to` is where `from` is: the gradient has no length");
     }
-    if let TextureKind::Image { border, .. } = &texture.kind {
+    if let TextureKind::Image { border, tint, .. } = &texture.kind {
         faults.color("border", *border, LARGEST);
+        faults.color("tint", *tint, LARGEST);
     }
     shape::transform(&texture.transform, faults);
 }

@@ -101,6 +101,9 @@ pub(crate) static TEXTURE: Table = Table {
         )
         .of(field!(Texture.kind = TextureKind::{Image}.border))
         .only(&["image"]),
+        Key::new("tint", Kind::Color, Default::Number(1.0), "What its colours are multiplied by.")
+            .of(field!(Texture.kind = TextureKind::{Image}.tint))
+            .only(&["image"]),
         Key::new(
             "filter",
             Kind::Word(TexelFilter::WORDS),

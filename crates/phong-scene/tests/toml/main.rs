@@ -10,6 +10,7 @@ mod differing;
 mod docs;
 mod generated;
 mod hostile;
+mod images;
 mod roundtrip;
 mod schema;
 mod told;

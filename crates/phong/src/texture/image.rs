@@ -14,6 +14,8 @@ pub(super) struct ImageTexture {
     texels: Arc<Texels>,
     wrap: Wrap,
     border: [f32; 4],
+    /// What colours are multiplied by.
+    tint: Rgb,
     filter: TexelFilter,
     encoding: Encoding,
     /// The image and its halves, of linear values and of sRGB ones, found when they are first needed.
@@ -33,14 +35,15 @@ impl ImageTexture {
     pub(super) fn new(
         texels: &Arc<Texels>,
         (wrap, border): (Wrap, Rgb),
-        filter: TexelFilter,
-        encoding: Encoding,
+        tint: Rgb,
+        (filter, encoding): (TexelFilter, Encoding),
     ) -> Self {
         let Rgb { r, g, b } = border;
         Self {
             texels: Arc::clone(texels),
             wrap,
             border: [r, g, b, 0.0],
+            tint,
             filter,
             encoding,
             levels: [OnceLock::new(), OnceLock::new()],
@@ -57,11 +60,13 @@ impl ImageTexture {
         // Rows run down from the upper edge.
         let at = DVec2::new(at.x, 1.0 - at.y);
         let at = if at.is_finite() { at } else { DVec2::ZERO };
-        match self.filter {
+        let [r, g, b, opacity] = match self.filter {
             TexelFilter::Nearest => self.nearest(at, srgb),
             TexelFilter::Linear => self.between(&self.texels, at, srgb),
             TexelFilter::Auto => self.mean(at, sides.map(|side| DVec2::new(side.x, -side.y)), srgb),
-        }
+        };
+        let tint = self.tint;
+        [tint.r * r, tint.g * g, tint.b * b, opacity]
     }
 
     /// How [`ImageTexture::value`] looks up.
@@ -203,7 +208,7 @@ mod tests {
         let channels = bytes.len() / (size[0] * size[1]) as usize;
         let values = TexelValues::Bytes(bytes.to_vec());
         let texels = Arc::new(Texels::new(size, channels, values).expect("an image"));
-        ImageTexture::new(&texels, (wrap, Rgb::BLACK), filter, Encoding::Linear)
+        ImageTexture::new(&texels, (wrap, Rgb::BLACK), Rgb::WHITE, (filter, Encoding::Linear))
     }
 
     #[test]

@@ -70,8 +70,9 @@ impl Texture {
                 TextureKind::Gradient { by, axis, from, to, stops } => {
                     Pattern::Gradient(Gradient::new((*by, *axis), *from, *to, stops))
                 }
-                TextureKind::Image { texels, wrap, border, filter, encoding, .. } => {
-                    let image = ImageTexture::new(texels, (*wrap, *border), *filter, *encoding);
+                TextureKind::Image { texels, wrap, border, tint, filter, encoding, .. } => {
+                    let beside = (*wrap, *border);
+                    let image = ImageTexture::new(texels, beside, *tint, (*filter, *encoding));
                     Pattern::Image(Box::new(image))
                 }
             },

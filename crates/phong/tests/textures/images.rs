@@ -113,3 +113,124 @@ fn two_materials_share_the_pixels_of_one_file() {
     };
     assert!(std::sync::Arc::ptr_eq(texels(0), texels(1)));
 }
+
+/// The shading normal in the middle of a sheet that is looked at along −z, of this material and placed so.
+fn normal_of(material: &str, place: &str, shape: &str) -> [f32; 3] {
+    // Red 0.71, green 0.4 and blue 0.71 of −1 to 1.
+    let lean = png([1, 1], png::ColorType::Rgb, &[218, 178, 218]);
+    let ramp: Vec<u8> = (0..64 * 64).map(|i| (i % 64 * 4) as u8).collect();
+    let ramp = png([64, 64], png::ColorType::Grayscale, &ramp);
+    let text = format!(
+        "version = 1\n[image]\nsize = [1, 1]\nsamples = 1\n\
+         [camera]\nkind = \"orthographic\"\nheight = 0.01\neye = [0.1, 0.1, 5]\n\
+         look_at = [0.1, 0.1, 0]\n[[light]]\nkind = \"distant\"\ndirection = [0, 0, -1]\n\
+         [textures.lean]\nkind = \"image\"\nfile = \"lean.png\"\n\
+         [textures.ramp]\nkind = \"image\"\nfile = \"ramp.png\"\n\
+         [textures.other]\nkind = \"image\"\nfile = \"lean.png\"\n\
+         [materials.m]\ncolor = {{ texture = \"other\" }}\nk_s = {{ texture = \"ramp\" }}\n\
+         ambient_color = {{ texture = \"lean\" }}\n{material}\n[[{shape}]]\n{place}\n\
+         material = \"m\"\n"
+    );
+    let files = Memory::new()
+        .with("lean.png", lean)
+        .with("ramp.png", ramp)
+        .with("sheet.obj", SHEET.as_bytes());
+    let scene = scene(&text, files);
+    let view = View::of(&scene).unwrap();
+    let told = explain(&view, &RenderOptions::of(&scene.image).unwrap(), [0, 0]).unwrap();
+    let Some(End::Surface(s)) = told.samples[0].ray.as_ref().map(|ray| &ray.end) else {
+        panic!("nothing is met")
+    };
+    s.n.to_array()
+}
+
+fn assert_near(got: [f32; 3], want: [f32; 3], what: &str) {
+    let length = want.iter().map(|x| x * x).sum::<f32>().sqrt();
+    let off = got.iter().zip(want).map(|(got, want)| (got - want / length).abs());
+    assert!(off.fold(0.0, f32::max) < 0.01, "{what}: {got:?}, not along {want:?}");
+}
+
+#[test]
+fn a_map_of_normals_turns_them_along_u_and_v_whatever_the_mesh_is_turned_or_mirrored_to() {
+    let map = "normal = { texture = \"lean\" }";
+    let (x, y, z) = (0.71, 0.396, 0.71);
+    let mesh = |place: &str| normal_of(map, &format!("file = \"sheet.obj\"\n{place}"), "mesh");
+    assert_near(mesh(""), [x, y, z], "as it is");
+    assert_near(mesh("rotate = [0, 0, 1, 90]"), [-y, x, z], "turned");
+    assert_near(mesh("scale = [-1, 1, 1]"), [-x, y, z], "mirrored");
+    // From behind the sheet leans the same way, and its normal is turned to the eye.
+    assert_near(mesh("rotate = [0, 1, 0, 180]"), [x, -y, z], "from behind");
+    let directx = format!("{map}\nnormal_format = \"directx\"");
+    assert_near(normal_of(&directx, "file = \"sheet.obj\"", "mesh"), [x, -y, z], "green down");
+    let half = "normal = { texture = \"lean\", scale = 0.5 }";
+    assert_near(normal_of(half, "file = \"sheet.obj\"", "mesh"), [x / 2.0, y / 2.0, z], "half");
+    let plane = "point = [0, 0, 0]\nnormal = [0, 0, 1]";
+    assert_near(normal_of(map, plane, "plane"), [x, y, z], "a plane");
+}
+
+#[test]
+fn heights_turn_normals_as_if_the_surface_were_raised() {
+    // Over a unit of u, which is 2 of the sheet, the ramp rises by 252/255.
+    let map = "bump = { texture = \"ramp\", scale = 0.5 }";
+    let slope = 0.5 * 252.0 / 255.0 / 2.0 * (64.0 / 63.0);
+    let place = "file = \"sheet.obj\"";
+    assert_near(normal_of(map, place, "mesh"), [-slope, 0.0, 1.0], "as it is");
+    let large = "file = \"sheet.obj\"\nscale = 3";
+    assert_near(normal_of(map, large, "mesh"), [-slope, 0.0, 1.0], "heights grow with the object");
+}
+
+#[test]
+fn a_mask_is_all_or_nothing() {
+    let spots = png([2, 1], png::ColorType::GrayscaleAlpha, &[255, 51, 255, 204]);
+    let text = "version = 1\n[image]\nsize = [8, 1]\nsamples = 1\nbackground = [0, 0, 1]\n\
+                [camera]\nkind = \"orthographic\"\nheight = 0.25\neye = [0, 0, 5]\n\
+                look_at = [0, 0, 0]\n[[light]]\nkind = \"distant\"\ndirection = [0, 0, -1]\n\
+                [textures.spots]\nkind = \"image\"\nfile = \"spots.png\"\n\
+                [materials.m]\ncolor = [1, 0, 0]\nk_s = 0\nopacity_mode = \"mask\"\ncutoff = 0.3\n\
+                opacity = { texture = \"spots\", channel = \"a\" }\n\
+                [[mesh]]\nfile = \"sheet.obj\"\nmaterial = \"m\"\n";
+    let files = Memory::new().with("spots.png", spots).with("sheet.obj", SHEET.as_bytes());
+    let scene = scene(text, files);
+    let view = View::of(&scene).unwrap();
+    let options = RenderOptions::of(&scene.image).unwrap();
+    let film = render(&view, &options, &|_| {}, &Cancel::new()).film;
+    let mut seen = [0, 0];
+    for x in 0..8 {
+        let [r, _, b] = film.at(LayerKind::Picture, x, 0).unwrap() else { panic!("a colour") };
+        assert!((*r > 0.5) != (*b > 0.5), "pixel {x}: {r} {b}");
+        seen[usize::from(*r > 0.5)] += 1;
+    }
+    assert!(seen.iter().all(|count| *count > 1), "{seen:?}");
+}
+
+#[test]
+fn an_obj_file_brings_its_images_along() {
+    let mtl = "newmtl wood\nKd 1 0.5 0.25\nmap_Kd -s 0.5 0.5 ..\\far\\squares.png\nmap_d squares.png\n\
+               norm missing.png\n";
+    let obj = format!("mtllib a.mtl\nusemtl wood\n{SHEET}");
+    let text = "version = 1\n[image]\nsize = [16, 16]\nsamples = 1\nbackground = 0\n[camera]\neye = [0, 0, 6]\n\
+                look_at = [0, 0, 0]\nfov = 20\n[[light]]\nkind = \"distant\"\n\
+                direction = [0, 0, -1]\n[[mesh]]\nfile = \"m/a.obj\"\n";
+    let files = Memory::new()
+        .with("m/a.obj", obj.into_bytes())
+        .with("m/a.mtl", mtl.as_bytes())
+        .with("m/squares.png", squares(8));
+    let reading = reading(text, files);
+    let told: Vec<_> = reading.diagnostics.iter().map(|told| told.message.as_str()).collect();
+    assert_eq!(told, ["the image `missing.png` cannot be read: there is no such file"]);
+    let scene = reading.scene.unwrap();
+    assert_eq!(scene.textures.len(), 2);
+    let view = View::of(&scene).unwrap();
+    let options = RenderOptions::of(&scene.image).unwrap();
+    let film = render(&view, &options, &|_| {}, &Cancel::new()).film;
+    let picture = &film.layer(LayerKind::Picture).unwrap().values;
+    let (mut some, mut none) = (0, 0);
+    for pixel in picture.chunks_exact(3) {
+        if pixel[0] > 0.3 {
+            some += 1;
+            assert!(pixel[1] < 0.7 * pixel[0] && pixel[2] < 0.5 * pixel[0], "{pixel:?}");
+        }
+        none += u32::from(pixel[0] < 0.05);
+    }
+    assert!(some > 20 && none > 3, "{some} {none}");
+}

@@ -1,5 +1,7 @@
 //! A material as its statements say it, and what it becomes.
 
+use super::maps::Maps;
+use super::texture::Map;
 use crate::color::Rgb;
 use crate::diagnostic::Span;
 use crate::format::text::Findings;
@@ -21,8 +23,8 @@ pub(super) struct Draft {
     pub(super) dissolve: Option<f32>,
     pub(super) transparency: Option<f32>,
     pub(super) illum: Option<(u8, Span)>,
-    /// Whether an image says what the diffuse colour is.
-    pub(super) diffuse_map: bool,
+    /// The images that it names, and where.
+    pub(super) maps: Vec<(Map, Span)>,
     /// What was found in its statements.
     pub(super) findings: Findings,
 }
@@ -41,7 +43,7 @@ impl Draft {
             dissolve: None,
             transparency: None,
             illum: None,
-            diffuse_map: false,
+            maps: Vec::new(),
             findings: Findings::default(),
         }
     }
@@ -59,15 +61,20 @@ impl Draft {
     }
 
     /// The material, as the module's tables say.
-    pub(super) fn finish(&self, findings: &mut Findings) -> ConstantMaterial {
+    pub(super) fn finish(&self, maps: &Maps, findings: &mut Findings) -> Material {
         self.warn_of_bright_colors(findings);
-        let k_s = self.specular.unwrap_or(Rgb::BLACK);
+        let k_s = match self.specular {
+            Some(color) if !color.is_black() => color,
+            _ if maps.specular.is_some() => Rgb::WHITE,
+            _ => Rgb::BLACK,
+        };
         let highlight = !k_s.is_black() && !self.has_no_highlight(findings);
         let illum = self.illum.as_ref().map_or(if highlight { 2 } else { 1 }, |(n, _)| *n);
         let most = LARGEST as f32;
         let exponent = self.in_range("Ns", self.exponent.unwrap_or(32.0), 0.0, most, findings);
         let ior = self.index_of_refraction(findings);
-        let opacity = self.opacity(findings);
+        // An image mixes the surface with what is behind it by itself.
+        let opacity = if maps.dissolve.is_some() { 1.0 } else { self.opacity(findings) };
         self.warn_of_model(illum, highlight, findings);
 
         let filter = self.filter.unwrap_or(Rgb::WHITE);
@@ -79,13 +86,13 @@ impl Draft {
             (1.0 - opacity) * filter
         };
         let diffuse = match self.diffuse {
-            // The image would say it; black would hide that there is one.
-            Some(color) if color.is_black() && self.diffuse_map => None,
+            // The image would say it; black or white would hide that there is one.
+            Some(color) if (color.is_black() || color == Rgb::WHITE) && maps.lost => None,
             color => color,
         };
         // White is what programs write that have no ambient colour to give.
         let ambient = self.ambient.filter(|&color| color != Rgb::WHITE);
-        ConstantMaterial {
+        let constant = ConstantMaterial {
             name: self.name.clone(),
             model: if highlight { Model::BlinnPhong } else { Model::Lambert },
             color: diffuse.unwrap_or(Rgb::grey(0.8)),
@@ -102,7 +109,25 @@ impl Draft {
             dialect: Dialect::Mtl,
             place: self.span.place.clone(),
             ..ConstantMaterial::default()
+        };
+        let mut material = Material::from(constant);
+        if let Some(by) = maps.diffuse {
+            material.color = by.into();
         }
+        if let (Some(_), Some(by)) = (ambient, maps.ambient) {
+            material.ambient_color = Some(by.into());
+        }
+        if let (true, Some(by)) = (highlight, maps.specular) {
+            material.specular_color = Some(by.into());
+        }
+        if let Some(by) = maps.exponent {
+            material.shininess = by.into();
+        }
+        if let Some(by) = maps.dissolve {
+            material.opacity = by.into();
+        }
+        (material.normal, material.bump) = (maps.normal, maps.bump);
+        material
     }
 
     /// `d`, or 1 − `Tr`; 1 where neither is said.

@@ -31,19 +31,34 @@
 //! **`d` below 1** mixes the surface with what is behind it: all local terms are weighted by d,
 //! and, unless `illum` 6 or 7 refract, `transmission` = (1 − d) Tf goes straight on (`ior` 1).
 //!
-//! Textures, emission, `-halo`, spectral and XYZ colours and the physically based extension are
+//! **Images** are found beside the MTL file if they are not where it says, and repeat unless `-clamp on`; `-s` and `-o`
+//! are of texture coordinates, `-mm` of values. What cannot be read is a warning, and grey.
+//!
+//! | statement | becomes |
+//! |---|---|
+//! | `map_Kd`, `map_Ks` | a texture of `color`, of `specular_color`: times `Kd`, `Ks`, unless they are black |
+//! | `map_Ka` | of `ambient_color`, if `Ka` is said and not white |
+//! | `map_Ns` | of `shininess`, times `Ns` |
+//! | `map_d` | of `opacity`, times `d`: by the image's own opacity, or else its red, unless `-imfchan` |
+//! | `norm`; `bump`, `map_Bump` | `normal`, times `-bm`; `bump`, of which 1 is a hundredth of a unit; an image of normals is one by either name |
+//!
+//! Other textures, emission, `-halo`, spectral and XYZ colours and the physically based extension are
 //! not drawn; each is a warning that names it.
 
 mod draft;
+mod maps;
 mod texture;
 mod write;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+pub(crate) use maps::{Images, locate};
 pub(crate) use write::{Difference, write as write_material};
 
 use self::draft::Draft;
+use self::maps::Maps;
+use self::texture::MapOf;
 use super::text::{Cursor, Decimal, Findings, Piece, blame, name_of, read_text, whole};
 use crate::color::{Rgb, are_bytes};
 use crate::diagnostic::Diagnostic;
@@ -105,7 +120,7 @@ impl Library {
     }
 
     /// The material of this name; `None`: the file defines none.
-    pub(crate) fn material(&mut self, name: &str) -> Option<Material> {
+    pub(crate) fn material(&mut self, name: &str, images: &mut Images<'_>) -> Option<Material> {
         let (&number, again) = self.numbers.get(name)?.split_first()?;
         if self.bytes {
             self.findings.warning(
@@ -130,7 +145,9 @@ impl Library {
         }
         let draft = &mut self.drafts[number];
         self.findings.append(std::mem::take(&mut draft.findings));
-        Some(draft.finish(&mut self.findings).into())
+        let draft = &self.drafts[number];
+        let maps = Maps::read(draft, &self.file, images, &mut self.findings);
+        Some(draft.finish(&maps, &mut self.findings))
     }
 
     /// Everything there is to say about what was asked for.
@@ -196,14 +213,16 @@ impl Reader<'_> {
                     });
                 }
             }
-            _ => match texture::file_name(keyword, cursor.rest_of_line()) {
-                Some(name) => {
-                    if let (b"map_Kd", Some(draft)) = (keyword, self.drafts.last_mut()) {
-                        draft.diffuse_map = true;
+            _ => match texture::statement(keyword, cursor.rest_of_line()) {
+                Some(map) if map.of == MapOf::Other => self.warn(&here, "textures", |word| {
+                    format!("`{word}` of `{}` is not drawn", map.name)
+                }),
+                Some(map) => {
+                    let span = here.here(self.file);
+                    if let Some(draft) = self.drafts.last_mut() {
+                        draft.maps.retain(|(other, _)| other.of != map.of);
+                        draft.maps.push((map, span));
                     }
-                    self.warn(&here, "textures", |word| {
-                        format!("textures are not drawn yet: `{word}` of `{name}` is left out")
-                    });
                 }
                 None => self.warn(&here, "statements that are not known", |word| {
                     format!("the statement `{word}` is not known")

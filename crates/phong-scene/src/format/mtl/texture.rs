@@ -1,20 +1,77 @@
-//! Texture statements: which file is meant, among options before and behind its name.
+//! Texture statements: what they are for, which file is meant, and the options before and behind its name.
 
 use crate::format::text::name_of;
+use crate::texture::Channel;
 
-/// The file a texture statement names; `None` if `keyword` is no texture statement.
-pub(super) fn file_name(keyword: &[u8], rest: &[u8]) -> Option<String> {
+/// What a texture statement says.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Map {
+    pub(super) of: MapOf,
+    /// The file; empty: none is named.
+    pub(super) name: String,
+    /// `-o`, and `-s`: what is added to texture coordinates after they are multiplied.
+    pub(super) offset: [f64; 3],
+    pub(super) scale: [f64; 3],
+    /// `-clamp on`.
+    pub(super) clamp: bool,
+    /// `-t`: asked for, and not drawn.
+    pub(super) turbulent: bool,
+    /// `-bm`: how much bumps count.
+    pub(super) bump: f64,
+    /// `-mm`: what is added to values after they are multiplied.
+    pub(super) base: f64,
+    pub(super) gain: f64,
+    /// `-imfchan`.
+    pub(super) channel: Option<Channel>,
+}
+
+/// What an image says of a material.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum MapOf {
+    Ambient,
+    Diffuse,
+    Specular,
+    Exponent,
+    Dissolve,
+    Bump,
+    Normal,
+    /// Something that is not drawn.
+    Other,
+}
+
+/// What a texture statement says; `None` if `keyword` is none.
+pub(super) fn statement(keyword: &[u8], rest: &[u8]) -> Option<Map> {
     let keyword = keyword.to_ascii_lowercase();
-    let known: [&[u8]; 7] = [b"bump", b"disp", b"decal", b"refl", b"norm", b"map_bump", b"bmp"];
-    if !keyword.starts_with(b"map_") && !known.contains(&keyword.as_slice()) {
-        return None;
-    }
+    let of = match &*keyword {
+        b"map_ka" => MapOf::Ambient,
+        b"map_kd" => MapOf::Diffuse,
+        b"map_ks" => MapOf::Specular,
+        b"map_ns" => MapOf::Exponent,
+        b"map_d" => MapOf::Dissolve,
+        b"bump" | b"map_bump" | b"bmp" => MapOf::Bump,
+        b"norm" | b"map_kn" => MapOf::Normal,
+        b"disp" | b"decal" | b"refl" => MapOf::Other,
+        other if other.starts_with(b"map_") => MapOf::Other,
+        _ => return None,
+    };
+    let mut map = Map {
+        of,
+        name: String::new(),
+        offset: [0.0; 3],
+        scale: [1.0; 3],
+        clamp: false,
+        turbulent: false,
+        bump: 1.0,
+        base: 0.0,
+        gain: 1.0,
+        channel: None,
+    };
     let text = name_of(rest);
     // Names may hold blanks: all from the first word that is no option to the last of them.
     let (mut start, mut end) = (None, 0);
     let mut words = words(&text).peekable();
-    while let Some((at, word)) = words.next() {
-        let (numbers, others) = match word {
+    while let Some((at, option)) = words.next() {
+        let (numbers, others) = match option {
             "-o" | "-s" | "-t" => (3, 0),
             "-mm" => (2, 0),
             "-bm" | "-boost" | "-texres" => (1, 0),
@@ -23,24 +80,58 @@ pub(super) fn file_name(keyword: &[u8], rest: &[u8]) -> Option<String> {
             }
             _ => {
                 start = start.or(Some(at));
-                end = at + word.len();
+                end = at + option.len();
                 continue;
             }
         };
+        let mut said = Vec::new();
         for _ in 0..numbers {
-            if words.next_if(|(_, word)| word.parse::<f64>().is_ok()).is_none() {
+            let number = |word: &str| word.parse::<f64>().ok().filter(|n| n.is_finite());
+            let Some((_, word)) = words.next_if(|(_, word)| word.parse::<f64>().is_ok()) else {
                 break;
-            }
+            };
+            said.extend(number(word));
         }
+        let mut word = "";
         for _ in 0..others {
-            words.next();
+            word = words.next().map_or("", |(_, word)| word);
         }
+        map.option(option, &said, word);
         if start.is_some() {
             // Options behind the name end it.
             break;
         }
     }
-    Some(start.map_or(String::new(), |start| text[start..end].to_owned()))
+    map.name = start.map_or(String::new(), |start| text[start..end].to_owned());
+    Some(map)
+}
+
+impl Map {
+    fn option(&mut self, option: &str, numbers: &[f64], word: &str) {
+        let into = |to: &mut [f64]| to.iter_mut().zip(numbers).for_each(|(to, from)| *to = *from);
+        match option {
+            "-o" => into(&mut self.offset),
+            "-s" => into(&mut self.scale),
+            "-t" => self.turbulent = numbers.iter().any(|number| *number != 0.0),
+            "-mm" => {
+                let mut both = [self.base, self.gain];
+                into(&mut both);
+                [self.base, self.gain] = both;
+            }
+            "-bm" => self.bump = numbers.first().copied().unwrap_or(1.0),
+            "-clamp" => self.clamp = word.eq_ignore_ascii_case("on"),
+            "-imfchan" => {
+                self.channel = match word {
+                    "r" => Some(Channel::Red),
+                    "g" => Some(Channel::Green),
+                    "b" => Some(Channel::Blue),
+                    "m" => Some(Channel::Alpha),
+                    _ => None,
+                }
+            }
+            _ => {}
+        }
+    }
 }
 
 /// The words of a text and where they begin.
@@ -52,9 +143,9 @@ fn words(text: &str) -> impl Iterator<Item = (usize, &str)> {
 mod tests {
     use super::*;
 
-    fn name(statement: &str) -> Option<String> {
+    fn map(statement: &str) -> Option<Map> {
         let (keyword, rest) = statement.split_once(' ').unwrap();
-        file_name(keyword.as_bytes(), rest.as_bytes())
+        self::statement(keyword.as_bytes(), rest.as_bytes())
     }
 
     #[test]
@@ -66,9 +157,19 @@ mod tests {
             "bump wood grain.png -bm 0.5",
             "refl -type sphere -blendu off wood grain.png -texres 512",
         ] {
-            assert_eq!(name(statement).as_deref(), Some("wood grain.png"), "{statement}");
+            assert_eq!(map(statement).unwrap().name, "wood grain.png", "{statement}");
         }
-        assert_eq!(name("map_Kd -o 1 2").as_deref(), Some(""));
-        assert_eq!(name("Kq 1 2"), None);
+        assert_eq!(map("map_Kd -o 1 2").unwrap().name, "");
+        assert_eq!(map("Kq 1 2"), None);
+    }
+
+    #[test]
+    fn options_are_of_the_place_the_value_and_the_edge() {
+        let read = map("map_Kd -o 0.25 0.5 -s 2 -mm 0.1 0.8 -clamp on -imfchan m a.png").unwrap();
+        assert_eq!((read.offset, read.scale), ([0.25, 0.5, 0.0], [2.0, 1.0, 1.0]));
+        assert_eq!((read.base, read.gain, read.clamp), (0.1, 0.8, true));
+        assert_eq!((read.of, read.channel), (MapOf::Diffuse, Some(Channel::Alpha)));
+        let bump = map("map_Bump -bm 0.3 a.png").unwrap();
+        assert_eq!((bump.of, bump.bump), (MapOf::Bump, 0.3));
     }
 }

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::draft::Draft;
+use super::maps::Maps;
 use crate::color::Rgb;
 use crate::diagnostic::Span;
 use crate::format::text::Findings;
@@ -46,7 +47,8 @@ pub(crate) fn write(material: &Material, name: &str, text: &mut String) -> Vec<D
     if let Some((illum, _)) = &draft.illum {
         let _ = writeln!(text, "illum {illum}");
     }
-    let back = draft.finish(&mut Findings::default());
+    let back = draft.finish(&Maps::default(), &mut Findings::default());
+    let back = back.at(|_| Rgb::grey(0.5));
     compare(material, &back, &mut differences);
     differences
 }

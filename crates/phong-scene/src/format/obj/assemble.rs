@@ -141,7 +141,7 @@ impl Assembly {
         mut self,
         blob: &dyn Blob,
         context: &Context,
-        libraries: &mut Libraries,
+        libraries: &mut Libraries<'_>,
         input: &Input<'_>,
     ) -> (Option<Fragment>, Findings) {
         let at_file = || whole(&context.file);
@@ -173,6 +173,7 @@ impl Assembly {
         let objects = shapes.map(nameless).collect();
         let mut fragment = Fragment { objects, ..Fragment::default() };
         fragment.materials.extend(materials);
+        fragment.textures = libraries.textures();
         if fragment.objects.is_empty() {
             self.findings.error("empty models", at_file, || {
                 "there is nothing to draw: no face is left".to_owned()
@@ -427,7 +428,7 @@ impl Assembly {
 
     /// Gives every triangle its material: those of the file in the order of their first use, from
     /// number 1 on; 0 for faces before any `usemtl`.
-    fn assign_materials(&mut self, libraries: &mut Libraries) -> Vec<Material> {
+    fn assign_materials(&mut self, libraries: &mut Libraries<'_>) -> Vec<Material> {
         let count = self.mesh.indices.len();
         let mut runs = std::mem::take(&mut self.runs);
         runs.retain(|(start, _)| (*start as usize) < count);
@@ -452,7 +453,7 @@ impl Assembly {
         materials
     }
 
-    fn material(&mut self, name: u32, libraries: &mut Libraries) -> Material {
+    fn material(&mut self, name: u32, libraries: &mut Libraries<'_>) -> Material {
         let Some((name, span)) = self.names.get(name as usize) else { return Material::default() };
         if let Some(material) = libraries.material(name) {
             return material;

@@ -4,20 +4,21 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::diagnostic::{Diagnostic, Span};
 use crate::format::input::Input;
-use crate::format::mtl::Library;
+use crate::format::mtl::{Images, Library, locate};
 use crate::format::text::Findings;
 use crate::material::Material;
-use crate::source::{Source, byte_letter};
+use crate::texture::Texture;
 
 /// The MTL files that are read; of materials of one name, the first counts.
-#[derive(Debug, Default)]
-pub(super) struct Libraries {
+pub(super) struct Libraries<'a> {
     all: Vec<Library>,
+    /// What their materials take from images.
+    images: Images<'a>,
     /// The first of them that defines a material of this name.
     first: BTreeMap<String, usize>,
 }
 
-impl Libraries {
+impl<'a> Libraries<'a> {
     /// Reads all files behind `mtllib`.
     ///
     /// A name may hold blanks, and one statement may name several files: the whole is tried as one
@@ -26,12 +27,13 @@ impl Libraries {
     /// machine they ran on.
     pub(super) fn read(
         statements: Vec<(String, Span)>,
-        input: &Input<'_>,
+        input: &Input<'a>,
         findings: &mut Findings,
         told: &mut Vec<Diagnostic>,
     ) -> Self {
         let Input { path, source, limits, .. } = *input;
-        let mut libraries = Self::default();
+        let images = Images::new(source, limits);
+        let mut libraries = Self { all: Vec::new(), images, first: BTreeMap::new() };
         let mut read = BTreeSet::new();
         for (names, span) in statements {
             for choice in
@@ -74,35 +76,18 @@ impl Libraries {
 
     /// The material of this name; `None`: no file defines it.
     pub(super) fn material(&mut self, name: &str) -> Option<Material> {
-        self.all[*self.first.get(name)?].material(name)
+        self.all[*self.first.get(name)?].material(name, &mut self.images)
+    }
+
+    /// The textures of the materials that were asked for.
+    pub(super) fn textures(&mut self) -> Vec<Texture> {
+        std::mem::take(&mut self.images.textures)
     }
 
     /// Everything there is to say about the materials that were asked for.
     pub(super) fn tell(self, out: &mut Vec<Diagnostic>) {
         self.all.into_iter().for_each(|library| library.tell(out));
     }
-}
-
-/// Where a file of that name is; `None`: nowhere.
-fn locate(name: &str, path: &str, source: &dyn Source) -> Option<String> {
-    let folder = path.rfind('/').map_or("", |end| &path[..=end]);
-    let name = name.trim_matches('"').replace('\\', "/");
-    let drive = name.as_bytes().get(1) == Some(&b':');
-    let written =
-        if name.starts_with('/') || drive { name.clone() } else { format!("{folder}{name}") };
-    let bare = name.rsplit('/').next().unwrap_or(&name);
-    let beside = format!("{folder}{bare}");
-    // Where the file's name is in another encoding than the text, its bytes are the letters'.
-    let bytes = |path: &String| -> String {
-        let letter = |c: char| match u8::try_from(c) {
-            Ok(byte) if !c.is_ascii() => byte_letter(byte),
-            _ => c,
-        };
-        path.chars().map(letter).collect()
-    };
-    let named = [bytes(&written), bytes(&beside)];
-    let all = [written, beside].into_iter().chain(named);
-    all.into_iter().find(|at| !name.is_empty() && source.open(at).is_ok())
 }
 
 fn split_at_blanks(names: &str) -> Vec<String> {

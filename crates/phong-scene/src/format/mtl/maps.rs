@@ -1,0 +1,208 @@
+//! The images that a material names, as textures.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use glam::{DAffine3, DVec3};
+
+use super::draft::Draft;
+use super::texture::{Map, MapOf};
+use crate::color::Rgb;
+use crate::diagnostic::Span;
+use crate::format::text::Findings;
+use crate::limits::Limits;
+use crate::source::{Source, byte_letter};
+use crate::texels::{self, Texels};
+use crate::texture::{
+    Channel, Encoding, TexelFilter, Texture, TextureId, TextureKind, TextureRef, TextureSpace, Wrap,
+};
+
+/// How high a bump of 1 is, in the object's own units: the format says nothing of it.
+const BUMP: f64 = 0.01;
+
+/// The textures of materials, and the images that were read for them.
+pub(crate) struct Images<'a> {
+    source: &'a dyn Source,
+    limits: &'a Limits,
+    read: BTreeMap<String, Result<Arc<Texels>, String>>,
+    /// The textures, in the order in which materials asked for them.
+    pub(crate) textures: Vec<Texture>,
+}
+
+impl<'a> Images<'a> {
+    /// No textures yet.
+    pub(crate) fn new(source: &'a dyn Source, limits: &'a Limits) -> Self {
+        Self { source, limits, read: BTreeMap::new(), textures: Vec::new() }
+    }
+}
+
+/// What the images say that could be read.
+#[derive(Debug, Default)]
+pub(super) struct Maps {
+    pub(super) ambient: Option<TextureRef>,
+    pub(super) diffuse: Option<TextureRef>,
+    pub(super) specular: Option<TextureRef>,
+    pub(super) exponent: Option<TextureRef>,
+    pub(super) dissolve: Option<TextureRef>,
+    pub(super) bump: Option<TextureRef>,
+    pub(super) normal: Option<TextureRef>,
+    /// Whether the image that says the diffuse colour could not be read.
+    pub(super) lost: bool,
+}
+
+impl Maps {
+    /// Reads the images of a material, and says which of them cannot be read.
+    pub(super) fn read(
+        draft: &Draft,
+        file: &str,
+        images: &mut Images<'_>,
+        findings: &mut Findings,
+    ) -> Self {
+        let mut maps = Self::default();
+        for (map, span) in &draft.maps {
+            let texels = match load(&map.name, file, images) {
+                Ok(texels) => texels,
+                Err(message) => {
+                    maps.lost |= map.of == MapOf::Diffuse;
+                    findings.warning(
+                        "images that cannot be read",
+                        || span.clone(),
+                        || format!("the image `{}` cannot be read: {message}", map.name),
+                    );
+                    continue;
+                }
+            };
+            maps.take(draft, (map, span), texels, images, findings);
+        }
+        maps
+    }
+
+    fn take(
+        &mut self,
+        draft: &Draft,
+        (map, span): (&Map, &Span),
+        texels: Arc<Texels>,
+        images: &mut Images<'_>,
+        findings: &mut Findings,
+    ) {
+        if map.turbulent {
+            findings.warning(
+                "turbulences",
+                || span.clone(),
+                || format!("turbulence (`-t`) of `{}` is not drawn", map.name),
+            );
+        }
+        // Black is what programs write beside an image that says it all.
+        let tint = |color: Option<Rgb>| color.filter(|c| !c.is_black()).unwrap_or(Rgb::WHITE);
+        let is_normal = map.of == MapOf::Normal || map.of == MapOf::Bump && is_blue(&texels);
+        let has_opacity = texels.channels().is_multiple_of(2);
+        let (word, tint) = match map.of {
+            MapOf::Ambient => ("map_Ka", tint(draft.ambient)),
+            MapOf::Diffuse => ("map_Kd", tint(draft.diffuse)),
+            MapOf::Specular => ("map_Ks", tint(draft.specular)),
+            MapOf::Exponent => ("map_Ns", Rgb::WHITE),
+            MapOf::Dissolve => ("map_d", Rgb::WHITE),
+            MapOf::Bump | MapOf::Normal => (if is_normal { "norm" } else { "bump" }, Rgb::WHITE),
+            MapOf::Other => return,
+        };
+        let texture = TextureId(images.textures.len() as u32);
+        images.textures.push(Texture {
+            name: format!("{} {word}", draft.name),
+            kind: TextureKind::Image {
+                file: map.name.clone(),
+                texels,
+                wrap: if map.clamp { Wrap::Clamp } else { Wrap::Repeat },
+                border: Rgb::BLACK,
+                tint,
+                filter: TexelFilter::Auto,
+                encoding: Encoding::Auto,
+            },
+            space: TextureSpace::Uv,
+            transform: placed(map),
+            place: span.place.clone(),
+        });
+        let by = TextureRef {
+            texture,
+            scale: map.gain as f32,
+            offset: map.base as f32,
+            channel: map.channel,
+        };
+        let number = |scale: f64, channel| TextureRef {
+            scale: (map.gain * scale) as f32,
+            offset: (map.base * scale) as f32,
+            channel: map.channel.or(channel),
+            ..by
+        };
+        match map.of {
+            MapOf::Ambient => self.ambient = Some(by),
+            MapOf::Diffuse => self.diffuse = Some(by),
+            MapOf::Specular => self.specular = Some(by),
+            MapOf::Exponent => {
+                self.exponent = Some(number(draft.exponent.unwrap_or(32.0).max(0.0).into(), None));
+            }
+            MapOf::Dissolve => {
+                let shown = draft.dissolve.unwrap_or(1.0).clamp(0.0, 1.0);
+                self.dissolve = Some(number(shown.into(), has_opacity.then_some(Channel::Alpha)));
+            }
+            _ if is_normal => {
+                self.normal = Some(TextureRef { scale: map.bump as f32, offset: 0.0, ..by });
+            }
+            _ => self.bump = Some(number(map.bump * BUMP, None)),
+        }
+    }
+}
+
+/// Where an image lies for `-s` and `-o`, which are of texture coordinates.
+fn placed(map: &Map) -> DAffine3 {
+    let from = DAffine3 {
+        matrix3: glam::DMat3::from_diagonal(DVec3::from(map.scale)),
+        translation: DVec3::from(map.offset),
+    };
+    if map.scale.contains(&0.0) || !from.inverse().is_finite() {
+        return DAffine3::IDENTITY;
+    }
+    if from == DAffine3::IDENTITY { from } else { from.inverse() }
+}
+
+/// Whether an image is one of normals, which many programs write as `map_Bump`: blue, with red and green about
+/// the middle.
+fn is_blue(texels: &Texels) -> bool {
+    if texels.channels() < 3 {
+        return false;
+    }
+    let [r, g, b, _] = texels.mean(false);
+    b > 0.7 && (0.4..0.6).contains(&r) && (0.4..0.6).contains(&g)
+}
+
+/// The image of that name beside the file at `file`.
+fn load(name: &str, file: &str, images: &mut Images<'_>) -> Result<Arc<Texels>, String> {
+    if name.is_empty() {
+        return Err("it is not named".to_owned());
+    }
+    let path = locate(name, file, images.source).ok_or("there is no such file")?;
+    let (source, limits) = (images.source, images.limits);
+    let load = || texels::load(&path, source, limits);
+    images.read.entry(path.clone()).or_insert_with(load).clone()
+}
+
+/// Where a file of that name is; `None`: nowhere.
+pub(crate) fn locate(name: &str, path: &str, source: &dyn Source) -> Option<String> {
+    let folder = path.rfind('/').map_or("", |end| &path[..=end]);
+    let name = name.trim_matches('"').replace('\\', "/");
+    let drive = name.as_bytes().get(1) == Some(&b':');
+    let written =
+        if name.starts_with('/') || drive { name.clone() } else { format!("{folder}{name}") };
+    let bare = name.rsplit('/').next().unwrap_or(&name);
+    let beside = format!("{folder}{bare}");
+    // Where the file's name is in another encoding than the text, its bytes are the letters'.
+    let bytes = |path: &String| -> String {
+        let letter = |c: char| match u8::try_from(c) {
+            Ok(byte) if !c.is_ascii() => byte_letter(byte),
+            _ => c,
+        };
+        path.chars().map(letter).collect()
+    };
+    let named = [bytes(&written), bytes(&beside)];
+    let all = [written, beside].into_iter().chain(named);
+    all.into_iter().find(|at| !name.is_empty() && source.open(at).is_ok())
+}
