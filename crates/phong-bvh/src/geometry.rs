@@ -1,6 +1,6 @@
 //! What rays can meet. All numbers are finite; the caller has checked them.
 //!
-//! Triangles, spheres and capsules are met in f32: beyond coordinates of 10¹⁸, or below sizes of 10⁻¹⁸, their
+//! Triangles, spheres and cylinders of one radius are met in f32: beyond coordinates of 10¹⁸, or below sizes of 10⁻¹⁸, their
 //! squares overflow or vanish, and hits are missed or made up; nothing worse happens.
 
 use std::sync::Arc;

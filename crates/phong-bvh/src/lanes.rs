@@ -40,6 +40,10 @@ pub trait Lanes:
     #[must_use]
     fn abs(self) -> Self;
 
+    /// This where it is above 0, else 0; unspecified where it is NaN.
+    #[must_use]
+    fn above_zero(self) -> Self;
+
     /// Where this is less than `other`.
     fn lt(self, other: Self) -> Self::Mask;
 
@@ -106,6 +110,11 @@ macro_rules! lanes {
             }
 
             #[inline(always)]
+            fn above_zero(self) -> Self {
+                $scalar::max(self, 0.0)
+            }
+
+            #[inline(always)]
             fn lt(self, other: Self) -> bool {
                 self < other
             }
@@ -163,6 +172,12 @@ macro_rules! lanes {
             #[inline(always)]
             fn abs(self) -> Self {
                 SimdBase::abs(self)
+            }
+
+            #[inline(always)]
+            fn above_zero(self) -> Self {
+                let zero: Self = SimdBase::splat(self.token(), 0.0);
+                SimdBase::max(self, zero)
             }
 
             #[inline(always)]
@@ -295,6 +310,9 @@ mod tests {
             let bits = |v: f32x8<_>| <[f32; 8]>::from(v).map(f32::to_bits);
             assert_eq!(bits(Lanes::max(a, b)), all(&|a, b| Lanes::max(a, b)));
             assert_eq!(bits(a.at_least(0.0)), all(&|a, _| a.at_least(0.0)));
+            // Of −0 either 0 may come, and of NaN anything.
+            let above = <[f32; 8]>::from(a.above_zero());
+            assert!((0..8).all(|i| odd[i].is_nan() || above[i] == odd[i].above_zero()));
             assert_eq!(bits(Lanes::abs(a)), all(&|a, _| a.abs()));
             let select = |a, b| f32::select(Lanes::lt(a, b), a, b);
             assert_eq!(bits(f32x8::select(Lanes::lt(a, b), a, b)), all(&select));

@@ -6,7 +6,7 @@
 use crate::{
     Primitives, Tree,
     local::{Hit, Ray},
-    primitives::{capsule, sphere, tapered::Tapered, triangle},
+    primitives::{capsule, ray_frame::RayFrame, sphere, tapered::Tapered, triangle},
     traverse::Best,
 };
 
@@ -53,8 +53,8 @@ impl<'a> Prepared<'a> {
             }
             Primitives::Cylinders { cylinders, caps } => {
                 let cylinder = &cylinders[local as usize];
-                let met = if capsule::is_capsule(cylinder, *caps) {
-                    capsule::intersect(&self.closest, cylinder)
+                let met = if capsule::is_straight(cylinder) {
+                    capsule::intersect(&RayFrame::new(self.ray), cylinder, *caps)
                 } else {
                     Tapered::new(cylinder, *caps).intersect(self.ray)
                 };

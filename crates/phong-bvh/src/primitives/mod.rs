@@ -22,7 +22,7 @@ pub(crate) mod ellipsoid;
 mod facet;
 pub(crate) mod patch;
 pub(crate) mod plane;
-mod segment;
+pub(crate) mod ray_frame;
 pub(crate) mod solid;
 pub(crate) mod sphere;
 pub(crate) mod tapered;

@@ -1,5 +1,6 @@
-//! What is given as a cylinder and is no `capsule`: with two radii, with flat ends,
-//! or open. Solved in f64, one at a time.
+//! What is given as a cylinder and is no `capsule`: with two radii, with flat ends, or open. Rays meet here in f64,
+//! one at a time, what has two radii; flat and open cylinders of one radius they meet [eight at a time](super::capsule).
+//! The surface where they do is worked out here for all of them.
 //!
 //! With the segment from z = 0 to z = 1 of a frame of its own, x and y not scaled, a flat or open one is the
 //! [frustum](super::cone) as it stands. Round ends mean the surface swept by a sphere that

@@ -36,12 +36,13 @@ use self::point::{
 use crate::{
     Coordinates, Cylinder, Hit, Hits8, Kernel, Primitives, Ray, Rays8, Sphere, Surface,
     eights::{halves, whole},
-    frame::{Frame, Way, unit, wide as wide8},
+    frame::{Frame, ROUNDING, Way, unit, wide as wide8},
     lanes, local,
     primitives::{
-        capsule::{self, half, is_capsule},
+        capsule::{self, half, is_capsule, is_straight},
         ellipsoid,
         patch::{Patch, turn},
+        ray_frame::RayFrame,
         sphere::Closest,
         tapered::{self, Tapered},
     },
@@ -75,7 +76,7 @@ pub(crate) fn surface(world: &impl Places, ray: &Ray, hit: &Hit) -> Surface {
             } else {
                 let tapered = Tapered::new(cylinder, *caps);
                 let Patch { p, normal, curvature, .. } = tapered.patch(&ray, t);
-                let slack = f64::EPSILON * 64.0 * tapered.largest();
+                let slack = f64::EPSILON * 64.0 * tapered.largest() + kernel_slack(cylinder);
                 rounded(p.to_array(), unit(normal.to_array()), curvature, slack.to_array())
             }
         }
@@ -94,6 +95,13 @@ pub(crate) fn surface(world: &impl Places, ray: &Ray, hit: &Hit) -> Surface {
     Surface { p, p_error: p_error.as_vec3(), ng: ng.as_vec3() }
 }
 
+/// How far the kernel in f32 may take a cylinder for elsewhere, as for capsules; 0 where it is met in f64.
+fn kernel_slack(cylinder: &Cylinder) -> f64 {
+    let length = cylinder.from.as_dvec3().distance(cylinder.to.as_dvec3());
+    let size = length + f64::from(cylinder.radius);
+    if is_straight(cylinder) { size * (16.0 * ROUNDING) } else { 0.0 }
+}
+
 /// How far along its ray in the part's space a hit is. Where the ray was moved along, its own distance is
 /// rounded too coarsely to tell the near side of a thing from the far one, so it is looked for again.
 fn distance(primitives: &Primitives, ray: &local::Ray, way: Way<f64>, hit: &Hit) -> f32 {
@@ -103,8 +111,8 @@ fn distance(primitives: &Primitives, ray: &local::Ray, way: Way<f64>, hit: &Hit)
         }
         Primitives::Cylinders { cylinders, caps } if way.skip > 0.0 => {
             let cylinder = &cylinders[hit.prim as usize];
-            let at = if is_capsule(cylinder, *caps) {
-                capsule::intersect(&Closest::new(ray), cylinder)
+            let at = if is_straight(cylinder) {
+                capsule::intersect(&RayFrame::new(ray), cylinder, *caps)
             } else {
                 Tapered::new(cylinder, *caps).intersect(ray)
             };

@@ -3,7 +3,7 @@
 //! Most trees hold only triangles, only spheres or only cylinders. Each kind of tree has its own copy of the
 //! traversal, which prepares only what its leaves need of a ray.
 
-use fearless_simd::{Simd, prelude::*};
+use fearless_simd::{Simd, f32x8, prelude::*};
 
 use super::{Best, World};
 use crate::{
@@ -11,7 +11,8 @@ use crate::{
     local::Ray,
     node8::{Kind, Ref, Row, rows},
     primitives::{
-        capsule,
+        capsule::{self, Seen8},
+        ray_frame::RayFrame,
         sphere::{self, Closest, Closest8},
         tapered::Tapered,
         triangle::{self, Shear, Shear8},
@@ -163,83 +164,89 @@ impl<S: Simd> Leaves<S> for Spheres<S> {
     }
 }
 
-/// A ray prepared for cylinders: as for spheres.
+/// A ray prepared for cylinders.
 ///
 /// What comes after the question that most rays fail is a function of its own for each level: inlined into
 /// every traversal it made compiling the crate take far longer.
 #[derive(Clone, Copy)]
 pub(super) struct Cylinders<S: Simd> {
-    closest8: Closest8<S>,
+    frame: RayFrame<f32x8<S>>,
 }
 
 impl<S: Simd> Leaves<S> for Cylinders<S> {
     #[inline(always)]
     fn new(simd: S, ray: &Ray) -> Self {
-        Self { closest8: Closest8::new(simd, &Closest::new(ray)) }
+        Self { frame: RayFrame::new(ray).eight(simd) }
     }
 
     #[inline(always)]
     fn offer(&self, simd: S, world: &World<'_>, ray: &Ray, leaf: Ref, best: &mut Best) {
         let block = rows(world.rows, leaf.row());
-        let may = capsule::may_meet(simd, &self.closest8, block);
+        let seen = Seen8::new(simd, &self.frame, block);
+        let may = seen.may_meet(simd);
         if may != 0 {
-            self.offer_lanes(simd, ray, block, may, best);
+            offer_lanes(simd, ray, block, seen, may, best);
         }
     }
 
     #[inline(always)]
     fn any(&self, simd: S, world: &World<'_>, ray: &Ray, leaf: Ref) -> bool {
         let block = rows(world.rows, leaf.row());
-        let may = capsule::may_meet(simd, &self.closest8, block);
-        may != 0 && self.any_lane(simd, ray, block, may)
+        let seen = Seen8::new(simd, &self.frame, block);
+        let may = seen.may_meet(simd);
+        may != 0 && any_lane(simd, ray, block, seen, may)
     }
 }
 
-impl<S: Simd> Cylinders<S> {
-    /// Offers the hits among the lanes `may`.
-    fn offer_lanes(
-        &self,
-        simd: S,
-        ray: &Ray,
-        block: &[Row; capsule::BLOCK],
-        may: u32,
-        best: &mut Best,
-    ) {
-        simd.vectorize(
-            #[inline(always)]
-            || {
-                let met = capsule::intersect8(simd, &self.closest8, block, may);
-                let mut hit = met.hit;
-                while hit != 0 {
-                    let lane = hit.trailing_zeros() as usize & 7;
-                    hit &= hit - 1;
-                    best.offer_cylinder(met.at(lane), block[capsule::BLOCK - 1].bits(lane));
-                }
-                if met.open != 0 {
-                    offer_tapered(ray, block, met.open, best);
-                }
-            },
-        );
-    }
-
-    /// Whether anything is hit among the lanes `may`.
-    fn any_lane(&self, simd: S, ray: &Ray, block: &[Row; capsule::BLOCK], may: u32) -> bool {
-        simd.vectorize(
-            #[inline(always)]
-            || {
-                let met = capsule::intersect8(simd, &self.closest8, block, may);
-                met.hit != 0
-                    || met.open != 0 && {
-                        let mut best = Best::new(ray.t_max);
-                        offer_tapered(ray, block, met.open, &mut best);
-                        best.0.is_some()
-                    }
-            },
-        )
-    }
+/// Offers the hits among the lanes `may`.
+fn offer_lanes<S: Simd>(
+    simd: S,
+    ray: &Ray,
+    block: &[Row; capsule::BLOCK],
+    seen: Seen8<'_, S>,
+    may: u32,
+    best: &mut Best,
+) {
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            let met = seen.intersect(simd, may);
+            let mut hit = met.hit;
+            while hit != 0 {
+                let lane = hit.trailing_zeros() as usize & 7;
+                hit &= hit - 1;
+                best.offer_cylinder(met.at(lane), block[capsule::BLOCK - 1].bits(lane));
+            }
+            if met.tapered != 0 {
+                offer_tapered(ray, block, met.tapered, best);
+            }
+        },
+    );
 }
 
-/// Offers the hits among lanes of a block that hold no capsules. An unused lane has no number, and repeats the
+/// Whether anything is hit among the lanes `may`.
+fn any_lane<S: Simd>(
+    simd: S,
+    ray: &Ray,
+    block: &[Row; capsule::BLOCK],
+    seen: Seen8<'_, S>,
+    may: u32,
+) -> bool {
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            let met = seen.intersect(simd, may);
+            met.hit != 0
+                || met.tapered != 0 && {
+                    let mut best = Best::new(ray.t_max);
+                    offer_tapered(ray, block, met.tapered, &mut best);
+                    best.0.is_some()
+                }
+        },
+    )
+}
+
+/// Offers the hits among lanes of a block that have two radii. An unused lane has no number, and repeats the
 /// first.
 #[inline(never)]
 fn offer_tapered(ray: &Ray, block: &[Row; capsule::BLOCK], lanes: u32, best: &mut Best) {
@@ -262,14 +269,6 @@ pub(super) struct Mixed<S: Simd> {
     spheres: Spheres<S>,
 }
 
-impl<S: Simd> Mixed<S> {
-    /// The same ray for cylinders.
-    #[inline(always)]
-    fn cylinders(&self) -> Cylinders<S> {
-        Cylinders { closest8: self.spheres.closest8 }
-    }
-}
-
 impl<S: Simd> Leaves<S> for Mixed<S> {
     #[inline(always)]
     fn new(simd: S, ray: &Ray) -> Self {
@@ -290,7 +289,7 @@ impl<S: Simd> Leaves<S> for Mixed<S> {
             Some(Kind::Indexed) => {
                 self.triangles.offer_block(simd, &gather(world, leaf), best);
             }
-            Some(Kind::Cylinders) => self.cylinders().offer(simd, world, ray, leaf, best),
+            Some(Kind::Cylinders) => Cylinders::new(simd, ray).offer(simd, world, ray, leaf, best),
             None => {}
         }
     }
@@ -302,7 +301,7 @@ impl<S: Simd> Leaves<S> for Mixed<S> {
             Some(Kind::Spheres) => self.spheres.any(simd, world, ray, leaf),
             Some(Kind::Solid) => solid(world, ray, leaf).0.is_some(),
             Some(Kind::Indexed) => self.triangles.any_block(simd, &gather(world, leaf)),
-            Some(Kind::Cylinders) => self.cylinders().any(simd, world, ray, leaf),
+            Some(Kind::Cylinders) => Cylinders::new(simd, ray).any(simd, world, ray, leaf),
             None => false,
         }
     }
