@@ -160,9 +160,17 @@ def test_bytes_are_those_of_the_png(tmp_path: Path) -> None:
     assert difference.max == 0
 
 
-def test_looks_are_not_there_yet() -> None:
-    with pytest.raises(NotImplementedError, match="not yet"):
-        phong.Scene().look("ink")
+def test_a_look_is_put_on_by_its_name() -> None:
+    scene = phong.Scene()
+    scene.add_spheres([(0, 0, 0)], 1.0)
+    scene.frame("front")
+    scene.look("ink")
+    assert "[outline]" in scene.to_toml()
+    pixels = np.asarray(phong.render(scene, size=(32, 32), samples=1))
+    assert pixels[16, 16, 0] == pixels[0, 0, 0] == 1.0
+    assert pixels[16, :, 0].min() < 0.2
+    with pytest.raises(ValueError, match="did you mean 'ink'|did you mean \"ink\""):
+        scene.look("inc")
 
 
 def test_importing_is_quick() -> None:

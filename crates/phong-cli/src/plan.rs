@@ -7,9 +7,9 @@ use phong::film::{Film, LayerKind, Window};
 use phong::finish::{Finishing, finish};
 use phong::image::{self, Bits, Content, Encoding, Format};
 use phong::part::{self, Settings};
-use phong::render::{Passes, RenderOptions};
+use phong::render::{Lines, Passes, RenderOptions};
 use phong::terms::TermSet;
-use phong_scene::{Diagnostic, Image};
+use phong_scene::{Diagnostic, Image, Scene};
 
 use crate::args::{self, EncodingArgs, ImageArgs, OutputFormat, RenderArgs, ViewArgs};
 use crate::failure::Failure;
@@ -76,7 +76,7 @@ impl Outputs {
                 output.write(|mut out| part::write(film.film_tiles(), settings, &mut out))
             }
             Self::Picture(format, files) => {
-                write_files(*format, files, film, settings, Finishing::default())
+                write_files(*format, files, film, settings, &settings.finishing())
             }
         }
     }
@@ -86,8 +86,8 @@ impl Outputs {
         match self {
             Self::Part(_) => self.write(film, settings),
             Self::Picture(format, files) => {
-                let marked = Finishing::default().of_picture(settings.checksum());
-                write_files(*format, files, film, settings, marked)
+                let marked = settings.finishing().of_picture(settings.checksum());
+                write_files(*format, files, film, settings, &marked)
             }
         }
     }
@@ -107,13 +107,9 @@ fn write_files(
     files: &mut [(Content, Output)],
     film: &Film,
     settings: &Settings,
-    finishing: Finishing,
+    finishing: &Finishing,
 ) -> Result<(), Failure> {
-    let finishing = match settings.scene() {
-        Some(sum) => finishing.of_scene(sum),
-        None => finishing,
-    };
-    let (picture, encoding) = (finish(film, &finishing), &settings.encoding);
+    let (picture, encoding) = (finish(film, finishing), &settings.encoding);
     files.iter_mut().try_for_each(|(content, output)| {
         output.write(|mut out| image::write(&picture, *content, format, encoding, &mut out))
     })
@@ -181,6 +177,9 @@ impl Plan {
         let terms = if self.terms { TermSet::of_scene(&input.scene) } else { TermSet::NONE };
         let passes = if args.work.passes { Passes::CoarseToFine } else { Passes::One };
         let options = options.with_terms(terms).with_aovs(&self.aovs).with_passes(passes);
+        let Scene { outline, image, .. } = &input.scene;
+        let lines = outline.as_ref().map(|outline| Lines::of(outline, image));
+        let options = options.with_lines(lines);
         Ok(match self.share {
             Some((index, count)) => options.with_share(index, count)?,
             None => options,
@@ -194,11 +193,15 @@ pub(crate) fn settle(
     view: &ViewArgs,
     input: &mut Input,
 ) -> Result<RenderOptions, Failure> {
-    let ImageArgs { size, samples, seed, depth, no_shadows, background, crop } = args;
+    let ImageArgs { size, samples, seed, depth, no_shadows, background, crop, dpi, look } = args;
     let image = &mut input.scene.image;
     image.size = size.map_or(image.size, |size| size.0);
     input::look(input, view)?;
+    if let Some(look) = *look {
+        input.scene.put_on(look);
+    }
     let image = &mut input.scene.image;
+    image.dpi = dpi.or(image.dpi);
     image.samples = samples.unwrap_or(image.samples);
     image.seed = seed.unwrap_or(image.seed);
     image.depth = depth.unwrap_or(image.depth);

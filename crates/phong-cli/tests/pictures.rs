@@ -54,6 +54,56 @@ fn a_scene_comes_from_standard_input() {
 }
 
 #[test]
+fn lines_are_drawn_onto_the_picture_alike_in_parts_and_shares() {
+    let folder = given(&[("a.toml", &format!("{BALLS}[outline]\nwidth = 1.5\n"))]);
+    folder.done("render a.toml -o plain.pfm");
+    folder.done("render a.toml -o whole.png --dpi 144");
+    assert_eq!(folder.names(), ["a.toml", "plain.pfm", "whole.png"]);
+    folder.done("render a.toml -o a.part --dpi 144 --tile 0/2");
+    folder.done("render a.toml -o b.part --dpi 144 --tile 1/2");
+    folder.done("merge a.part b.part -o merged.png");
+    assert_eq!(folder.bytes("whole.png"), folder.bytes("merged.png"));
+    // What is drawn at the edge of a part is that of the whole.
+    folder.done("render a.toml -o part.png --dpi 144 --crop 3,5,20,17");
+    let read = |name: &str| {
+        let bytes = folder.bytes(name);
+        let picture = phong::image::Picture::read(&bytes).unwrap();
+        (picture.size, picture.plane("R").unwrap().to_vec())
+    };
+    let ((size, part), (_, whole)) = (read("part.png"), read("whole.png"));
+    assert_eq!(size, [17, 12]);
+    for y in 0..12 {
+        let first = (y + 5) * 40 + 3;
+        assert_eq!(part[y * 17..][..17], whole[first..][..17], "row {y}");
+    }
+    assert!(whole.iter().filter(|level| **level == 0.0).count() > 30, "there are lines");
+    // OpenEXR has both pictures, and nothing that was not asked for.
+    folder.done("render a.toml -o a.exr --dpi 144");
+    let exr = phong::image::Picture::read(&folder.bytes("a.exr")).unwrap();
+    let names: Vec<&str> = exr.planes.iter().map(|plane| plane.name.as_str()).collect();
+    assert_eq!(names, ["A", "B", "G", "R", "finished.A", "finished.B", "finished.G", "finished.R"]);
+    let pfm = phong::image::Picture::read(&folder.bytes("plain.pfm")).unwrap();
+    assert_eq!(exr.plane("R"), pfm.plane("R"));
+    let reader = png::Decoder::new(std::io::Cursor::new(folder.bytes("whole.png"))).read_info();
+    let dims = reader.unwrap().info().pixel_dims.unwrap();
+    assert_eq!((dims.xppu, dims.yppu), (5669, 5669));
+}
+
+#[test]
+fn a_look_is_put_on_and_printed_as_text() {
+    let folder = balls();
+    let then = folder.done("render a.toml --look ink --toml");
+    let text = String::from_utf8(then.out.clone()).unwrap();
+    assert!(text.contains("[outline]") && text.contains("background = 1"), "{text}");
+    assert!(!text.contains("[[sphere]]") && !folder.names().contains(&"a.png".to_owned()));
+    folder.done("render a.toml --look ink -o ink.png");
+    folder.done("render a.toml --look ink --samples 9 --background tomato -o red.png");
+    assert_ne!(folder.bytes("ink.png"), folder.bytes("red.png"));
+    folder.when("render a.toml --look inc").is_refused(&["--look", "did you mean ink?"]);
+    folder.when("render a.toml --dpi 0").is_refused(&["--dpi", "from 1 to 100000"]);
+}
+
+#[test]
 fn a_crop_has_the_size_of_the_crop_and_the_pixels_of_the_whole() {
     let folder = balls();
     folder.done("render a.toml -o whole.pfm");

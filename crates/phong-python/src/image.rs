@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use numpy::PyArrayMethods as _;
 use phong::film::{Film, LayerKind};
-use phong::finish::{Finished, Finishing, finish};
+use phong::finish::{Finished, finish};
 use phong::image::{Bits, Content, Encoding, Format, SaveError, save, write};
 use phong::part::{self, Join, Part, ReadError, Settings};
 use phong::render::RenderOptions;
@@ -48,6 +48,13 @@ impl Image {
         warnings: Vec<Diagnostic>,
     ) -> Self {
         let samples = options.samples();
+        // A share is finished when it is put together with the others.
+        let (film, options) = if options.lines().is_some() && film.is_complete() {
+            let settings = Settings::of(&scene, &options, Encoding::default());
+            (finish(&film, &settings.finishing()).into_film(), options.with_lines(None))
+        } else {
+            (film, options)
+        };
         let made = Made::Here(scene, options, OnceLock::new());
         Self::of(Arc::new(film), made, seconds, warnings, samples)
     }
@@ -67,6 +74,11 @@ impl Image {
     fn joined(film: Film, settings: Settings, seconds: Vec<(String, f64)>) -> Self {
         let samples = settings.picture.iter().find(|(name, _)| name == "samples");
         let samples = samples.and_then(|(_, text)| text.parse().ok()).unwrap_or(0);
+        let (film, settings) = if settings.finishing().lines.is_some() && film.is_complete() {
+            (finish(&film, &settings.finishing()).into_film(), settings.finished())
+        } else {
+            (film, settings)
+        };
         Self::of(Arc::new(film), Made::Elsewhere(settings), seconds, Vec::new(), samples)
     }
 
@@ -81,11 +93,7 @@ impl Image {
 
     /// Its film, finished as files hold it.
     fn finished(&self) -> Finished<'_> {
-        let finishing = match self.settings().scene() {
-            Some(sum) => Finishing::default().of_scene(sum),
-            None => Finishing::default(),
-        };
-        finish(&self.film, &finishing)
+        finish(&self.film, &self.settings().finishing())
     }
 
     fn sides(&self) -> [usize; 2] {

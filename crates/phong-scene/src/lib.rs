@@ -22,9 +22,11 @@ mod frame;
 mod keys;
 mod light;
 mod limits;
+mod looks;
 mod material;
 mod mesh;
 mod molecule;
+mod outline;
 mod scene;
 mod shape;
 mod source;
@@ -55,11 +57,13 @@ pub use frame::{Framing, Side};
 pub use keys::{batch_reference_markdown, batch_schema_json, reference_markdown, schema_json};
 pub use light::{Light, LightKind};
 pub use limits::{LARGEST, Limits};
+pub use looks::NamedLook;
 pub use material::{
     AmbientRule, ConstantMaterial, Dialect, Distribution, Fresnel, Material, MaterialId, Model,
     NormalFormat, OpacityMode, ShadowRule, Shadowing, Tint, Viewer, WardForm,
 };
 pub use mesh::{Caps, Cylinders, Mesh, NO_INDEX, Points, Shared};
+pub use outline::Outline;
 pub use scene::{Background, FilterKind, Group, Image, Object, Reading, Scene};
 pub use shape::{GroupId, Shape};
 pub use source::{Blob, Folder, Jail, Memory, Source, path_of, path_text, read_stream, trouble};

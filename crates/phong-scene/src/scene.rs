@@ -41,7 +41,7 @@
 //! | `ambient_occlusion` | a table | none | What takes ambient light away: a factor of the ambient term. |
 //! | `sky` | not built yet | none | A sky that lights the scene. |
 //! | `fog` | a table | none | What is far away fades into a colour. |
-//! | `outline` | not built yet | none | Lines around things. |
+//! | `outline` | a table | none | Lines around things, drawn when the picture is done. |
 //! | `clip` | a list of tables | none | What is cut away. |
 //! | `light` | a list of tables | none | The lights. |
 //! | `materials` | tables by name | none | The materials, by name. |
@@ -74,6 +74,7 @@
 //! | `depth` | a whole number from 0 to 100 | `8` | Mirror and glass bounces; beyond it a ray brings black. |
 //! | `min_weight` | a number from 0 to 1 | `0.0001` | Mirror and glass rays whose light would count less than this in every channel are not followed; 0: all are. |
 //! | `terminator` | `true` or `false` | `true` | Whether shadow rays from meshes with smooth normals start above the face, so that faces do not show where light ends. |
+//! | `dpi` | a number above 0 | 96, which no file says | Pixels an inch: how wide lines are whose width is in points; PNG files say it. |
 //!
 //! `background = { .. }`:
 //!
@@ -105,6 +106,7 @@ use crate::fog::Fog;
 use crate::light::Light;
 use crate::limits::Range;
 use crate::material::{Material, MaterialId};
+use crate::outline::Outline;
 use crate::shape::Shape;
 use crate::texture::Texture;
 use crate::wording::words;
@@ -136,6 +138,8 @@ pub struct Scene {
     pub ambient_occlusion: Option<AmbientOcclusion>,
     /// What is far away fades into a colour; `None`: it does not.
     pub fog: Option<Fog>,
+    /// Lines around things, drawn when the picture is done; `None`: there are none.
+    pub outline: Option<Outline>,
     /// What is cut away of the objects, at most [`Clip::MOST`]; empty: nothing.
     pub clips: Vec<Clip>,
     /// The lights, in the order of the text.
@@ -160,6 +164,7 @@ impl Default for Scene {
             ambient: Rgb::WHITE,
             ambient_occlusion: None,
             fog: None,
+            outline: None,
             clips: Vec::new(),
             lights: Vec::new(),
             materials: vec![Material::default()],
@@ -213,6 +218,9 @@ pub struct Image {
     /// Whether shadow rays from meshes with smooth normals start above the face, so that faces do not
     /// show where light ends. Default true.
     pub terminator: bool,
+    /// Pixels an inch, > 0: how wide lines are whose width is in points; `None`: 96, and files do not
+    /// say it.
+    pub dpi: Option<f64>,
 }
 
 impl Image {
@@ -237,6 +245,7 @@ impl Default for Image {
             depth: 8,
             min_weight: 1e-4,
             terminator: true,
+            dpi: None,
         }
     }
 }

@@ -224,6 +224,32 @@ impl Film {
         self.window.tile(self.tile, index)
     }
 
+    /// A part of a whole film, with these of its layers.
+    pub(crate) fn cut(&self, window: Window, kinds: &[LayerKind]) -> Self {
+        let mut cut = Self::new(self.size, window, self.tile, kinds);
+        cut.done.fill(true);
+        for to in &mut cut.layers {
+            if let Some(from) = self.layer(to.kind) {
+                let values = self.cut_values(&from.values, to.kind.channels(), window);
+                to.values.copy_from_slice(&values);
+            }
+        }
+        cut
+    }
+
+    /// The values of a part, of so many a pixel of the film.
+    pub(crate) fn cut_values(&self, values: &[f32], channels: usize, window: Window) -> Vec<f32> {
+        let own = self.window;
+        let across = own.width() as usize;
+        let mut cut = Vec::with_capacity(window.pixels() as usize * channels);
+        for y in window.y0..window.y1 {
+            let first = (y - own.y0) as usize * across + (window.x0 - own.x0) as usize;
+            let end = first + window.width() as usize;
+            cut.extend_from_slice(&values[first * channels..end * channels]);
+        }
+        cut
+    }
+
     /// Whether every tile is rendered.
     pub fn is_complete(&self) -> bool {
         self.done.iter().all(|&done| done)

@@ -9,7 +9,8 @@ use std::path::{Path, PathBuf};
 use phong::film::{Film, LayerKind, Window};
 use phong::finish::{Finishing, finish};
 use phong::image::{self, Bits, Content, Encoding, Format, Picture};
-use phong::render::{Cancel, RenderOptions, render};
+use phong::part::Settings;
+use phong::render::{Cancel, Lines, RenderOptions, render};
 use phong::view::View;
 use phong_scene::{Folder, Limits};
 
@@ -30,7 +31,7 @@ macro_rules! golden {
 golden! {
     cameras: fisheye landscape lens orthographic panorama perspective up wide;
     film: background empty filter_box filter_gaussian filter_mitchell filter_tent gradient odd_size
-        one_pixel seed transparent transparent_mirror;
+        one_pixel outline seed transparent transparent_mirror;
     lights: attenuation below_horizon colored disc distant enclosed point range rectangle shadow shadow_off
         shadow_touching specular_color sphere spot spot_hard;
     materials: blinn_phong cook_torrance default ggx lambert normalize opacity oren_nayar per_light phong
@@ -74,8 +75,12 @@ fn drawn(path: &Path) -> Vec<u8> {
     // Warnings are welcome: a lamp within a ball is what one of the scenes is about.
     let scene = reading.scene.unwrap_or_else(|| panic!("{:#?}", reading.diagnostics));
     let options = RenderOptions::of(&scene.image).expect("the scene has been checked");
+    let outline = scene.outline.as_ref();
+    let options = options.with_lines(outline.map(|outline| Lines::of(outline, &scene.image)));
     let compiled = View::of(&scene).expect("compiles");
-    encoded(&render(&compiled, &options, &|_| {}, &Cancel::new()).film, false)
+    let film = render(&compiled, &options, &|_| {}, &Cancel::new()).film;
+    let settings = Settings::of(&scene, &options, Encoding::default());
+    encoded(&finish(&film, &settings.finishing()).into_film(), false)
 }
 
 fn encoded(film: &Film, linear: bool) -> Vec<u8> {

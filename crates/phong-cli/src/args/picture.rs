@@ -43,6 +43,11 @@ pub(crate) struct RenderArgs {
     #[command(flatten)]
     pub(crate) encoding: EncodingArgs,
 
+    /// Print what the scene looks like (camera, lights, materials, and what --look has set) as scene
+    /// text on standard output, and draw nothing
+    #[arg(long, help_heading = "File", conflicts_with_all = ["json", "output", "watch"])]
+    pub(crate) toml: bool,
+
     /// Also every term by itself: layers of an EXR, else files STEM.TERM.ext beside OUT
     #[arg(long, help_heading = "File")]
     pub(crate) terms: bool,
@@ -116,6 +121,15 @@ pub(crate) struct ImageArgs {
     /// What rays see that hit nothing: a colour as for --color, or transparent
     #[arg(long, value_name = "COLOR", value_parser = values::background, allow_hyphen_values = true)]
     pub(crate) background: Option<phong_scene::Background>,
+
+    /// A look that makes a good figure of a bare model, and replaces a scene's own lights, background
+    /// and factors of materials: lecture, publication, clay, flat, ink, tachyon, vmd, pymol or technical
+    #[arg(long, value_name = "NAME", value_parser = values::look)]
+    pub(crate) look: Option<phong_scene::NamedLook>,
+
+    /// Pixels an inch: how wide lines are, and what a PNG says [default: 96, which none says]
+    #[arg(long, value_name = "N", value_parser = values::dpi, allow_hyphen_values = true)]
+    pub(crate) dpi: Option<f64>,
 
     /// Only these pixels; X1 and Y1 lie outside, and the file has the size of the crop
     #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = values::crop, allow_hyphen_values = true)]

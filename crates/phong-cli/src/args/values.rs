@@ -280,6 +280,26 @@ fn finite(text: &str) -> Option<f64> {
     text.trim().parse().ok().filter(|v: &f64| v.abs() <= LARGEST)
 }
 
+/// A look by its name.
+pub(super) fn look(text: &str) -> Result<phong_scene::NamedLook, String> {
+    use phong_scene::{NamedLook, closest};
+    NamedLook::from_name(text).ok_or_else(|| {
+        let names = NamedLook::ALL.map(NamedLook::name);
+        match closest(text, names) {
+            Some(near) => format!("there is no such look; did you mean {near}?"),
+            None => format!("there is no such look; there are {}", names.join(", ")),
+        }
+    })
+}
+
+/// Pixels an inch.
+pub(super) fn dpi(text: &str) -> Result<f64, String> {
+    let number: Option<f64> = text.parse().ok();
+    number
+        .filter(|dpi| (1.0..=100_000.0).contains(dpi))
+        .ok_or_else(|| "it must be a number from 1 to 100000".to_owned())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

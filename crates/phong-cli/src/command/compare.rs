@@ -155,7 +155,8 @@ fn unfit(args: &Args, kinds: (bool, Option<bool>)) -> Failure {
 
 /// What renders are made of means nothing to images.
 fn only_for_scenes(args: &Args) -> Result<(), Failure> {
-    let ImageArgs { size, samples, seed, depth, no_shadows, background, crop } = &args.image;
+    let ImageArgs { size, samples, seed, depth, no_shadows, background, crop, dpi, look } =
+        &args.image;
     let given = [
         ("--model", !args.model.is_empty()),
         ("--size", size.is_some()),
@@ -165,6 +166,8 @@ fn only_for_scenes(args: &Args) -> Result<(), Failure> {
         ("--no-shadows", *no_shadows),
         ("--background", background.is_some()),
         ("--crop", crop.is_some()),
+        ("--look", look.is_some()),
+        ("--dpi", dpi.is_some()),
     ];
     match given.iter().find(|(_, given)| *given) {
         Some((name, _)) => {

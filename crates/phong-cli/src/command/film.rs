@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use phong::film::{Film, Window};
-use phong::finish::{Finishing, finish};
+use phong::finish::finish;
 use phong::image::{
     Animation, AnimationFormat, AnimationOptions, Content, Format, WriteError, picture_of,
 };
@@ -241,7 +241,7 @@ impl Filming<'_> {
 
     /// Draws a file a picture. With `--resume` those that are there are left as they are.
     fn draw_files(&mut self, names: &Names) -> Result<(), Failure> {
-        let kinds = self.options.layers();
+        let kinds = self.options.shown_layers();
         for number in 0..self.motion.pictures() {
             let settings = self.stand(number)?;
             let path = names.path(self.motion.number(number));
@@ -279,7 +279,7 @@ impl Filming<'_> {
     ) -> Result<(), Failure> {
         let mut output = Output::create(path)?;
         keep_inputs_safe([&output], self.input.files())?;
-        let Window { x0, y0, x1, y1 } = self.options.window();
+        let Window { x0, y0, x1, y1 } = self.options.shown();
         let options = AnimationOptions {
             format,
             size: [x1 - x0, y1 - y0],
@@ -293,8 +293,11 @@ impl Filming<'_> {
             let mut animation = Animation::new(out, options)?;
             for number in 0..self.motion.pictures() {
                 let drawn = self.stand(number);
-                match drawn.and_then(|settings| self.draw(number, &settings, None)) {
-                    Ok(film) => animation.add(&finish(&film, &Finishing::default()))?,
+                let drawn = drawn.and_then(|settings| {
+                    Ok((self.draw(number, &settings, None)?, settings.finishing()))
+                });
+                match drawn {
+                    Ok((film, finishing)) => animation.add(&finish(&film, &finishing))?,
                     Err(failure) => {
                         failed = Some(failure);
                         return Err(WriteError::Unsuitable("a picture is missing".to_owned()));
@@ -315,7 +318,7 @@ impl Filming<'_> {
         let Self { args, options, there, .. } = self;
         let pictures = self.motion.pictures();
         if args.work.json {
-            let Window { x0, y0, x1, y1 } = options.window();
+            let Window { x0, y0, x1, y1 } = options.shown();
             let [primary, shadow, secondary] = self.rays;
             return report::json(&json!({
                 "output": target.name(),
@@ -352,5 +355,5 @@ fn is_there(path: &Path, format: Option<Format>, settings: &Settings) -> bool {
     let checksum = Some(settings.checksum());
     let is_of_it =
         |content: Content| picture_of(&content.path(path)).is_ok_and(|said| said == checksum);
-    Content::of(&settings.layers, format).into_iter().all(is_of_it)
+    Content::of(&settings.shown_layers(), format).into_iter().all(is_of_it)
 }

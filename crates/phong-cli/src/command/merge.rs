@@ -60,7 +60,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     encoding.linear |= linear;
     encoding.bits = bits.map_or(encoding.bits, Into::into);
     encoding.exposure = exposure.unwrap_or(encoding.exposure);
-    let mut outputs = Outputs::picture(&args.output, *output_format, &settings.layers)?;
+    let mut outputs = Outputs::picture(&args.output, *output_format, &settings.shown_layers())?;
     keep_inputs_safe(outputs.iter(), &args.parts)?;
     outputs.write(&film, &settings)?;
     outputs.commit()?;

@@ -32,6 +32,9 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
         );
     }
     let plan = Plan::new(args)?;
+    if args.toml {
+        return print_look(args, &plan);
+    }
     let quiet = args.work.quiet;
     // What cannot be written is known before anything is read, let alone rendered.
     let mut outputs = plan.outputs(args)?;
@@ -40,7 +43,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
     let mut meter = Meter::new(quiet, "reading");
     let mut input = input::open(&args.input, quiet)?;
     let options = plan.settle(args, &mut input)?;
-    outputs.keep(&options.layers());
+    outputs.keep(&options.shown_layers());
     keep_inputs_safe(outputs.iter(), input.files())?;
     clock.lap("read");
 
@@ -85,13 +88,13 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
         std::mem::forget((scene, film));
     }
     if args.work.json {
-        let Window { x0, y0, x1, y1 } = options.window();
+        let Window { x0, y0, x1, y1 } = options.shown();
         let layer =
             |kind: LayerKind| json!({ "name": kind.name(), "averaged": kind.is_averaged() });
         report::json(&json!({
             "output": plan.output.to_string_lossy(),
             "size": [x1 - x0, y1 - y0],
-            "layers": options.layers().into_iter().map(layer).collect::<Vec<_>>(),
+            "layers": options.shown_layers().into_iter().map(layer).collect::<Vec<_>>(),
             "samples": options.samples(),
             "threads": rayon::current_num_threads(),
             "seconds": clock.json(),
@@ -104,7 +107,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
             "warnings": input.warnings.iter().map(diagnostic).collect::<Vec<_>>(),
         }))?;
     } else if report::is_watched() && !quiet {
-        let [width, height] = [options.window().width(), options.window().height()];
+        let [width, height] = [options.shown().width(), options.shown().height()];
         let seconds = clock.seconds("trace");
         report::say(&format!(
             "{}: {width} × {height}, {} samples a pixel, {} rays in {seconds:.2} s ({})",
@@ -114,6 +117,15 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
             rate(rays.total(), seconds),
         ));
     }
+    Ok(input.files().to_vec())
+}
+
+/// Prints all of a scene but its objects, as the command line would have it drawn.
+fn print_look(args: &RenderArgs, plan: &Plan) -> Result<Vec<PathBuf>, Failure> {
+    let mut input = input::open(&args.input, args.work.quiet)?;
+    plan.settle(args, &mut input)?;
+    let text = input.scene.look_text().map_err(|error| Failure::Input(vec![*error]))?;
+    report::data(text.as_bytes())?;
     Ok(input.files().to_vec())
 }
 

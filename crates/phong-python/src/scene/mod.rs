@@ -6,8 +6,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use glam::{DAffine3, DVec3};
 use phong_scene::{
-    Export, ExportOptions, Folder, Format, Framing, Limits, MaterialId, Object, Points, Reading,
-    Scene as SceneText, Shape, read,
+    Export, ExportOptions, Folder, Format, Framing, Limits, MaterialId, NamedLook, Object, Points,
+    Reading, Scene as SceneText, Shape, closest, read,
 };
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyList, PyTuple, PyType};
@@ -366,12 +366,28 @@ impl Scene {
         Ok(String::from_utf8_lossy(&text).into_owned())
     }
 
-    /// A look by its name. Not yet: raises `NotImplementedError`.
-    #[expect(clippy::unused_self, reason = "it will be of this scene")]
+    /// A look by its name: `lecture`, `publication`, `clay`, `flat`, `ink`, `tachyon`, `vmd`, `pymol` or
+    /// `technical`. It sets lights, ambient light, fog, outline, background and the factors of materials,
+    /// by the camera as it is now.
     fn look(&self, name: &str) -> PyResult<()> {
-        Err(pyo3::exceptions::PyNotImplementedError::new_err(format!(
-            "scene.look({name:?}): not yet; looks come with a later version"
-        )))
+        let Some(look) = NamedLook::from_name(name) else {
+            let names = NamedLook::ALL.map(NamedLook::name);
+            let meant = closest(name, names).map(|name| format!(": did you mean {name:?}?"));
+            return Err(value_error(format!(
+                "look: there is no {name:?}{} (there are {})",
+                meant.unwrap_or_default(),
+                names.join(", ")
+            )));
+        };
+        let mut state = self.state();
+        let mut dressed = state.framed();
+        dressed.put_on(look);
+        state.automatic = Automatic::default();
+        let scene = state.objects();
+        let (camera, image) = (scene.camera.clone(), scene.image.clone());
+        let image = phong_scene::Image { background: dressed.image.background, ..image };
+        *scene = SceneText { camera, image, ..dressed };
+        Ok(())
     }
 
     /// The tables of its text but for the objects, as a dictionary made of it.

@@ -163,6 +163,9 @@ impl<'s> Judge<'s> {
         if let Some(fog) = &scene.fog {
             self.judge(&nowhere, || "fog".into(), |f| settings::fog(fog, f));
         }
+        if let Some(outline) = &scene.outline {
+            self.judge(&nowhere, || "outline".into(), |f| settings::outline(outline, f));
+        }
         for (i, clip) in scene.clips.iter().enumerate() {
             let name = || named("clips", i, "clip", &clip.place);
             self.judge(&clip.place, name, |f| settings::clip(clip, f));

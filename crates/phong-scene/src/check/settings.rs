@@ -11,6 +11,7 @@ use crate::color::Rgb;
 use crate::fog::{Fog, FogKind};
 use crate::light::{Light, LightKind};
 use crate::limits::LARGEST;
+use crate::outline::Outline;
 use crate::scene::Image;
 
 /// Below this sine of the angle to the view, a millionth of a degree, "up" is decided by rounding.
@@ -26,6 +27,10 @@ pub(super) fn ambient(color: Rgb, faults: &mut Faults) {
 
 pub(super) fn occlusion(occlusion: &AmbientOcclusion, faults: &mut Faults) {
     values(occlusion, None, faults);
+}
+
+pub(super) fn outline(outline: &Outline, faults: &mut Faults) {
+    values(outline, None, faults);
 }
 
 /// Judges fog.

@@ -11,6 +11,7 @@ use crate::clip::Clip;
 use crate::fog::Fog;
 use crate::light::Light;
 use crate::material::Material;
+use crate::outline::Outline;
 use crate::scene::Image;
 use crate::shape::Shape;
 use crate::texture::Texture;
@@ -24,6 +25,7 @@ pub(crate) enum Field {
     AmbientOcclusion(Access<AmbientOcclusion>),
     Fog(Access<Fog>),
     Clip(Access<Clip>),
+    Outline(Access<Outline>),
     Camera(Access<Camera>),
     Light(Access<Light>),
     Texture(Access<Texture>),

@@ -149,13 +149,14 @@ mod tests {
     use crate::keys::shape::SHAPES;
     use crate::keys::{CLIP, INCLUDE, LIGHT, MATERIAL, TEXTURE};
 
-    const CONCEPTS: [(&str, &str); 9] = [
+    const CONCEPTS: [(&str, &str); 10] = [
         ("ambient_occlusion.rs", include_str!("../ambient_occlusion.rs")),
         ("camera.rs", include_str!("../camera.rs")),
         ("clip.rs", include_str!("../clip.rs")),
         ("fog.rs", include_str!("../fog.rs")),
         ("light.rs", include_str!("../light.rs")),
         ("material.rs", include_str!("../material.rs")),
+        ("outline.rs", include_str!("../outline.rs")),
         ("scene.rs", include_str!("../scene.rs")),
         ("shape.rs", include_str!("../shape.rs")),
         ("texture.rs", include_str!("../texture.rs")),

@@ -11,6 +11,7 @@ use crate::ambient_occlusion::AmbientOcclusion;
 use crate::clip::{Clip, ClipKind, Keep};
 use crate::fog::{Fog, FogDistance, FogKind};
 use crate::limits::Range;
+use crate::outline::Outline;
 use crate::scene::{FilterKind, Image};
 use crate::wording::Word;
 
@@ -58,7 +59,12 @@ pub(crate) static SCENE: Table = Table {
                 Default::Said("none"),
                 "What is far away fades into a colour.",
             ),
-            Key::new("outline", Kind::NotYet, Default::Said("none"), "Lines around things."),
+            Key::new(
+                "outline",
+                Kind::Table(&OUTLINE),
+                Default::Said("none"),
+                "Lines around things, drawn when the picture is done.",
+            ),
             Key::new("clip", Kind::Tables(&CLIP), Default::Said("none"), "What is cut away."),
             Key::new("light", Kind::Tables(&LIGHT), Default::Said("none"), "The lights."),
             Key::new(
@@ -152,6 +158,13 @@ pub(crate) static IMAGE: Table = Table {
              faces do not show where light ends.",
         )
         .of(field!(Image.terminator)),
+        Key::new(
+            "dpi",
+            Kind::Number(Range::POSITIVE),
+            Default::Said("96, which no file says"),
+            "Pixels an inch: how wide lines are whose width is in points; PNG files say it.",
+        )
+        .of(field!(Image.dpi)),
     ]],
 };
 
@@ -272,6 +285,49 @@ pub(crate) static FOG: Table = Table {
             "The largest share; below 1 what is far away stays visible.",
         )
         .of(field!(Fog.strength)),
+    ]],
+};
+
+keyed!(Outline, |_| &OUTLINE);
+
+/// `[outline]`.
+pub(crate) static OUTLINE: Table = Table {
+    name: "outline",
+    doc: "Lines around things, drawn when the picture is done: they are no term of the sum.",
+    select: None,
+    keys: &[&[
+        Key::new(
+            "width",
+            Kind::Number(Range::POSITIVE),
+            Default::Number(1.0),
+            "Width of the lines in points: 72 are an inch, by the `dpi` of `[image]`.",
+        )
+        .of(field!(Outline.width)),
+        Key::new("color", Kind::Color, Default::Number(0.0), "Colour of the lines.")
+            .of(field!(Outline.color)),
+        Key::new(
+            "objects",
+            Kind::Flag,
+            Default::Flag(true),
+            "Whether lines run where one object ends before another or before the background.",
+        )
+        .of(field!(Outline.objects)),
+        Key::new(
+            "depth",
+            Kind::Number(Range::NOT_NEGATIVE),
+            Default::Number(0.02),
+            "Lines run within an object where the distance jumps by more than this share of it; 0: \
+             nowhere.",
+        )
+        .of(field!(Outline.depth)),
+        Key::new(
+            "crease",
+            Kind::Number(Outline::CREASE),
+            Default::Number(40.0),
+            "Lines run within an object where it turns by more than so many degrees from pixel to \
+             pixel; 180: nowhere.",
+        )
+        .of(field!(Outline.crease)),
     ]],
 };
 

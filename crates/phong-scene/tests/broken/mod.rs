@@ -4,7 +4,7 @@ use glam::{DAffine3, DVec3, Vec2, Vec3};
 use phong_scene::{
     AmbientOcclusion, Background, Camera, CameraKind, Cap, Clip, ClipKind, ConstantMaterial, Fog,
     FogKind, Fresnel, GradientBy, Group, GroupId, Image, Light, LightKind, Material, MaterialId,
-    Mesh, Model, NO_INDEX, Object, OcclusionDistance, Points, Rgb, Scene, Shape, Texture,
+    Mesh, Model, NO_INDEX, Object, OcclusionDistance, Outline, Points, Rgb, Scene, Shape, Texture,
     TextureId, TextureKind, TextureRef,
 };
 use proptest::prelude::*;
@@ -264,6 +264,7 @@ prop_compose! {
                 color: Some(top),
                 ..Fog::default()
             }),
+            outline: Some(Outline { width: fov, ..Outline::default() }),
             clips: vec![Clip {
                 kind: ClipKind::Plane { point: eye, normal: up },
                 cap: Cap::Of(MaterialId(depth)),

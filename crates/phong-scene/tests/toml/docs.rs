@@ -2,13 +2,14 @@
 
 use phong_scene::{Limits, Memory, read};
 
-const CONCEPTS: [(&str, &str); 8] = [
+const CONCEPTS: [(&str, &str); 9] = [
     ("ambient_occlusion.rs", include_str!("../../src/ambient_occlusion.rs")),
     ("camera.rs", include_str!("../../src/camera.rs")),
     ("clip.rs", include_str!("../../src/clip.rs")),
     ("fog.rs", include_str!("../../src/fog.rs")),
     ("light.rs", include_str!("../../src/light.rs")),
     ("material.rs", include_str!("../../src/material.rs")),
+    ("outline.rs", include_str!("../../src/outline.rs")),
     ("scene.rs", include_str!("../../src/scene.rs")),
     ("shape.rs", include_str!("../../src/shape.rs")),
 ];

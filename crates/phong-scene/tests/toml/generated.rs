@@ -5,9 +5,9 @@ use phong_scene::{
     AmbientOcclusion, AmbientRule, Background, Camera, CameraKind, Cap, Caps, Channel, Clip,
     ClipKind, ConstantMaterial as Material, Cylinders, Dialect, Distribution, FilterKind, Fog,
     FogDistance, FogKind, Fresnel, GradientBy, Group, GroupId, Image, Keep, Light, LightKind,
-    MaterialId, Mesh, Model, NO_INDEX, NormalFormat, Object, OcclusionDistance, OpacityMode, Place,
-    Points, Rgb, Scene, ShadowRule, Shadowing, Shape, Texture, TextureId, TextureKind, TextureRef,
-    TextureSpace, Tint, Viewer, WardForm,
+    MaterialId, Mesh, Model, NO_INDEX, NormalFormat, Object, OcclusionDistance, OpacityMode,
+    Outline, Place, Points, Rgb, Scene, ShadowRule, Shadowing, Shape, Texture, TextureId,
+    TextureKind, TextureRef, TextureSpace, Tint, Viewer, WardForm,
 };
 use proptest::prelude::*;
 
@@ -124,6 +124,11 @@ impl Make {
             ambient,
             ambient_occlusion,
             fog,
+            outline: self.flag().then_some(Outline {
+                width: 0.5,
+                crease: 30.0,
+                ..Outline::default()
+            }),
             clips,
             lights,
             materials,
@@ -148,6 +153,7 @@ impl Make {
             min_weight: self.one(&[1e-4, 0.0, 0.25, 1.0]),
             depth: self.one(&[8, 0, 100]),
             terminator: self.one(&[true, false]),
+            dpi: self.one(&[None, Some(300.0)]),
         }
     }
 

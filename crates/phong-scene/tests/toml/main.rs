@@ -70,6 +70,7 @@ fn summary(scene: &Scene) -> String {
         ambient,
         ambient_occlusion,
         fog,
+        outline,
         clips,
         lights,
         materials,
@@ -83,6 +84,7 @@ fn summary(scene: &Scene) -> String {
         format!("ambient {ambient:?}"),
     ];
     lines.extend(fog.map(|fog| format!("{fog:?}")));
+    lines.extend(outline.map(|outline| format!("{outline:?}")));
     lines.extend(clips.iter().map(|clip| format!("{clip:?}")));
     lines.extend(ambient_occlusion.map(|occlusion| format!("{occlusion:?}")));
     lines.extend(lights.iter().map(|light| differing(light, &Light::default())));

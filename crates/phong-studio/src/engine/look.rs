@@ -34,13 +34,14 @@ pub(super) struct Base {
 const NAME: &str = "scene.toml";
 
 /// What can be laid over a scene, by the first word of its keys.
-const PARTS: [&str; 9] = [
+const PARTS: [&str; 10] = [
     "image",
     "camera",
     "ambient",
     "ambient_occlusion",
     "fog",
     "clip",
+    "outline",
     "light",
     "materials",
     "textures",

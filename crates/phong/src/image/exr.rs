@@ -64,7 +64,7 @@ impl SamplesWriter for Samples<'_> {
     }
 }
 
-/// Writes all layers: `R G B A`, `diffuse.R`, `normal.X`, `uv.U`, `depth`, … Premultiplied.
+/// Writes all layers: `R G B A`, `finished.R` where anything is drawn onto the picture, `diffuse.R`, `normal.X`, `uv.U`, `depth`, … Premultiplied.
 pub(super) fn write(
     picture: &Finished<'_>,
     out: &mut (impl Write + Seek),
@@ -81,6 +81,12 @@ pub(super) fn write(
         let names = channel_names(layer.kind).into_iter().enumerate();
         let n = layer.kind.channels();
         list.extend(names.map(|(c, name)| channel(name, &layer.values, n, c)));
+    }
+    if let Some([picture, alpha]) = picture.drawn() {
+        for (c, name) in ["R", "G", "B"].into_iter().enumerate() {
+            list.push(channel(format!("finished.{name}"), picture, 3, c));
+        }
+        list.push(channel("finished.A".to_owned(), alpha, 1, 0));
     }
     if film.layer(LayerKind::Alpha).is_none() {
         opaque = vec![1.0; width * film.height() as usize];

@@ -250,7 +250,7 @@ pub fn srgb_level(linear: f32) -> u8 {
     curve::Curve::eight().level(linear) as u8
 }
 
-fn layer<'a>(picture: &Finished<'a>, kind: LayerKind) -> Result<&'a [f32], WriteError> {
+fn layer<'a>(picture: &'a Finished<'_>, kind: LayerKind) -> Result<&'a [f32], WriteError> {
     picture
         .values(kind)
         .ok_or_else(|| WriteError::Unsuitable(format!("the film has no layer {}", kind.name())))

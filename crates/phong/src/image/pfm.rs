@@ -13,7 +13,12 @@ pub(super) fn write(
     kind: LayerKind,
     out: &mut impl Write,
 ) -> Result<(), WriteError> {
-    let (values, n, film) = (layer(picture, kind)?, kind.channels(), picture.film());
+    let (n, film) = (kind.channels(), picture.film());
+    // As EXR it keeps the picture that nothing is drawn onto.
+    let values = match film.layer(kind) {
+        Some(layer) => &*layer.values,
+        None => layer(picture, kind)?,
+    };
     let magic = if n == 1 { "Pf" } else { "PF" };
     write!(out, "{magic}\n{} {}\n-1.0\n", film.width(), film.height())?;
     let mut bytes = Vec::with_capacity(film.width() as usize * 12);

@@ -6,7 +6,10 @@ use std::borrow::Cow;
 use std::io::{Cursor, Write};
 
 use phong_bvh::Level;
-use png::{BitDepth, ColorType, Compression, ScaledFloat, SrgbRenderingIntent, Transformations};
+use png::{
+    BitDepth, ColorType, Compression, PixelDimensions, ScaledFloat, SrgbRenderingIntent,
+    Transformations, Unit,
+};
 use rayon::prelude::*;
 
 use super::curve::{Curve, LinearLevels, linear_level};
@@ -95,6 +98,14 @@ pub(super) fn write(
     encoder.set_compression(Compression::Fast);
     for (keyword, text) in picture.origin().into_iter().flatten() {
         encoder.add_text_chunk(keyword.to_owned(), text).map_err(encoding_error)?;
+    }
+    if let Some(dpi) = picture.dpi() {
+        let a_meter = (dpi / 0.0254).round().clamp(1.0, f64::from(i32::MAX)) as u32;
+        encoder.set_pixel_dims(Some(PixelDimensions {
+            xppu: a_meter,
+            yppu: a_meter,
+            unit: Unit::Meter,
+        }));
     }
     let mut writer = encoder.write_header().map_err(encoding_error)?;
     writer.write_image_data(&bytes).map_err(encoding_error)?;

@@ -17,6 +17,8 @@ pub fn fingerprint(scene: &Scene) -> u32 {
         ambient,
         ambient_occlusion,
         fog,
+        // It is no part of the film.
+        outline: _,
         clips,
         lights,
         materials,

@@ -7,8 +7,9 @@ use phong_scene::Scene;
 use super::{ARITHMETIC, checksum, fingerprint};
 use crate::aov::Aov;
 use crate::film::{Film, LayerKind, Window};
+use crate::finish::Finishing;
 use crate::image::{Bits, Encoding};
-use crate::render::RenderOptions;
+use crate::render::{Lines, RenderOptions};
 use crate::terms::Term;
 
 /// What picture a part is of, and how it is to be written when it is whole.
@@ -44,6 +45,16 @@ impl Settings {
             ("filter", format!("{:?}", options.filter())),
             ("background", format!("{:?}", scene.image.background)),
         ];
+        let mut picture = picture.map(|(name, value)| (name.to_owned(), value)).to_vec();
+        let mut more = |name: &str, value| picture.push((name.to_owned(), value));
+        if let Some(lines) = options.lines() {
+            more("lines", lines.to_string());
+            more("shown", corners(options.shown()));
+            more("kept", names(&options.shown_layers()));
+        }
+        if let Some(dpi) = scene.image.dpi {
+            more("dpi", dpi.to_string());
+        }
         Self {
             size: options.size(),
             window: options.window(),
@@ -51,7 +62,7 @@ impl Settings {
             layers: options.layers(),
             share: options.share(),
             encoding,
-            picture: picture.map(|(name, value)| (name.to_owned(), value)).to_vec(),
+            picture,
         }
     }
 
@@ -59,6 +70,48 @@ impl Settings {
     pub fn scene(&self) -> Option<u32> {
         let (_, sum) = self.picture.iter().find(|(name, _)| name == "scene")?;
         u32::from_str_radix(sum, 16).ok()
+    }
+
+    fn said(&self, name: &str) -> Option<&str> {
+        self.picture.iter().find(|(said, _)| said == name).map(|(_, value)| value.as_str())
+    }
+
+    /// The part of the film that is shown, and its layers; `None`: all of it.
+    fn shown(&self) -> Option<(Window, Vec<LayerKind>)> {
+        let shown = window_of(self.said("shown")?)?;
+        let layers: Option<Vec<_>> = self.said("kept")?.split(',').map(layer_of).collect();
+        let layers = layers?.into_iter().filter(|kind| self.layers.contains(kind)).collect();
+        let within = shown.intersection(&self.window) == shown && shown.fits(self.size);
+        within.then_some((shown, layers))
+    }
+
+    /// The layers that files are to hold.
+    pub fn shown_layers(&self) -> Vec<LayerKind> {
+        self.shown().map_or_else(|| self.layers.clone(), |(_, layers)| layers)
+    }
+
+    /// Those of the finished picture as a film of its own ([`Finished::into_film`]): nothing more is to be
+    /// drawn onto it.
+    ///
+    /// [`Finished::into_film`]: crate::finish::Finished::into_film
+    #[must_use]
+    pub fn finished(mut self) -> Self {
+        if let Some((window, layers)) = self.shown() {
+            (self.window, self.layers) = (window, layers);
+        }
+        self.picture.retain(|(name, _)| !["lines", "shown", "kept"].contains(&&**name));
+        self
+    }
+
+    /// How the film is to be finished.
+    pub fn finishing(&self) -> Finishing {
+        let mut finishing = Finishing::default();
+        finishing.scene = self.scene();
+        finishing.lines = self.said("lines").and_then(Lines::from_text);
+        finishing.shown = self.shown();
+        let dpi = self.said("dpi").and_then(|dpi| dpi.parse().ok());
+        finishing.dpi = dpi.filter(|dpi: &f64| *dpi > 0.0 && dpi.is_finite());
+        finishing
     }
 
     /// A checksum of all that the picture and its file depend on, the version of the arithmetic
@@ -110,8 +163,6 @@ impl Settings {
     }
 
     fn lines(&self) -> Vec<(String, String)> {
-        let Window { x0, y0, x1, y1 } = self.window;
-        let layers: Vec<_> = self.layers.iter().map(|kind| kind.name()).collect();
         let share = self.share.map_or("none".to_owned(), |(i, n)| format!("{i}/{n}"));
         let bits = match self.encoding.bits {
             Bits::Eight => "8",
@@ -119,9 +170,9 @@ impl Settings {
         };
         let fixed = [
             ("size", format!("{}x{}", self.size[0], self.size[1])),
-            ("crop", format!("{x0},{y0},{x1},{y1}")),
+            ("crop", corners(self.window)),
             ("tile", self.tile.to_string()),
-            ("layers", layers.join(",")),
+            ("layers", names(&self.layers)),
             ("share", share),
             ("bits", bits.to_owned()),
             ("linear", self.encoding.linear.to_string()),
@@ -137,10 +188,7 @@ impl Settings {
         let mut next = |name: &str| lines.next()?.filter(|(n, _)| *n == name).map(|(_, v)| v);
         let (width, height) = next("size")?.split_once('x')?;
         let size = [width.parse().ok()?, height.parse().ok()?];
-        let corners = next("crop")?.split(',').map(|n| n.parse().ok());
-        let corners = <[u32; 4]>::try_from(corners.collect::<Option<Vec<_>>>()?).ok()?;
-        let [x0, y0, x1, y1] = corners;
-        let window = Window { x0, y0, x1, y1 };
+        let window = window_of(next("crop")?)?;
         let tile = next("tile")?.parse().ok().filter(|&edge| edge > 0)?;
         let layers = next("layers")?.split(',').map(layer_of).collect::<Option<_>>()?;
         let share = match next("share")? {
@@ -164,6 +212,20 @@ impl Settings {
         let settings = Self { size, window, tile, layers, share, encoding, picture };
         window.fits(size).then_some(settings)
     }
+}
+
+fn corners(Window { x0, y0, x1, y1 }: Window) -> String {
+    format!("{x0},{y0},{x1},{y1}")
+}
+
+fn window_of(text: &str) -> Option<Window> {
+    let corners = text.split(',').map(|n| n.parse().ok());
+    let [x0, y0, x1, y1] = <[u32; 4]>::try_from(corners.collect::<Option<Vec<_>>>()?).ok()?;
+    Some(Window { x0, y0, x1, y1 })
+}
+
+fn names(layers: &[LayerKind]) -> String {
+    layers.iter().map(|kind| kind.name()).collect::<Vec<_>>().join(",")
 }
 
 fn layer_of(name: &str) -> Option<LayerKind> {

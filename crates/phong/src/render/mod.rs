@@ -7,6 +7,7 @@
 mod cancel;
 mod draw;
 mod event;
+mod lines;
 mod options;
 mod passes;
 mod queue;
@@ -14,10 +15,12 @@ mod rendering;
 mod tile;
 
 pub(crate) use draw::{Drawn, camera_ray};
+pub(crate) use lines::SMOOTHINGS;
 
 pub use crate::integrator::RayCounts;
 pub use cancel::Cancel;
 pub use event::{Event, Progress};
+pub use lines::Lines;
 pub use options::{OptionsError, RenderOptions};
 pub use passes::{Pass, Passes};
 pub use rendering::{Outcome, RenderError, Rendering};

@@ -3,7 +3,7 @@
 use phong_scene::{FilterKind, Image};
 use thiserror::Error;
 
-use super::Passes;
+use super::{Lines, Passes};
 use crate::aov::Aov;
 use crate::film::{LayerKind, Sums8, Window};
 use crate::terms::TermSet;
@@ -36,6 +36,7 @@ pub struct RenderOptions {
     terms: TermSet,
     aovs: Vec<Aov>,
     passes: Passes,
+    lines: Option<Lines>,
 }
 
 /// Why there are no such options: in every case the caller's fault.
@@ -101,8 +102,7 @@ impl RenderOptions {
     /// [`with_depth`](Self::with_depth) and [`with_min_weight`](Self::with_min_weight): never for an
     /// image that the scene's check has passed.
     pub fn of(image: &Image) -> Result<Self, OptionsError> {
-        let Image { size, samples, filter, seed, depth, min_weight, terminator, background: _ } =
-            *image;
+        let Image { size, samples, filter, seed, depth, min_weight, terminator, .. } = *image;
         let valid = Self {
             size: [1, 1],
             window: Window::full([1, 1]),
@@ -118,6 +118,7 @@ impl RenderOptions {
             terms: TermSet::NONE,
             aovs: Vec::new(),
             passes: Passes::default(),
+            lines: None,
         };
         valid.with_size(size)?.with_samples(samples)?.with_depth(depth)?.with_min_weight(min_weight)
     }
@@ -253,13 +254,37 @@ impl RenderOptions {
         Self { passes, ..self }
     }
 
+    /// Keeps what these lines are drawn by, and renders as much around the part that is shown as they
+    /// are made of.
+    #[must_use]
+    pub fn with_lines(self, lines: Option<Lines>) -> Self {
+        Self { lines, ..self }
+    }
+
+    /// Lines that are drawn when the film is done; `None`: there are none.
+    pub fn lines(&self) -> Option<Lines> {
+        self.lines
+    }
+
     /// Width and height of the full picture, pixels.
     pub fn size(&self) -> [u32; 2] {
         self.size
     }
 
-    /// The part of it to render.
+    /// The part of it to render: what is shown, and what lines need around that.
     pub fn window(&self) -> Window {
+        let Window { x0, y0, x1, y1 } = self.window;
+        let margin = self.lines.map_or(0, |lines| lines.margin());
+        Window {
+            x0: x0.saturating_sub(margin),
+            y0: y0.saturating_sub(margin),
+            x1: x1.saturating_add(margin).min(self.size[0]),
+            y1: y1.saturating_add(margin).min(self.size[1]),
+        }
+    }
+
+    /// The part of it that is shown.
+    pub fn shown(&self) -> Window {
         self.window
     }
 
@@ -332,24 +357,39 @@ impl RenderOptions {
     /// Bytes of memory that a rendering keeps: its film, and between passes the pixels' sums.
     pub fn film_bytes(&self) -> u64 {
         let values: usize = self.layers().iter().map(|kind| kind.channels()).sum();
-        let film = self.window.pixels().saturating_mul(4 * values as u64);
+        let window = self.window();
+        let film = window.pixels().saturating_mul(4 * values as u64);
         let between = match self.passes {
             // The only sample is the last.
             Passes::CoarseToFine | Passes::Doubling if self.samples == 1 => 0,
             Passes::One => 0,
             Passes::CoarseToFine | Passes::Doubling => {
-                let across = self.window.width().div_ceil(self.tile);
+                let across = window.width().div_ceil(self.tile);
                 let eights =
-                    u64::from(across) * u64::from(self.tile.min(self.window.width()).div_ceil(8));
-                let rows = eights * u64::from(self.window.height());
+                    u64::from(across) * u64::from(self.tile.min(window.width()).div_ceil(8));
+                let rows = eights * u64::from(window.height());
                 rows.saturating_mul(size_of::<Sums8>() as u64)
             }
         };
         film.saturating_add(between)
     }
 
-    /// The layers of the film: the picture, its alpha, the terms and variables asked for.
+    /// The layers of the film: those that are shown, and what lines are drawn by.
     pub fn layers(&self) -> Vec<LayerKind> {
+        let mut kinds = self.shown_layers();
+        let needs =
+            self.lines.iter().flat_map(|_| Lines::NEEDS).filter(|aov| !self.aovs.contains(aov));
+        kinds.extend(needs.map(LayerKind::Aov));
+        kinds
+    }
+
+    /// Whether the film holds any variable.
+    pub(crate) fn has_variables(&self) -> bool {
+        !self.aovs.is_empty() || self.lines.is_some()
+    }
+
+    /// The layers that are shown: the picture, its alpha, the terms and variables asked for.
+    pub fn shown_layers(&self) -> Vec<LayerKind> {
         let mut kinds = vec![LayerKind::Picture, LayerKind::Alpha];
         kinds.extend(self.terms.iter().map(LayerKind::Term));
         kinds.extend(self.aovs.iter().copied().map(LayerKind::Aov));

@@ -102,7 +102,7 @@ impl<'a> TileRenderer<'a> {
             self.samples(window, samples, earlier, buffers, counts)?
         };
         // Variables are of the centre ray, and do not change from pass to pass.
-        if earlier.is_none() && !self.options.aovs().is_empty() {
+        if earlier.is_none() && self.options.has_variables() {
             for y in window.y0..window.y1 {
                 for x in window.x0..window.x1 {
                     self.check_cancelled()?;
@@ -217,7 +217,7 @@ impl<'a> TileRenderer<'a> {
                         LayerKind::Aov(_) => {}
                     }
                 }
-                if !self.options.aovs().is_empty() {
+                if self.options.has_variables() {
                     self.variables(middle(square), place, values);
                 }
                 for (kind, values) in self.layers.iter().zip(&mut *values) {

@@ -53,6 +53,10 @@ pub(crate) fn leave_out(
         if scene.fog.is_some() {
             account.drop(Diagnostic::warning(format!("{format} holds no fog"), None));
         }
+        if scene.outline.is_some() {
+            let message = format!("{format} holds no lines around things (`[outline]`)");
+            account.drop(Diagnostic::warning(message, None));
+        }
         if !scene.clips.is_empty() {
             let message = format!("{format} holds nothing that is cut away (`[[clip]]`)");
             account.drop(Diagnostic::warning(message, None));

@@ -46,6 +46,9 @@ pub(crate) fn write_gltf(
         if scene.fog.is_some() {
             lost.push("fog");
         }
+        if scene.outline.is_some() {
+            lost.push("lines around things");
+        }
         if !scene.clips.is_empty() {
             lost.push("clips: what they cut away is there");
         }

@@ -28,6 +28,7 @@ use crate::light::Light;
 use crate::limits::Limits;
 use crate::material::Material;
 use crate::molecule::Topology;
+use crate::outline::Outline;
 use crate::scene::{Image, Scene};
 use crate::source::Source;
 use crate::texture::Texture;
@@ -49,6 +50,7 @@ pub(super) struct Reader<'a> {
     pub(super) ambient: Rgb,
     pub(super) ambient_occlusion: Option<AmbientOcclusion>,
     pub(super) fog: Option<Fog>,
+    pub(super) outline: Option<Outline>,
     /// The clips, and where in `material_names` the material of each one's cap is.
     pub(super) clips: Vec<(Clip, Option<usize>)>,
     clip_count: usize,
@@ -102,6 +104,7 @@ impl<'a> Reader<'a> {
             ambient: Rgb::WHITE,
             ambient_occlusion: None,
             fog: None,
+            outline: None,
             clips: Vec::new(),
             clip_count: 0,
             lights: Vec::new(),
@@ -240,7 +243,7 @@ impl<'a> Reader<'a> {
     /// `[image]`, `[ambient]` and the like where the text has none, and something is laid
     /// over them.
     fn settings_not_written(&mut self, document: &DeTable<'_>, head: Spot) {
-        for name in ["image", "ambient", "ambient_occlusion", "fog"] {
+        for name in ["image", "ambient", "ambient_occlusion", "fog", "outline"] {
             let Some(Kind::Table(table)) = keys::SCENE.find(name, None).map(|key| key.kind) else {
                 continue;
             };
@@ -292,6 +295,10 @@ impl<'a> Reader<'a> {
             "ambient_occlusion" => {
                 let mut occlusion = AmbientOcclusion::default();
                 self.ambient_occlusion = values.fill(&mut occlusion).map(|()| occlusion);
+            }
+            "outline" => {
+                let mut outline = Outline::default();
+                self.outline = values.fill(&mut outline).map(|()| outline);
             }
             _ => self.image = settings::image(&values).unwrap_or_default(),
         }

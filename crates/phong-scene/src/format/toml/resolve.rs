@@ -71,6 +71,7 @@ impl Reader<'_> {
             ambient: self.ambient,
             ambient_occlusion: self.ambient_occlusion,
             fog: self.fog,
+            outline: self.outline,
             clips,
             lights: self.lights,
             materials,

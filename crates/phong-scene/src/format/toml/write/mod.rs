@@ -48,6 +48,7 @@ pub(crate) fn write_toml(
         ambient,
         ambient_occlusion,
         fog,
+        outline,
         clips,
         lights,
         materials,
@@ -84,6 +85,11 @@ pub(crate) fn write_toml(
                 if let Some(fog) = fog {
                     let kind = table.word_of(&fog);
                     out.table(&header, table, kind, |key| key.get(&fog));
+                }
+            }
+            "outline" => {
+                if let Some(outline) = outline {
+                    out.table(&header, table, None, |key| key.get(&outline));
                 }
             }
             "ambient_occlusion" => {

@@ -1,0 +1,218 @@
+//! What finishes a picture after its film, and before it is written.
+//!
+//! What belongs here is drawn onto a picture (outlines, labels, tone) and is no term: the film is always
+//! the sum of its terms.
+
+mod outline;
+
+use std::borrow::Cow;
+
+use crate::film::{Film, LayerKind, Window};
+use crate::render::Lines;
+
+/// How a picture is to be finished. The default leaves it as its film has it.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Finishing {
+    /// The scene's [`fingerprint`](crate::part::fingerprint()): PNG and EXR files then say which
+    /// scene they are of. `None`: they do not.
+    pub scene: Option<u32>,
+    /// The checksum of all that the picture depends on
+    /// ([`Settings::checksum`](crate::part::Settings::checksum)): PNG and EXR files then say which
+    /// picture they are ([`picture_of`](crate::image::picture_of)). `None`: they do not.
+    pub picture: Option<u32>,
+    /// Lines around things; `None`: there are none. They are drawn by [`Lines::NEEDS`] of the film.
+    pub lines: Option<Lines>,
+    /// What of the film is shown: its window without the margin that lines needed, and the layers that were
+    /// asked for; `None`: all of it.
+    pub shown: Option<(Window, Vec<LayerKind>)>,
+    /// Pixels an inch, which PNG files say; `None`: they do not.
+    pub dpi: Option<f64>,
+}
+
+impl Finishing {
+    /// The same, of the scene with this [`fingerprint`](crate::part::fingerprint()).
+    #[must_use]
+    pub fn of_scene(self, fingerprint: u32) -> Self {
+        Self { scene: Some(fingerprint), ..self }
+    }
+
+    /// The same, of the picture with this checksum.
+    #[must_use]
+    pub fn of_picture(self, checksum: u32) -> Self {
+        Self { picture: Some(checksum), ..self }
+    }
+}
+
+/// A film, and the picture that it is finished to.
+#[derive(Clone, Debug)]
+pub struct Finished<'a> {
+    film: Cow<'a, Film>,
+    /// The picture and its alpha with all that is drawn onto it; `None`: nothing is.
+    drawn: Option<[Vec<f32>; 2]>,
+    dpi: Option<f64>,
+    scene: Option<u32>,
+    picture: Option<u32>,
+}
+
+/// Finishes a film's picture.
+pub fn finish<'a>(film: &'a Film, finishing: &Finishing) -> Finished<'a> {
+    let Finishing { scene, picture, lines, shown, dpi } = finishing;
+    let (scene, picture, dpi) = (*scene, *picture, *dpi);
+    let coverage = lines.and_then(|lines| Some((outline::coverage(film, &lines)?, lines)));
+    let Some((window, kinds)) = shown else {
+        let drawn = coverage.map(|(coverage, lines)| drawn(film, &coverage, &lines));
+        return Finished { film: Cow::Borrowed(film), drawn, dpi, scene, picture };
+    };
+    let film_shown = film.cut(*window, kinds);
+    let drawn = coverage.map(|(coverage, lines)| {
+        drawn(&film_shown, &film.cut_values(&coverage, 1, *window), &lines)
+    });
+    Finished { film: Cow::Owned(film_shown), drawn, dpi, scene, picture }
+}
+
+/// A film's picture and alpha under lines that cover each pixel by so much.
+fn drawn(film: &Film, coverage: &[f32], lines: &Lines) -> [Vec<f32>; 2] {
+    let values = |kind| film.layer(kind).map(|layer| layer.values.to_vec());
+    let mut picture = values(LayerKind::Picture).unwrap_or_default();
+    let color = lines.color.to_array();
+    for (pixel, &share) in picture.as_chunks_mut::<3>().0.iter_mut().zip(coverage) {
+        if share > 0.0 {
+            for (value, color) in pixel.iter_mut().zip(color) {
+                *value = *value * (1.0 - share) + color * share;
+            }
+        }
+    }
+    let mut alpha = values(LayerKind::Alpha).unwrap_or_else(|| vec![1.0; coverage.len()]);
+    for (alpha, &share) in alpha.iter_mut().zip(coverage) {
+        *alpha += (1.0 - *alpha) * share;
+    }
+    [picture, alpha]
+}
+
+impl<'a> Finished<'a> {
+    /// The film, as it was rendered.
+    pub fn film(&self) -> &Film {
+        &self.film
+    }
+
+    /// Red, green and blue of the finished picture, and its alpha; `None`: nothing is drawn onto it.
+    pub(crate) fn drawn(&self) -> Option<[&[f32]; 2]> {
+        self.drawn.as_ref().map(|[picture, alpha]| [&**picture, &**alpha])
+    }
+
+    /// Pixels an inch, which files say; `None`: they do not.
+    pub(crate) fn dpi(&self) -> Option<f64> {
+        self.dpi
+    }
+
+    /// The finished picture as a film of its own, whose picture and alpha are what is drawn.
+    #[must_use]
+    pub fn into_film(self) -> Film {
+        let mut film = self.film.into_owned();
+        let Some([picture, alpha]) = self.drawn else { return film };
+        for layer in &mut film.layers {
+            match layer.kind {
+                LayerKind::Picture => layer.values.copy_from_slice(&picture),
+                LayerKind::Alpha => layer.values.copy_from_slice(&alpha),
+                _ => {}
+            }
+        }
+        film
+    }
+
+    /// What a file says of its origin: the program with its version, the scene's fingerprint, and the
+    /// picture's checksum.
+    pub(crate) fn origin(&self) -> [Option<(&'static str, String)>; 3] {
+        let program = concat!("phong ", env!("CARGO_PKG_VERSION")).to_owned();
+        let sum = |sum: u32| format!("crc32 {sum:08x}");
+        [
+            Some(("Software", program)),
+            self.scene.map(|scene| ("Scene", sum(scene))),
+            self.picture.map(|picture| ("Picture", sum(picture))),
+        ]
+    }
+
+    /// The values of a layer as they are to be seen; `None` if the film has no such layer.
+    pub fn values(&self, kind: LayerKind) -> Option<&[f32]> {
+        match (kind, &self.drawn) {
+            (LayerKind::Picture, Some([picture, _])) => return Some(picture),
+            (LayerKind::Alpha, Some([_, alpha])) => return Some(alpha),
+            _ => {}
+        }
+        self.film.layer(kind).map(|layer| &*layer.values)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use phong_scene::Rgb;
+
+    use crate::aov::Aov;
+
+    #[test]
+    fn a_picture_that_nothing_finishes_is_its_film() {
+        let size = [3, 2];
+        let mut film = Film::new(size, Window::full(size), 16, &[LayerKind::Picture]);
+        film.layers[0].values[4] = 0.25;
+        let finished = finish(&film, &Finishing::default());
+        assert_eq!(finished.film(), &film);
+        assert_eq!(finished.values(LayerKind::Picture), Some(&*film.layers[0].values));
+        assert_eq!(finished.values(LayerKind::Alpha), None);
+    }
+
+    /// White but for a black line of two pixels between two objects, and what a part of it shows.
+    #[test]
+    fn a_line_between_two_objects_covers_its_width_and_a_part_has_the_line_of_the_whole() {
+        let lines =
+            Lines { width: 2.0, color: Rgb::BLACK, objects: true, depth: 0.0, crease: 180.0 };
+        let size = [24, 8];
+        let kinds = [LayerKind::Picture, LayerKind::Alpha]
+            .into_iter()
+            .chain(Lines::NEEDS.map(LayerKind::Aov))
+            .collect::<Vec<_>>();
+        let mut film = Film::new(size, Window::full(size), 16, &kinds);
+        for layer in &mut film.layers {
+            let n = layer.kind.channels();
+            for (i, value) in layer.values.iter_mut().enumerate() {
+                let x = i / n % 24;
+                *value = match layer.kind {
+                    LayerKind::Picture => 1.0,
+                    LayerKind::Alpha => {
+                        if x < 12 {
+                            1.0
+                        } else {
+                            0.0
+                        }
+                    }
+                    LayerKind::Aov(Aov::Object) => {
+                        if x < 12 {
+                            1.0
+                        } else {
+                            0.0
+                        }
+                    }
+                    _ => 0.0,
+                };
+            }
+        }
+        let finishing = Finishing { lines: Some(lines), ..Finishing::default() };
+        let whole = finish(&film, &finishing);
+        let row: Vec<f32> = (0..24)
+            .map(|x| whole.values(LayerKind::Picture).expect("a picture")[3 * (4 * 24 + x)])
+            .collect();
+        // It runs at 11.5, between the middles of two pixels, which it covers wholly.
+        assert_eq!(row[9..15], [1.0, 1.0, 0.0, 0.0, 1.0, 1.0]);
+        let alpha = whole.values(LayerKind::Alpha).expect("alpha");
+        assert_eq!(alpha[4 * 24 + 10..4 * 24 + 14], [1.0, 1.0, 1.0, 0.0]);
+        assert_eq!(whole.film(), &film);
+        let shown = Window { x0: 12, y0: 2, x1: 20, y1: 5 };
+        let kinds = vec![LayerKind::Picture, LayerKind::Alpha];
+        let part = Finishing { shown: Some((shown, kinds)), ..finishing };
+        let part = finish(&film, &part);
+        let drawn = part.values(LayerKind::Picture).expect("a picture");
+        assert_eq!((drawn.len(), drawn[0], drawn[3]), (3 * 8 * 3, 0.0, 1.0));
+        assert_eq!((part.film().width(), part.film().layers.len()), (8, 2));
+    }
+}
