@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 """Keeps the studio busy for a while, and tells what memory it has before and after.
 
-`python3 .ci/soak.py PHONG [--minutes N] [--scene FILE]`: clients come, turn the scene, change it, ask
-and go, some of them in the middle of a picture. At the end memory may not
-have grown by more than a quarter and 16 MiB, and the last picture is the first, byte for byte.
+`python3 .ci/soak.py PHONG [--minutes N] [--scene FILE] [--pause SECONDS]`: clients come, turn the scene,
+change it, ask and go, some of them in the middle of a picture, and some without a word, so that the
+server has to find out. At the end memory may not have grown by more than a quarter and 16 MiB, open files
+and threads not at all, and the last picture is the first, byte for byte. `--pause`: seconds between two
+clients, on a machine that has other things to do.
 """
 
 import argparse
@@ -79,6 +81,8 @@ class Client:
         return self.hear()
 
     def close(self):
+        # The socket is closed when its file is as well.
+        self.file.close()
         self.socket.close()
 
 
@@ -86,6 +90,12 @@ def resident(process):
     """Bytes of memory that a process has now."""
     pages = Path(f"/proc/{process.pid}/statm").read_text().split()[1]
     return int(pages) * os.sysconf("SC_PAGE_SIZE")
+
+
+def held(process):
+    """How many files and threads a process has now."""
+    folder = Path(f"/proc/{process.pid}")
+    return len(list((folder / "fd").iterdir())), len(list((folder / "task").iterdir()))
 
 
 def busy(process):
@@ -115,6 +125,10 @@ def visit(url, name, dice):
     if dice.randrange(3):
         client.drawn()
     pictures = client.look["picture"]
+    if dice.randrange(4) == 0:
+        # In the middle of a message, and by a reset.
+        client.socket.sendall(bytes([0x81, 0xFE, 0x01]))
+        client.socket.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
     client.close()
     return pictures
 
@@ -135,14 +149,22 @@ def soak(arguments):
         for _ in range(5):
             visit(url, scene.name, dice)
         time.sleep(0.5)
-        before = resident(studio)
-        end, visits, pictures, most = time.monotonic() + 60 * arguments.minutes, 0, 0, before
+        before, held_before = resident(studio), held(studio)
+        begun = told = time.monotonic()
+        end, visits, pictures, most = begun + 60 * arguments.minutes, 0, 0, before
         while time.monotonic() < end:
             pictures += visit(url, scene.name, dice)
             visits += 1
             most = max(most, resident(studio))
-        time.sleep(0.5)
-        after = resident(studio)
+            time.sleep(arguments.pause)
+            if time.monotonic() - told > 60:
+                told = time.monotonic()
+                print(f"{(told - begun) / 60:.0f} min: {visits} clients, memory {resident(studio) / 2**20:.1f} MiB", flush=True)
+        patience = time.monotonic() + 30
+        more = lambda: any(now > then for now, then in zip(held(studio), held_before))
+        while more() and time.monotonic() < patience:
+            time.sleep(0.5)
+        after, held_after = resident(studio), held(studio)
         client = Client(url)
         client.ask(do="open", path=scene.name)
         client.until("look")
@@ -151,7 +173,9 @@ def soak(arguments):
         client.close()
         mib = [f"{n / 2**20:.1f}" for n in (before, most, after)]
         print(f"{arguments.minutes} min: {visits} clients, {pictures} pictures begun; memory {mib[0]} MiB, at most {mib[1]}, at the end {mib[2]}")
+        print(f"open files and threads: {held_before} before, {held_after} at the end")
         assert after <= 1.25 * before + 2**24, "memory has grown"
+        assert not more(), "sessions have stayed"
     finally:
         studio.terminate()
         studio.wait()
@@ -189,6 +213,7 @@ parser = argparse.ArgumentParser()
 parser.add_argument("phong")
 parser.add_argument("--scene", default="scenes/two-balls.toml")
 parser.add_argument("--minutes", type=float, default=60)
+parser.add_argument("--pause", type=float, default=0, help="seconds between two clients")
 parser.add_argument("--seconds", type=float, help="measure pictures a second for so long, and nothing else")
 parser.add_argument("--full", type=int, default=0, help="the pass that counts as a picture: 0 at an eighth of the size, 1 in full")
 arguments = parser.parse_args()
