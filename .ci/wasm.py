@@ -222,6 +222,25 @@ def walk(browser, address, faults):
     return sorted(firsts)[1]
 
 
+def too_large(browser, address, faults):
+    """A file that is too large for a browser: that is told, and nothing of it is asked for."""
+    context, page = open_page(browser, address, faults, service_workers="block")
+    wait(page, "studio.look")
+    asked = []
+    page.on("request", lambda request: asked.append(request.url))
+
+    def enlarged(route):
+        told = json.loads(route.fetch().text())
+        told["scenes"][told["open"]]["bytes"] = 600_000_000
+        route.fulfill(body=json.dumps(told), content_type="application/json")
+
+    page.route("**/files.json", enlarged)
+    page.reload()
+    wait(page, "document.getElementById('status').textContent.includes('600 MB')")
+    assert not any("/scenes/" in url for url in asked), asked
+    context.close()
+
+
 # Without vector instructions it may be left out: that takes as long again to build.
 KINDS = [kind for kind in ("simd", "plain") if kind == "simd" or (PHONG.parent / f"wasm/phong-{kind}_bg.wasm").exists()]
 
@@ -256,6 +275,7 @@ def main():
         print(f"two balls at 960 × 540: {turns:.0f} turns a second, each with its first pass")
         first = walk(browser, f"{root}/two/balls/", faults)
         print(f"from the address to the first picture: median of 3 {first:.0f} ms")
+        too_large(browser, f"{root}/two/balls/", faults)
         browser.close()
     server.shutdown()
     engines = list(next(iter(table.values())))

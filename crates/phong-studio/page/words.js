@@ -69,6 +69,8 @@ export const words = {
   grade: "Grade a picture of this scene (or drop it on the page):",
   verdict: "What there is to say about the picture",
   grading: (name) => `Grading ${name} …`,
+  tooLargeHere: (name, bytes, most) =>
+    `${name} has ${Math.ceil(bytes / 1e6)} MB, and a browser reads at most ${most / 1e6} MB: phong studio and phong render take larger files.`,
   tooLarge: (name) => `${name} is too large to be graded here: at most 6 MB. phong grade takes larger ones.`,
   passes: "passes",
   fails: "does not pass",

@@ -1,6 +1,12 @@
 // A worker of the page with an engine of its own: PROTOCOL.md without a server. Requests and replies
 // are texts, tiles and files are buffers, as over a socket; what goes with workers alone is an object.
 
+import { words } from "./words.js";
+
+// The most bytes of a file that is read here: what is made of it takes several times as much, of the
+// 4 GB that an engine can have in a page.
+const MOST_BYTES = 5e8;
+
 // How long to draw before the next request is heard, in ms.
 const SLICE = 12;
 
@@ -11,6 +17,8 @@ let trouble = "";
 // Replies that wait until it is known whether a file was lacking; null: they are sent at once.
 let kept = null;
 const asked = new Set();
+// What is said of files that are too large.
+const large = [];
 const queue = [];
 let awake = false;
 
@@ -79,13 +87,22 @@ async function receive(request) {
     studio.receive(request);
     const [said, lacking] = [kept, studio.lacking().filter((path) => path in shelf && !asked.has(path))];
     kept = null;
-    if (lacking.length === 0) return said.forEach((reply) => postMessage(reply));
+    if (lacking.length === 0) {
+      // That a file is too large says more than the engine, to which it is not there.
+      return [...said, ...large.splice(0)].forEach((reply) => postMessage(reply));
+    }
     for (const path of lacking) await fetchFile(path);
   }
 }
 
 async function fetchFile(path) {
   asked.add(path);
+  // files.json says how large it is: this is told before any of it is read.
+  const { bytes } = shelf[path];
+  if (bytes > MOST_BYTES) {
+    large.push(JSON.stringify({ is: "error", message: words.tooLargeHere(path, bytes, MOST_BYTES) }));
+    return;
+  }
   const address = new URL(`scenes/${path.split("/").map(encodeURIComponent).join("/")}`, location.href);
   const answer = await fetch(address).catch(() => null);
   if (answer?.ok) studio.put(path, new Uint8Array(await answer.arrayBuffer()));
