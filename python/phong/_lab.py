@@ -152,9 +152,7 @@ def convert(
     cylinders, cones, tori, discs and boxes, nowhere farther than this from the surface, in scene
     units, above 0.
     """
-    return Conversion(
-        json.loads(_phong._convert(scene_of(scene), path, to, ascii, tessellate))
-    )
+    return Conversion(json.loads(_phong._convert(scene_of(scene), path, to, ascii, tessellate)))
 
 
 def check(scene: Scene | Path, *, format: str | None = None) -> list[Diagnostic]:

@@ -18,7 +18,8 @@ class Scene(_phong.Scene):
     does. ``lights``: a list of :class:`phong.Light`; ``None``: two that stand behind the camera.
     ``ambient``: colour of the ambient light. ``background``: a colour, ``"transparent"``, or
     ``{"top": ..., "bottom": ...}``. Colours: one number is grey, three are linear red, green and
-    blue; ``"#rrggbb"`` and CSS names are sRGB.
+    blue; ``"#rrggbb"`` and CSS names are sRGB. ``settings``: the other tables of the scene text by
+    their names, like ``fog={"end": 12}``, ``ambient_occlusion={"samples": 16}``, ``clip=[{...}]``.
 
     What rays meet is compiled by the first picture and kept: another camera, other lights,
     materials or colours need no second build. A scene can be pickled and copied, and used by
@@ -90,6 +91,18 @@ class Scene(_phong.Scene):
     @image.setter
     def image(self, keys: dict[str, Any]) -> None:
         self.set_image(keys)
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """The tables that stand alone (``fog``, ``ambient_occlusion``, ``clip``, ...), as
+        dictionaries of what is not as by default.
+
+        A copy: :meth:`set_settings` changes one, as in ``scene.set_settings(fog={"end": 12})``, and
+        takes it away as in ``scene.set_settings(fog=None)``.
+        """
+        others = ("version", "image", "camera", "ambient", "light", "materials", "textures")
+        tables = tomllib.loads(self._tables())
+        return {name: table for name, table in tables.items() if name not in others}
 
     def digest(self) -> str:
         """A hash (hexadecimal) of all that it is; equal scenes have equal ones."""

@@ -174,3 +174,69 @@ def test_a_copy_goes_its_own_way() -> None:
     other.remove(other.parts[0])
     assert len(scene.parts) == 1
     assert not other.parts
+
+
+def test_settings_of_a_scene_are_the_tables_of_its_text() -> None:
+    options: dict[str, Any] = {"size": (40, 30), "samples": 1}
+    fog = {"start": 1.0, "end": 12.0, "color": "#dfe9f4"}
+    sun = phong.Light(kind="distant", direction=(-1, -1, -1))
+    camera = phong.Camera(eye=(0, 1, 6), look_at=(0, 0, 0))
+    scene = phong.Scene(camera, [sun], fog=fog)
+    scene.add(phong.Sphere(center=(0, 0, 0), radius=1, name="ball"))
+    brass = phong.Material("brass", color="gold")
+    scene.add(phong.Sphere(center=(2, 0, 0), radius=0.5, material=brass))
+    assert set(scene.settings) == {"fog"}
+    foggy = phong.render(scene, **options)
+    scene.set_settings(fog=None, ambient_occlusion={"samples": 4})
+    assert scene.settings == {"ambient_occlusion": {"samples": 4}}
+    assert phong.render(scene, **options) != foggy
+    cut = {"point": (0, 0, 0), "normal": (1, 1, 1), "cap": "brass", "objects": ["ball"]}
+    scene.set_settings(ambient_occlusion=None, clip=[cut])
+    assert scene.settings["clip"][0]["cap"] == "brass"
+    clipped = phong.render(scene, **options)
+    text = phong.Scene.parse(scene.to_toml())
+    assert np.array_equal(phong.render(text, **options), clipped)
+    with pytest.raises(phong.SceneError, match="there is no object"):
+        scene.set_settings(clip=[{**cut, "objects": ["bell"]}])
+    with pytest.raises(phong.SceneError, match="brasss"):
+        scene.set_settings(clip=[{**cut, "cap": "brasss"}])
+    with pytest.raises(phong.SceneError, match="did you mean `fog`"):
+        scene.set_settings(fogg={"end": 3})
+    with pytest.raises(ValueError, match="camera is no setting"):
+        scene.set_settings(camera={"eye": (0, 0, 1)})
+    assert phong.render(scene, **options) == clipped, "what was wrong has changed nothing"
+
+
+def test_clips_and_images_are_pickled(tmp_path: Path) -> None:
+    options: dict[str, Any] = {"size": (40, 30), "samples": 1}
+    pixels = phong.Scene(background="tomato")
+    pixels.add(phong.Sphere(center=(0, 0, 0), radius=1))
+    phong.render(pixels, size=(8, 8), samples=1).save(tmp_path / "image.png")
+    phong.render(pixels, size=(4, 4), samples=1).save(tmp_path / "deep.png", bits=16)
+    (tmp_path / "scene.toml").write_text(
+        """version = 1
+        camera = { eye = [0, 1, 5], look_at = [0, 0, 0] }
+        light = [{ kind = "distant", direction = [-1, -1, -1] }]
+        textures.a = { kind = "image", file = "image.png", wrap = "mirror" }
+        textures.b = { kind = "image", file = "deep.png" }
+        textures.c = { kind = "image", file = "image.png", filter = "nearest" }
+        materials.a = { color = { texture = "a" } }
+        materials.b = { color = { texture = "b" } }
+        materials.c = { color = { texture = "c" }, shininess = 7 }
+        sphere = [{ name = "ball", center = [0, 0, 0], radius = 1, material = "a" },
+            { center = [2, 0, 0], radius = 0.8, material = "b" },
+            { center = [-2, 0, 0], radius = 0.8, material = "c" }]
+        clip = [{ point = [0, 0, 0.5], normal = [0, 0, 1], objects = ["ball"], cap = "b" }]
+        """
+    )
+    scene = phong.Scene.read(tmp_path / "scene.toml")
+    picture = phong.render(scene, **options)
+    assert scene.camera.eye == (0, 1, 5)
+    assert scene.materials["a"].color["texture"].file == str(tmp_path / "image.png")
+    packed, digest = pickle.dumps(scene), scene.digest()
+    for file in tmp_path.iterdir():
+        file.unlink()
+    there = pickle.loads(packed)
+    assert phong.render(there, **options) == picture
+    assert there.digest() == digest
+    assert there.to_toml() == scene.to_toml()

@@ -1,9 +1,11 @@
 //! A scene as text and raw arrays, and back to the very same: what is pickled and digested.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 use phong_scene::{
     Caps, Cylinders, Export, ExportOptions, Format, Framing, Limits, Memory, Mesh, Object, Points,
-    Scene, Shape, Shared, Side, read,
+    Scene, Shape, Shared, Side, TexelValues, Texels, Texture, TextureKind, read,
 };
 use pyo3::PyResult;
 use serde_json::{Value, json};
@@ -40,6 +42,35 @@ impl Arrays {
             self.known.len() - 1
         });
         json!(number)
+    }
+
+    /// The pixels of an image; in the text a single pixel, in a file of this name, stands for them.
+    fn image(&mut self, texture: &mut Texture, name: String) -> Option<Value> {
+        let TextureKind::Image { file, texels, .. } = &mut texture.kind else { return None };
+        let (kind, bytes) = match texels.values() {
+            TexelValues::Bytes(values) => ("bytes", values.clone()),
+            TexelValues::Shorts(values) => {
+                ("shorts", values.iter().flat_map(|v| v.to_le_bytes()).collect())
+            }
+            TexelValues::Floats(values) => {
+                ("floats", values.iter().flat_map(|v| v.to_le_bytes()).collect())
+            }
+        };
+        let address = Arc::as_ptr(texels).addr();
+        let number = self.known.iter().position(|&known| known == address).unwrap_or_else(|| {
+            self.known.push(address);
+            self.bytes.push(bytes);
+            self.known.len() - 1
+        });
+        let [width, height] = texels.size();
+        let told = json!({
+            "file": file,
+            "pixels": [width, height, texels.channels()],
+            "kind": kind,
+            "array": number,
+        });
+        *file = name;
+        Some(told)
     }
 
     /// The arrays of a shape; `None`: it has none, and stands in the text.
@@ -110,6 +141,12 @@ pub(crate) fn pack(state: &State) -> PyResult<Packed> {
         // Names of their own, so that each is written, in order.
         material.name = format!("m{number}");
     }
+    let textures = scene.textures.iter_mut().enumerate();
+    let images: Vec<_> =
+        textures.map(|(number, texture)| arrays.image(texture, image_file(number))).collect();
+    // Objects have other names in the text.
+    let clips: Vec<_> =
+        scene.clips.iter_mut().map(|clip| std::mem::take(&mut clip.objects)).collect();
     let mut take = |object: &mut Object| {
         let bulk = arrays.shape(&object.shape);
         if bulk.is_some() {
@@ -141,16 +178,29 @@ pub(crate) fn pack(state: &State) -> PyResult<Packed> {
         })
     });
     let text = json!({
-        "version": 1,
+        "version": 2,
         "text": String::from_utf8_lossy(&text),
         "materials": materials,
         "objects": objects,
         "in_groups": in_groups,
+        "images": images,
+        "clips": clips,
         "parts": state.parts,
         "framing": framing,
         "automatic": [state.automatic.lights, state.automatic.bare],
     });
     Ok(Packed { text: text.to_string(), arrays: arrays.bytes })
+}
+
+/// A pixel, as a file: it stands for an image in the text of a scene that is packed.
+const PIXEL: &[u8] =
+    b"\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\0\x01\0\0\0\x01\x08\x06\0\0\0\x1f\x15\xc4\x89\
+    \0\0\0\x0dIDAT\x78\x9c\x63\x68\x68\xf8\xff\x1f\0\x06\x82\x02\xff\xb3\xbe\x51\x33\
+    \0\0\0\0IEND\xae\x42\x60\x82";
+
+/// What the file of an image is called in such a text.
+fn image_file(number: usize) -> String {
+    format!("image-{number}.png")
 }
 
 /// What is said of a pickle that makes no sense.
@@ -161,11 +211,15 @@ fn broken() -> pyo3::PyErr {
 /// The scene that was packed.
 pub(crate) fn unpack(text: &str, arrays: &[&[u8]]) -> PyResult<State> {
     let packed: Value = serde_json::from_str(text).map_err(|_| broken())?;
-    if packed["version"] != 1 {
+    if packed["version"] != 2 {
         return Err(broken());
     }
     let toml = packed["text"].as_str().ok_or_else(broken)?;
-    let files = Memory::new().with("scene.toml", toml.as_bytes());
+    let images = packed["images"].as_array().ok_or_else(broken)?;
+    let mut files = Memory::new().with("scene.toml", toml.as_bytes());
+    for number in 0..images.len() {
+        files = files.with(&image_file(number), PIXEL);
+    }
     let reading = read("scene.toml", Some(Format::Toml), &files, &Limits::default());
     let mut scene = reading.scene.ok_or_else(broken)?;
     let names = packed["materials"].as_array().ok_or_else(broken)?;
@@ -178,6 +232,16 @@ pub(crate) fn unpack(text: &str, arrays: &[&[u8]]) -> PyResult<State> {
     let grouped = scene.groups.iter_mut().flat_map(|group| &mut group.objects);
     give_back(scene.objects.iter_mut(), objects, &mut taken)?;
     give_back(grouped, in_groups, &mut taken)?;
+    for texture in &mut scene.textures {
+        taken.give_image_back(texture, images)?;
+    }
+    let clips = packed["clips"].as_array().ok_or_else(broken)?;
+    for (clip, names) in scene.clips.iter_mut().zip(clips) {
+        let names = names.as_array().ok_or_else(broken)?.iter();
+        let names = names.map(|name| name.as_str().map(str::to_owned));
+        clip.objects = names.collect::<Option<_>>().ok_or_else(broken)?;
+        clip.place = phong_scene::Place::default();
+    }
     scene.materials.truncate(names.len());
     for (material, name) in scene.materials.iter_mut().zip(names) {
         name.as_str().ok_or_else(broken)?.clone_into(&mut material.name);
@@ -280,6 +344,38 @@ impl Taken<'_> {
             self.arrays.get(number).and_then(|bytes| of_bytes(bytes)).ok_or_else(broken)?;
         self.shared.push((number, Box::new(array.clone())));
         Ok(array)
+    }
+
+    /// Gives a texture the pixels of its image back.
+    fn give_image_back(&mut self, texture: &mut Texture, images: &[Value]) -> PyResult<()> {
+        let TextureKind::Image { file, texels, .. } = &mut texture.kind else { return Ok(()) };
+        let number = (0..images.len()).find(|&number| image_file(number) == *file);
+        let packed = &images[number.ok_or_else(broken)?];
+        packed["file"].as_str().ok_or_else(broken)?.clone_into(file);
+        let number = self::number(&packed["array"])? as usize;
+        let mut known = self.shared.iter().filter(|(known, _)| *known == number);
+        if let Some(same) = known.find_map(|(_, any)| any.downcast_ref::<Arc<Texels>>()) {
+            *texels = Arc::clone(same);
+            return Ok(());
+        }
+        let bytes = *self.arrays.get(number).ok_or_else(broken)?;
+        let values = match packed["kind"].as_str() {
+            Some("bytes") => TexelValues::Bytes(bytes.to_vec()),
+            Some("shorts") => {
+                let (values, []) = bytes.as_chunks() else { return Err(broken()) };
+                TexelValues::Shorts(values.iter().map(|&v| u16::from_le_bytes(v)).collect())
+            }
+            Some("floats") => {
+                let (values, []) = bytes.as_chunks() else { return Err(broken()) };
+                TexelValues::Floats(values.iter().map(|&v| f32::from_le_bytes(v)).collect())
+            }
+            _ => return Err(broken()),
+        };
+        let side = |side: usize| self::number(&packed["pixels"][side]);
+        let image = Texels::new([side(0)?, side(1)?], side(2)? as usize, values);
+        *texels = Arc::new(image.map_err(|_| broken())?);
+        self.shared.push((number, Box::new(Arc::clone(texels))));
+        Ok(())
     }
 
     fn shape(&mut self, packed: &Value) -> PyResult<Shape> {

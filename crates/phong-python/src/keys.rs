@@ -51,7 +51,12 @@ pub(crate) struct Text {
 
 impl Text {
     /// A value, with the textures that it is made of put among the tables.
-    fn value(&mut self, value: &Bound<'_, PyAny>, key: &str, depth: usize) -> PyResult<Value> {
+    pub(crate) fn value(
+        &mut self,
+        value: &Bound<'_, PyAny>,
+        key: &str,
+        depth: usize,
+    ) -> PyResult<Value> {
         if depth > MOST_DEPTH {
             return Err(value_error(format!("{key}: lists or dictionaries too deep")));
         }

@@ -28,6 +28,7 @@ pub(crate) enum Subject {
     Camera,
     Lights,
     Ambient,
+    Settings,
     Image,
     /// The material of a number.
     Material(u32),

@@ -1,7 +1,10 @@
 //! Which material an argument means, and another one for what has one.
 
+use std::path::Path;
+
 use phong_scene::{
-    Diagnostic, Folder, Material, MaterialId, Object, Scene as SceneText, Shape, Shared, closest,
+    Clip, Diagnostic, Folder, Material, MaterialId, Object, Scene as SceneText, Shape, Shared,
+    Texture, TextureKind, closest,
 };
 use pyo3::prelude::*;
 use pyo3::types::PyString;
@@ -69,8 +72,22 @@ impl Scene {
 
     /// All but its objects, as the tables of a text.
     pub(super) fn text(&self) -> PyResult<Table> {
-        let framed = self.state().framed();
-        tables(SceneText { objects: Vec::new(), groups: Vec::new(), ..framed })
+        let mut framed = self.state().framed();
+        // What the objects are called that a clip cuts is put in afterwards: they are not in this text.
+        let cut = |clip: &mut Clip| std::mem::take(&mut clip.objects);
+        let cut: Vec<Vec<String>> = framed.clips.iter_mut().map(cut).collect();
+        for Texture { kind, place, .. } in &mut framed.textures {
+            if let TextureKind::Image { file, .. } = kind {
+                *file = beside(&place.file, file);
+            }
+        }
+        let mut all = tables(SceneText { objects: Vec::new(), groups: Vec::new(), ..framed })?;
+        let clips = all.get_mut("clip").and_then(Value::as_array_mut).into_iter().flatten();
+        for (clip, names) in clips.zip(cut).filter(|(_, names)| !names.is_empty()) {
+            let names: Vec<_> = names.into_iter().map(Value::from).collect();
+            clip.as_table_mut().and_then(|clip| clip.insert("objects".to_owned(), names.into()));
+        }
+        Ok(all)
     }
 
     /// Gives a name or a part another material: in place where only the look changes.
@@ -133,4 +150,11 @@ fn is_of(object: &Object, material: MaterialId) -> bool {
         }
         _ => object.material == material,
     }
+}
+
+/// A file as it is found from the current folder, where a scene in another one names it.
+fn beside(scene: &str, file: &str) -> String {
+    let folder = Path::new(scene).parent().filter(|folder| !folder.as_os_str().is_empty());
+    let joined = folder.map(|folder| folder.join(file));
+    joined.and_then(|path| path.to_str().map(str::to_owned)).unwrap_or_else(|| file.to_owned())
 }

@@ -1,6 +1,7 @@
 //! `phong.Scene`: what is drawn, and what it looks like.
 
 mod materials;
+mod settings;
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -64,13 +65,14 @@ impl Scene {
 impl Scene {
     /// A scene with nothing in it: see the class.
     #[new]
-    #[pyo3(signature = (camera = None, lights = None, ambient = None, background = None))]
+    #[pyo3(signature = (camera = None, lights = None, ambient = None, background = None, **settings))]
     fn new(
         py: Python<'_>,
         camera: Option<&Bound<'_, PyAny>>,
         lights: Option<&Bound<'_, PyAny>>,
         ambient: Option<&Bound<'_, PyAny>>,
         background: Option<&Bound<'_, PyAny>>,
+        settings: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         let framing = camera.is_none().then(Framing::default);
         let automatic = Automatic { lights: lights.is_none(), bare: false };
@@ -88,6 +90,9 @@ impl Scene {
             let keys = PyDict::new(py);
             keys.set_item("background", background)?;
             scene.set_image(&keys)?;
+        }
+        if settings.is_some() {
+            scene.set_settings(settings)?;
         }
         Ok(scene)
     }
@@ -462,6 +467,13 @@ impl Scene {
         state.say(Subject::Image, said);
         state.look().image = image;
         Ok(())
+    }
+
+    /// Other tables that stand alone (`fog`, `ambient_occlusion`, `clip`, …): dictionaries of their keys,
+    /// or lists of such; `None` takes one away. Those that are not given stay.
+    #[pyo3(signature = (**settings))]
+    fn set_settings(&self, settings: Option<&Bound<'_, PyDict>>) -> PyResult<()> {
+        settings.map_or(Ok(()), |settings| self.change_settings(settings))
     }
 
     /// Another material for what has the one of a name, or for a part. Nothing is built again where the
