@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-use phong::image::AnimationFormat;
+use phong::image::{AnimationFormat, Format};
 
 use crate::args::{Bits, OutputFormat, RenderArgs};
 use crate::failure::Failure;
@@ -56,9 +56,13 @@ impl Target {
             _ if pictures == 1 => Self::Files(names),
             _ => {
                 let message = format!("{pictures} pictures do not fit into {}", output.display());
+                // A name that would be refused is no advice.
+                let written =
+                    args.encoding.output_format.is_some() || Format::of_path(&output).is_some();
+                let ending = (!written).then_some("png");
                 return Err(Failure::usage(message).with_help(format!(
                     "-o {} is a file for each; a name in .gif or .png without %d one file that moves",
-                    names.with_a_place(),
+                    names.with_a_place(ending),
                 )));
             }
         };
@@ -175,9 +179,12 @@ impl Names {
         self.folder.join(name).display().to_string()
     }
 
-    /// A name like this one that has a place for a number.
-    fn with_a_place(&self) -> String {
-        let path = self.path(0);
+    /// A name like this one that has a place for a number, with this ending if there is one.
+    fn with_a_place(&self, ending: Option<&str>) -> String {
+        let mut path = self.path(0);
+        if let Some(ending) = ending {
+            path.set_extension(ending);
+        }
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
         let ending = path.extension().map(|e| format!(".{}", e.to_string_lossy()));
         path.with_file_name(format!("{stem}-%04d{}", ending.unwrap_or_default()))

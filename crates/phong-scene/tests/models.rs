@@ -5,6 +5,7 @@
 //! `PHONG_BLESS=1` writes the texts anew.
 
 mod differing;
+mod mutated;
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -143,6 +144,11 @@ fn tell(reading: &Reading) -> String {
             text.extend(scene.lights.iter().map(|light| {
                 format!("{}: {:?} {:?}", light.name, light.kind, light.color.to_array())
             }));
+            text.extend(
+                scene.clips.iter().map(|clip| {
+                    format!("clip: {:?} {:?} of {:?}", clip.kind, clip.cap, clip.objects)
+                }),
+            );
         }
     }
     text.iter().map(|line| line.trim_end().to_owned() + "\n").collect()

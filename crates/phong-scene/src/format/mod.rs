@@ -37,9 +37,13 @@ use crate::scene::{Reading, Scene};
 use crate::source::Source;
 use crate::unpack::Unpacked;
 
-/// What to do where a format is known, but not read.
-const INSTEAD: &str = "let the program that wrote it export the model as .obj, .glb or .ply, or the scene as \
+/// What to do with a scene that is a program.
+const OF_PROGRAMS: &str = "let the program that wrote it export the model as .obj, .glb or .ply, or the scene as \
                        .dat for Tachyon, as VMD and OVITO do";
+
+/// What to do with frames that say nothing of their atoms.
+const OF_TRAJECTORIES: &str = "let the program that wrote it put atoms and places into one file of several models: \
+                               `gmx trjconv -f a.xtc -s a.tpr -o a.pdb`, or from VMD or MDAnalysis as .pdb or .xyz";
 
 /// Reads a scene or a bare model, and everything there is to say about it.
 ///
@@ -102,8 +106,14 @@ fn read_known(
     let input = Input { changes, topology, ..Input::new(path, source, limits) };
     let read = match format.reader() {
         None => {
-            let message = format!("{format} files are programs, which are not read");
-            return refused(message, INSTEAD.to_owned(), true);
+            let (why, help) = match format {
+                Format::Trajectory => (
+                    "files (XTC, TRR, DCD) do not say which atoms they are of, and",
+                    OF_TRAJECTORIES,
+                ),
+                _ => ("files are programs, which", OF_PROGRAMS),
+            };
+            return refused(format!("{format} {why} are not read"), help.to_owned(), true);
         }
         Some(Read::Scene(read)) => return read(&input, &MODELS),
         Some(Read::Model(read)) => read,
@@ -235,6 +245,20 @@ mod tests {
         let reading = read("a.pov", None, &files, &Limits::default());
         let said = reading.diagnostics[0].to_string();
         assert!(reading.scene.is_none() && said.contains("export the model as .obj"), "{said}");
+    }
+
+    #[test]
+    fn a_binary_trajectory_is_told_by_its_bytes_and_refused_with_a_way_out() {
+        let dcd = [&[84, 0, 0, 0][..], b"CORD", &[0; 80]].concat();
+        let xtc = [&1995_u32.to_be_bytes()[..], &[0; 80]].concat();
+        for (name, bytes) in
+            [("a.xtc", xtc.clone()), ("b", xtc), ("c.dcd", dcd.clone()), ("d", dcd)]
+        {
+            let reading = read(name, None, &Memory::new().with(name, bytes), &Limits::default());
+            let said = reading.diagnostics[0].to_string();
+            assert!(said.contains("do not say which atoms they are of"), "{said}");
+            assert!(reading.diagnostics[0].help.as_ref().is_some_and(|help| help.contains("gmx")));
+        }
     }
 
     #[test]

@@ -51,6 +51,8 @@ pub enum Format {
     Nff,
     /// POV-Ray scenes: known, but programs in a language of their own, which are not read.
     PovRay,
+    /// XTC, TRR and DCD: known, but they say where atoms are and not which, and are not read.
+    Trajectory,
 }
 
 /// All that is known of a format.
@@ -80,7 +82,7 @@ pub(crate) enum Read {
 }
 
 /// Every format.
-static TABLE: [Entry; 14] = [
+static TABLE: [Entry; 15] = [
     Entry {
         format: Format::Toml,
         name: "TOML scene",
@@ -207,7 +209,23 @@ static TABLE: [Entry; 14] = [
         read: None,
         write: None,
     },
+    Entry {
+        format: Format::Trajectory,
+        name: "binary trajectory",
+        endings: &["xtc", "dcd", "trr"],
+        tells: Some(is_trajectory),
+        bare: true,
+        read: None,
+        write: None,
+    },
 ];
+
+/// Whether a file begins as XTC or TRR files do, or as DCD files of either order of bytes.
+fn is_trajectory(head: &[u8]) -> bool {
+    let frame = |number: [u8; 4]| head.starts_with(&number);
+    let dcd = head.get(4..8) == Some(b"CORD") && (frame([84, 0, 0, 0]) || frame([0, 0, 0, 84]));
+    dcd || frame(1995_u32.to_be_bytes()) || frame(1993_u32.to_be_bytes())
+}
 
 /// The table as scenes see it.
 pub(crate) static MODELS: Models = Models { find, help: models_are_read_from };

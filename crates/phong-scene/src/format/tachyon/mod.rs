@@ -24,7 +24,8 @@
 //! | `TRANSMODE R3D` | with `TRANS_VMD` opacity that grows to the rim (`opacity_mode`); shadows then do so too; else a warning |
 //! | ambient occlusion | `k_a` grows by `DIFFUSE` times its colour; the file's own ambient light is hidden with it |
 //! | `FOG`; `FOG_VMD` | linear fog, exponential fog and its square, which begin at the eye; by the distance along the axis |
-//! | clip groups, `SCALARVOL`, `SCAPE`, `TPOLYFILE`, `MGFFILE` | nothing: a warning that counts them |
+//! | `START_CLIPGROUP` | planes that cut what is in the group, without caps; the first 32 planes of all |
+//! | `SCALARVOL`, `SCAPE`, `TPOLYFILE`, `MGFFILE` | nothing: a warning that counts them |
 //! | `INCLUDE` | the other file's statements, at this place |
 //!
 //! Tachyon samples a pixel at its corner, half a pixel from where ours is. Its `-shade_phong` is a
@@ -35,6 +36,7 @@
 
 mod block;
 mod camera;
+mod clip;
 pub(crate) mod export;
 mod scene;
 mod shapes;

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::camera::Frame;
+use super::clip::Clips;
 use super::shapes::{Bulk, ring};
 use super::sky::{Gradient, Haze};
 use super::texture::{Drawing, Key, Texture, rgb};
@@ -31,6 +32,9 @@ const INCLUDES: u32 = 1000;
 /// How many times its distance from the camera an endless cylinder is drawn to either side.
 const ENDLESS: f64 = 1000.0;
 
+/// A shape of which there are few, with its texture, and the number of the clip group that it is in.
+type Single = (Shape, Texture, Option<usize>, Place);
+
 /// What has been read of a scene.
 pub(super) struct Assembly<'a> {
     /// The file that was asked for.
@@ -42,11 +46,12 @@ pub(super) struct Assembly<'a> {
     /// What was said of files that were read.
     pub(super) told: Vec<Diagnostic>,
     textures: BTreeMap<Vec<u8>, Texture>,
-    /// Things of many kinds, by the numbers of their textures without the colour.
-    groups: BTreeMap<Key, usize>,
+    /// Things of many kinds, by the numbers of their textures without the colour, and their clip groups.
+    groups: BTreeMap<(Key, Option<usize>), usize>,
     bulk: Vec<Bulk>,
     /// Others, with their textures.
-    objects: Vec<(Shape, Texture, Place)>,
+    objects: Vec<Single>,
+    clips: Clips,
     lamps: Vec<(Lamp, Place)>,
     size: Option<[u64; 2]>,
     frame: Option<Frame>,
@@ -71,6 +76,7 @@ impl<'a> Assembly<'a> {
             groups: BTreeMap::new(),
             bulk: Vec::new(),
             objects: Vec::new(),
+            clips: Clips::default(),
             lamps: Vec::new(),
             size: None,
             frame: None,
@@ -138,9 +144,10 @@ impl<'a> Assembly<'a> {
     /// The number of the things of this texture.
     fn group(&mut self, texture: &Texture) -> usize {
         let next = self.bulk.len();
-        let number = *self.groups.entry(texture.key()).or_insert(next);
+        let clip = self.clips.now();
+        let number = *self.groups.entry((texture.key(), clip)).or_insert(next);
         if number == next {
-            self.bulk.push(Bulk::of(*texture));
+            self.bulk.push(Bulk::of(*texture, clip));
         }
         number
     }
@@ -244,6 +251,8 @@ impl<'a> Assembly<'a> {
             Statement::Gradient(gradient) => self.gradient = Some(gradient),
             Statement::Fog(haze) => self.haze = Some(haze),
             Statement::Mode(mode) => self.mode = mode,
+            Statement::BeginClip(planes) => self.clips.begin(&planes, &place),
+            Statement::EndClip => self.clips.end(),
             Statement::Include(name) => {
                 let name = String::from_utf8_lossy(&name);
                 let folder = place.file.rfind(['/', '\\']).map_or("", |end| &place.file[..=end]);
@@ -262,7 +271,7 @@ impl<'a> Assembly<'a> {
                     findings.error("included files", span, message);
                 }
             }
-            Statement::Use(_) | Statement::Ignored("") => {}
+            Statement::Use(_) => {}
             Statement::Ignored(what) => *self.ignored.entry(what).or_default() += 1,
         }
     }
@@ -270,7 +279,7 @@ impl<'a> Assembly<'a> {
     /// Adds an object, if its direction and its size are some.
     fn object(&mut self, shape: Shape, axis: DVec3, size: f64, texture: Texture, place: Place) {
         if axis.try_normalize().is_some() && size > 0.0 && size <= crate::limits::LARGEST {
-            self.objects.push((shape, texture, place));
+            self.objects.push((shape, texture, self.clips.now(), place));
         } else {
             self.left_out += 1;
         }
@@ -356,17 +365,20 @@ impl<'a> Assembly<'a> {
             warn("things that are not drawn", message);
         }
         let patterned = self.bulk.iter().filter(|bulk| bulk.texture.more).count()
-            + self.objects.iter().filter(|(_, texture, _)| texture.more).count();
+            + self.objects.iter().filter(|(_, texture, ..)| texture.more).count();
         if patterned > 0 {
             let message = "textures have patterns, images or outlines; their colour is drawn alone";
             warn("patterns", message.to_owned());
         }
         let all = self.bulk.iter().map(|bulk| bulk.texture);
-        let mut all = all.chain(self.objects.iter().map(|(_, texture, _)| *texture));
+        let mut all = all.chain(self.objects.iter().map(|(_, texture, ..)| *texture));
         if !self.mode.mixed && all.any(|texture| texture.angle && texture.opacity < 1.0) {
             let message = "opacity by angle (`TRANSMODE R3D`) is the same at every angle where what \
                            is behind is added, and not mixed (`TRANS_VMD`)";
             warn("opacities", message.to_owned());
+        }
+        if let Some(message) = self.clips.beyond() {
+            warn("clip groups", message);
         }
         if self.left_out > 0 {
             let message = format!(
@@ -426,13 +438,17 @@ impl<'a> Assembly<'a> {
             id
         };
         let mut known = BTreeMap::new();
-        for (shape, texture, place) in self.objects.drain(..) {
+        let mut groups = Vec::new();
+        for (shape, texture, clip, place) in self.objects.drain(..) {
+            groups.push(clip);
             let id =
                 *known.entry(texture.key_with_color()).or_insert_with(|| number(scene, &texture));
             scene.objects.push(Object { material: id, place, ..Object::from(shape) });
         }
         for bulk in self.bulk.drain(..) {
+            let clip = bulk.clip;
             for (shape, texture) in bulk.shapes() {
+                groups.push(clip);
                 let id = number(scene, &texture);
                 scene.objects.push(Object { material: id, ..Object::from(shape) });
             }
@@ -443,5 +459,6 @@ impl<'a> Assembly<'a> {
             *count += 1;
             object.name = format!("{} {count}", object.shape.kind());
         }
+        scene.clips = std::mem::take(&mut self.clips).of(&scene.objects, &groups);
     }
 }

@@ -21,6 +21,8 @@ type Segment = ([[f32; 4]; 2], Rgb);
 #[derive(Debug)]
 pub(super) struct Bulk {
     pub(super) texture: Texture,
+    /// The number of the clip group that they are in.
+    pub(super) clip: Option<usize>,
     pub(super) spheres: Vec<[f32; 4]>,
     pub(super) sphere_colors: Vec<Rgb>,
     /// Without ends, and with round ones.
@@ -39,10 +41,11 @@ struct Soup {
 }
 
 impl Bulk {
-    /// Nothing yet of this texture.
-    pub(super) fn of(texture: Texture) -> Self {
+    /// Nothing yet of this texture, in this clip group.
+    pub(super) fn of(texture: Texture, clip: Option<usize>) -> Self {
         Self {
             texture,
+            clip,
             spheres: Vec::new(),
             sphere_colors: Vec::new(),
             segments: [Vec::new(), Vec::new()],
@@ -119,7 +122,7 @@ impl Bulk {
 
     /// The shapes, each with its texture.
     pub(super) fn shapes(self) -> Vec<(Shape, Texture)> {
-        let Self { texture, spheres, sphere_colors, segments, mesh } = self;
+        let Self { texture, spheres, sphere_colors, segments, mesh, .. } = self;
         let mut shapes = Vec::new();
         if !spheres.is_empty() {
             let (own, colors) = colors(&texture, sphere_colors);

@@ -193,12 +193,18 @@ impl Things {
             b"include" => Statement::Include(words.some("the name of a file")?.to_vec()),
             b"start_clipgroup" => {
                 words.key("NUMPLANES")?;
-                for _ in 0..words.whole()?.saturating_mul(4) {
-                    words.number()?;
-                }
-                Statement::Ignored("clip groups")
+                let plane = |words: &mut Words<'_>| -> Parsed<(Vec3, f32)> {
+                    Ok((words.vector()?, words.number()?))
+                };
+                // What is said to be there need not be: nothing is set aside for it.
+                let planes = (0..words.whole()?).map(|_| plane(words)).collect::<Parsed<_>>()?;
+                self.begin_group();
+                Statement::BeginClip(planes)
             }
-            b"end_clipgroup" => Statement::Ignored(""),
+            b"end_clipgroup" => {
+                self.begin_group();
+                Statement::EndClip
+            }
             b"scalarvol" => {
                 words.keyed("MIN")?;
                 words.keyed("MAX")?;

@@ -55,6 +55,9 @@ pub(super) enum Statement {
     Fog(Haze),
     Mode(Mode),
     Include(Vec<u8>),
+    /// What follows is cut along planes: the normal points to what is cut away, with its largest `p · n`.
+    BeginClip(Vec<(Vec3, f32)>),
+    EndClip,
     /// What is not drawn, in the plural.
     Ignored(&'static str),
 }
@@ -176,6 +179,13 @@ impl Things {
         self.statements.push((line, Statement::Use(named)));
         self.count += 1;
         self.count - 1
+    }
+
+    /// What follows is another group's: the textures that it names are not those from before.
+    pub(super) fn begin_group(&mut self) {
+        self.names.clear();
+        self.own.clear();
+        self.last = None;
     }
 
     /// Whatever stands behind this word may mean another texture from now on.
