@@ -114,6 +114,14 @@ impl Target {
         }
     }
 
+    /// The file that the picture of this number is in.
+    pub(crate) fn file(&self, number: u64) -> PathBuf {
+        match self {
+            Self::Files(names) => names.path(number),
+            Self::Animation { path, .. } => path.clone(),
+        }
+    }
+
     /// The name as it was given.
     pub(crate) fn name(&self) -> String {
         match self {
@@ -228,6 +236,7 @@ mod tests {
             assert_eq!(Names::parse(Path::new(text)).unwrap().text(), text);
         }
         let exr = Names::parse(Path::new("a/b.exr")).unwrap();
-        assert_eq!(exr.with_a_place(), "a/b-%04d.exr");
+        assert_eq!(exr.with_a_place(None), "a/b-%04d.exr");
+        assert_eq!(exr.with_a_place(Some("png")), "a/b-%04d.png");
     }
 }

@@ -7,9 +7,9 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 
 use glam::DVec3;
 use phong_scene::{
-    Batch, BatchReading, Blob, CameraKind, Diagnostic, Folder, Format, FrameRange, Frames, Framing,
-    Jail, Limits, Memory, Reading, Scene, Severity, Side, Source, closest, path_of, read_stream,
-    trouble,
+    Batch, BatchReading, Blob, CameraKind, CameraPath, CameraPathReading, Diagnostic, Folder,
+    Format, FrameRange, Frames, Framing, Jail, Limits, Memory, Reading, Scene, Severity, Side,
+    Source, closest, path_of, read_stream, trouble,
 };
 
 use crate::args::{InputArgs, View, ViewArgs};
@@ -313,6 +313,32 @@ pub(crate) fn read_batch(path: &str) -> Result<Batch, Failure> {
     let Some(batch) = batch else { return Err(Failure::Input(diagnostics)) };
     report::diagnostics(&diagnostics);
     Ok(batch)
+}
+
+/// Reads a file with a camera's way: errors end here, and warnings too if `strict`.
+pub(crate) fn read_camera_path(
+    path: &str,
+    strict: bool,
+    quiet: bool,
+) -> Result<CameraPath, Failure> {
+    let file = path_of(path);
+    if let Some(error) = hindrance(&file) {
+        return Err(unreadable(&file, &error));
+    }
+    let files = Files { input: path.to_owned(), ..Files::default() };
+    let limits = Limits { bytes: memory::limit(), ..Limits::default() };
+    let CameraPathReading { path, mut diagnostics } =
+        phong_scene::read_camera_path(path, &files, &limits);
+    if strict {
+        let all = diagnostics.iter_mut().filter(|one| !one.is_note());
+        all.for_each(|one| one.severity = Severity::Error);
+    }
+    let sound = !diagnostics.iter().any(Diagnostic::is_error);
+    let Some(path) = path.filter(|_| sound) else { return Err(Failure::Input(diagnostics)) };
+    if !quiet {
+        report::diagnostics(&diagnostics);
+    }
+    Ok(path)
 }
 
 /// Reads INPUT for use: errors end here, warnings are told unless `quiet`.

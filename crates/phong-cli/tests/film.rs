@@ -171,3 +171,57 @@ fn no_picture_is_written_over_the_input() {
     then.is_refused(&["write over the input"]);
     assert!(folder.bytes("f2.png").starts_with(b"\nversion"));
 }
+
+/// Half around the balls, closer at the end.
+const WAY: &str = "version = 1\npictures = 5\n\
+    [[key]]\ntime = 0\neye = [0, 1, 5]\nlook_at = [0, 1, 0]\n\
+    [[key]]\ntime = 2\neye = [5, 1, 0]\nlook_at = [0, 1, 0]\n\
+    [[key]]\ntime = 4\neye = [0, 1, -4]\nlook_at = [0, 1, 0]\nfov = 20\n";
+
+#[test]
+fn pictures_along_a_way_have_the_bits_of_renders_with_the_cameras_of_its_keys() {
+    let folder = folder();
+    fs::write(folder.path("way.toml"), WAY).unwrap();
+    let film = "render a.toml --path way.toml -o f-%02d.png --json";
+    let told = folder.done(film).json();
+    assert_eq!(told["pictures"], 5);
+    for (number, view) in [(0, "--eye 0,1,5"), (2, "--eye 5,1,0"), (4, "--eye 0,1,-4 --fov 20")] {
+        folder.done(&format!("render a.toml {view} --look-at 0,1,0 -o whole.png"));
+        are_the_same(&folder, &format!("f-0{number}.png"), "whole.png");
+    }
+    fs::remove_file(folder.path("f-03.png")).unwrap();
+    let told = folder.done(&format!("{film} --resume")).json();
+    assert_eq!(told["skipped"], 4);
+    // A bare model goes with it as well, into one file.
+    folder.done("render p.obj --size 16x12 --samples 1 --path way.toml -o p.gif");
+}
+
+#[test]
+fn what_is_wrong_with_a_way_is_told_at_its_place() {
+    let folder = folder();
+    let wrong = |text: &str, words: &[&str]| {
+        fs::write(folder.path("way.toml"), text).unwrap();
+        folder.when("render a.toml --path way.toml -o f-%d.png").is_refused(words);
+    };
+    wrong(&WAY.replace("time = 2", "time = 4"), &["way.toml:12:8", "must rise", "it is 4"]);
+    wrong(&WAY.replace("time = 2", "tome = 2"), &["way.toml:8:1", "no `time`", "did you mean"]);
+    wrong(
+        &WAY.replace("eye = [5, 1, 0]", "eye = [0, 1, 0]"),
+        &["way.toml:10:11", "where the eye is"],
+    );
+    wrong(&WAY.replace("fov = 20", "fov = 200"), &["way.toml:15:7", "fov"]);
+    wrong(&WAY.replace("fov = 20", "height = 2"), &["way.toml:11:3", "orthographic camera"]);
+    wrong(&WAY.replace("pictures = 5\n", ""), &["no `pictures`"]);
+    wrong("version = 1\npictures = 2\n", &["no `key`"]);
+    wrong("version = 1\npictures = 2\nkey = 3\n", &["way.toml:3:7", "[[key]]"]);
+    wrong("version = 1\npictures = 2\nkey = [3]\n", &["[[key]]"]);
+    wrong("version = 1\npictures = = 2\n", &["way.toml:2"]);
+    folder
+        .when("render a.toml --path no.toml -o f-%d.png")
+        .is_refused(&["no.toml", "no such file"]);
+    fs::write(folder.path("way.toml"), WAY).unwrap();
+    folder.when("render a.toml --path way.toml -o way.toml").is_refused(&["way.toml"]);
+    folder.when("render a.toml --path way.toml --turntable 3").is_refused(&["--turntable"]);
+    folder.when("render a.toml --path way.toml -o f.jpg").is_refused(&["-o f-%04d.png"]);
+    assert_eq!(fs::read_to_string(folder.path("way.toml")).unwrap(), WAY);
+}

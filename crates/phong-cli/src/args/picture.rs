@@ -81,6 +81,11 @@ pub(crate) struct FilmArgs {
     #[arg(conflicts_with_all = ["tile", "watch", "turntable"], allow_hyphen_values = true)]
     pub(crate) frames: Option<phong_scene::FrameRange>,
 
+    /// Along the way that the camera goes by this file: its [[key]]s say time, eye, look_at, up and fov,
+    /// `pictures` how many. Files as for --turntable
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["tile", "watch", "turntable", "frames"])]
+    pub(crate) path: Option<String>,
+
     /// Pictures a second, where all are in one file [default: 25]
     #[arg(long, value_name = "N", value_parser = values::whole(1_u16, 1000))]
     #[arg(allow_hyphen_values = true)]
@@ -90,7 +95,7 @@ pub(crate) struct FilmArgs {
 impl FilmArgs {
     /// Whether there is more than the one picture.
     pub(crate) fn is_asked_for(&self) -> bool {
-        self.turntable.is_some() || self.frames.is_some()
+        self.turntable.is_some() || self.frames.is_some() || self.path.is_some()
     }
 }
 

@@ -343,7 +343,7 @@ fn options(written: &Written) -> Result<Vec<String>, Box<Diagnostic>> {
         (work.watch, "--watch", "leave it out"),
         (
             args.film.is_asked_for(),
-            "--turntable and --frames",
+            "--turntable, --frames and --path",
             "make `camera.eye` a parameter, or draw frames with `phong render`",
         ),
         (work.json, "--json", "leave it out"),

@@ -1,4 +1,4 @@
-//! `phong render --turntable N` and `--frames A:B:S`: the pictures of a film, one after another.
+//! `phong render --turntable N`, `--frames A:B:S` and `--path FILE`: the pictures of a film, one after another.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -15,7 +15,7 @@ use phong::render::{Event, Outcome, Progress, RenderOptions};
 use phong::view::View;
 use phong_lab::measure::memory::peak;
 use phong_lab::tell::diagnostic;
-use phong_scene::{Background, Camera, FrameRange, Scene};
+use phong_scene::{Background, Camera, CameraPath, FrameRange, Scene};
 use serde_json::json;
 
 use super::render::{Clock, draw};
@@ -40,6 +40,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         (Some(range), _) => {
             input::with_frames(&args.input, range, |frames| frames_of(args, range, frames, clock))
         }
+        (None, None) if args.film.path.is_some() => along_a_path(args, clock),
         (None, turntable) => once_around(args, turntable.unwrap_or(1), clock),
     }
 }
@@ -53,6 +54,27 @@ fn once_around(args: &RenderArgs, pictures: u32, clock: Clock) -> Result<(), Fai
     let options = plan.settle(args, &mut input)?;
     let axis = input::turn_around(&mut input, &args.view, pictures);
     let motion = Motion::Turn { first: input.scene.camera.clone(), axis, pictures };
+    let film =
+        Filming { args, plan, options, input, motion, view: None, meter, rays: [0; 3], there: 0 };
+    film.run(&target, clock)
+}
+
+/// Goes the way that a file says.
+fn along_a_path(args: &RenderArgs, clock: Clock) -> Result<(), Failure> {
+    let file = args.film.path.as_deref().unwrap_or_default();
+    let quiet = args.work.quiet;
+    let path = input::read_camera_path(file, args.input.strict, quiet)?;
+    let target = Target::new(args, path.pictures)?;
+    let plan = ready(args, &target, 0)?;
+    keep_inputs_safe([&Output::create(&target.file(0))?], [file])?;
+    let meter = Meter::new(quiet, "reading");
+    let mut input = input::open(&args.input, quiet)?;
+    let options = plan.settle(args, &mut input)?;
+    let first = input.scene.camera.clone();
+    if let Some(error) = path.unfit(&first) {
+        return Err(Failure::Input(vec![error]));
+    }
+    let motion = Motion::Path { first, path };
     let film =
         Filming { args, plan, options, input, motion, view: None, meter, rays: [0; 3], there: 0 };
     film.run(&target, clock)
@@ -83,10 +105,7 @@ fn frames_of(
 /// What the command line decides; what cannot be written is known before anything is drawn.
 fn ready(args: &RenderArgs, target: &Target, number: u64) -> Result<Plan, Failure> {
     let plan = Plan::new(args)?;
-    let first = match target {
-        Target::Files(names) => names.path(number),
-        Target::Animation { path, .. } => path.clone(),
-    };
+    let first = target.file(number);
     keep_inputs_safe([&Output::create(&first)?], [&args.input.input])?;
     Ok(plan)
 }
@@ -112,6 +131,8 @@ struct Filming<'a> {
 enum Motion<'a> {
     /// The camera goes once around, from its first place about an axis.
     Turn { first: Camera, axis: DVec3, pictures: u32 },
+    /// The camera goes a way; where it says nothing, it is as it is first.
+    Path { first: Camera, path: CameraPath },
     /// The frames of a trajectory, by their numbers; the first one's scene, and which frame was read
     /// last.
     Frames { frames: &'a FramesOf<'a>, first: Box<Scene>, at: u64, numbers: Vec<u64> },
@@ -121,6 +142,7 @@ impl Motion<'_> {
     fn pictures(&self) -> u32 {
         match self {
             Self::Turn { pictures, .. } => *pictures,
+            Self::Path { path, .. } => path.pictures,
             Self::Frames { numbers, .. } => u32::try_from(numbers.len()).unwrap_or(u32::MAX),
         }
     }
@@ -128,7 +150,7 @@ impl Motion<'_> {
     /// The number that a picture's file has.
     fn number(&self, picture: u32) -> u64 {
         match self {
-            Self::Turn { .. } => picture.into(),
+            Self::Turn { .. } | Self::Path { .. } => picture.into(),
             Self::Frames { numbers, .. } => numbers[picture as usize],
         }
     }
@@ -156,6 +178,13 @@ impl Filming<'_> {
             Motion::Turn { first, axis, pictures } => {
                 let Input { scene, bare, .. } = &mut self.input;
                 scene.camera = first.turned(*axis, picture, *pictures);
+                if *bare {
+                    scene.light();
+                }
+            }
+            Motion::Path { first, path } => {
+                let Input { scene, bare, .. } = &mut self.input;
+                scene.camera = path.camera(first, picture);
                 if *bare {
                     scene.light();
                 }
@@ -188,7 +217,7 @@ impl Filming<'_> {
         let pictures = self.motion.pictures();
         let view = match (self.view.take(), &self.motion) {
             // What rays meet is the same: only the look is another.
-            (Some(view), Motion::Turn { .. }) => {
+            (Some(view), Motion::Turn { .. } | Motion::Path { .. }) => {
                 View::new(Arc::clone(view.geometry()), Look::new(scene))
                     .map_err(|error| Failure::usage(error.to_string()))?
             }

@@ -27,9 +27,8 @@ use crate::report;
 pub(crate) fn run(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
     let mut clock = Clock::start();
     if args.film.fps.is_some() {
-        return Err(
-            Failure::usage("--fps is for films").with_help("give --turntable N or --frames A:B:S")
-        );
+        return Err(Failure::usage("--fps is for films")
+            .with_help("give --turntable N, --frames A:B:S or --path FILE"));
     }
     let plan = Plan::new(args)?;
     if args.toml {

@@ -8,6 +8,7 @@
 
 mod batch;
 mod camera;
+mod camera_path;
 mod field;
 mod hint;
 mod kind;
@@ -21,6 +22,7 @@ mod texture;
 mod value;
 
 pub(crate) use batch::{BATCH, FILES, RANGE};
+pub(crate) use camera_path::{CAMERA_KEY, CAMERA_PATH};
 pub(crate) use field::{Access, Field, Keyed};
 pub(crate) use hint::of_word;
 pub(crate) use kind::{Default, Kind};

@@ -8,6 +8,7 @@
 //! `groups` look every name up, and [`check`](crate::check) adds what can hardly be meant.
 
 pub(crate) mod batch;
+pub(crate) mod camera_path;
 mod change;
 mod draft;
 mod file;

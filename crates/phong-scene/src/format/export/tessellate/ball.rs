@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use super::turned::{Size, Turned};
-use super::whole;
+use super::count::{Size, whole};
+use super::turned::Turned;
 use crate::color::Rgb;
 
 /// The middle of no triangle is farther from the unit sphere than this over n².

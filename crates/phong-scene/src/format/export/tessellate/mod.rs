@@ -4,17 +4,18 @@
 //! a shape is closed, its triangles are too: neighbours share corners at the very same place.
 
 mod ball;
+mod count;
 mod profile;
 mod turned;
 
 use std::collections::BTreeMap;
-use std::f64::consts::PI;
 
 use glam::{DMat3, DVec3, Vec3};
 
 use self::ball::Balls;
+use self::count::Size;
 use self::profile::Profile;
-use self::turned::{Size, Turned};
+use self::turned::Turned;
 use super::Account;
 use super::flat::{listed, warning};
 use crate::color::Rgb;
@@ -303,18 +304,4 @@ fn become_of(kind: &str, count: u64) -> String {
         _ => ("cone", "cones"),
     };
     if count == 1 { format!("1 {one} becomes") } else { format!("{count} {many} become") }
-}
-
-/// How many parts of a circle stay within the tolerance of it: at least 6.
-fn parts_of_circle(radius: f64, within: f64) -> u32 {
-    let ratio = within / radius;
-    // Where the ratio is small, 1 − cos x ≤ x² / 2 keeps its digits.
-    let half = if ratio > 1e-4 { libm::acos((1.0 - ratio).max(0.0)) } else { (2.0 * ratio).sqrt() };
-    whole(PI / half).max(6)
-}
-
-/// The next whole number.
-fn whole(parts: f64) -> u32 {
-    // What numbers can hold of a shape needs fewer than 10⁴.
-    parts.ceil().min(1e5) as u32
 }

@@ -2,8 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use super::turned::Size;
-use super::{parts_of_circle, whole};
+use super::count::{Size, parts_of_circle, whole};
 use crate::color::Rgb;
 use crate::mesh::Caps;
 

@@ -8,28 +8,6 @@ use super::profile::{Profile, Ring};
 use crate::color::Rgb;
 use crate::mesh::Mesh;
 
-/// How much there is.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Size {
-    pub(super) vertices: u64,
-    pub(super) triangles: u64,
-}
-
-impl Size {
-    /// Both together.
-    pub(super) fn and(self, other: Self) -> Self {
-        Self {
-            vertices: self.vertices.saturating_add(other.vertices),
-            triangles: self.triangles.saturating_add(other.triangles),
-        }
-    }
-
-    /// Bytes of memory: a position, a colour and up to two normals a corner, and two times three indices.
-    pub(super) fn bytes(self) -> u64 {
-        self.vertices.saturating_mul(48).saturating_add(self.triangles.saturating_mul(24))
-    }
-}
-
 /// What has been made, about one origin.
 #[derive(Debug, Default)]
 pub(super) struct Turned {
