@@ -210,7 +210,7 @@ fn what_is_wrong_with_a_way_is_told_at_its_place() {
         &["way.toml:10:11", "where the eye is"],
     );
     wrong(&WAY.replace("fov = 20", "fov = 200"), &["way.toml:15:7", "fov"]);
-    wrong(&WAY.replace("fov = 20", "height = 2"), &["way.toml:11:3", "orthographic camera"]);
+    wrong(&WAY.replace("fov = 20", "height = 2"), &["way.toml:11:1", "orthographic camera"]);
     wrong(&WAY.replace("pictures = 5\n", ""), &["no `pictures`"]);
     wrong("version = 1\npictures = 2\n", &["no `key`"]);
     wrong("version = 1\npictures = 2\nkey = 3\n", &["way.toml:3:7", "[[key]]"]);

@@ -25,7 +25,7 @@ use crate::source::Source;
 /// let reading = read_camera_path("way.toml", &files, &Limits::default());
 /// assert_eq!(
 ///     reading.diagnostics[0].to_string(),
-///     "way.toml:3:3: error: a way has two keys at least; this is one",
+///     "way.toml:3:1: error: a way has two keys at least; this is one",
 /// );
 /// ```
 pub fn read_camera_path(path: &str, source: &dyn Source, limits: &Limits) -> CameraPathReading {
