@@ -26,7 +26,7 @@ pub enum Primitives {
         indices: Arc<Vec<[u32; 3]>>,
     },
     /// Spheres.
-    Spheres(Arc<Vec<Sphere>>),
+    Spheres(Spheres),
     /// Cylinders whose ends are all alike.
     Cylinders {
         /// Where they are.
@@ -50,7 +50,7 @@ impl Primitives {
     }
 
     /// Spheres, from an array that is shared already or becomes so.
-    pub fn spheres(spheres: impl Into<Arc<Vec<Sphere>>>) -> Self {
+    pub fn spheres(spheres: impl Into<Spheres>) -> Self {
         Self::Spheres(spheres.into())
     }
 
@@ -75,7 +75,7 @@ impl Primitives {
             Self::Triangles { positions, indices } => {
                 size_of_val(&positions[..]) + size_of_val(&indices[..])
             }
-            Self::Spheres(spheres) => size_of_val(&spheres[..]),
+            Self::Spheres(spheres) => size_of_val(spheres.as_slice()),
             Self::Cylinders { cylinders, .. } => size_of_val(&cylinders[..]),
             Self::Plane(plane) => size_of_val(plane),
             Self::Solid(solid) => size_of_val(solid),
@@ -97,6 +97,74 @@ pub struct Sphere {
     pub center: Vec3,
     /// Distance of the surface from the middle; > 0.
     pub radius: f32,
+}
+
+/// Spheres in an array that is shared: x, y and z of the middle and the radius of each.
+#[derive(Clone, Debug)]
+pub struct Spheres(Arc<Vec<[f32; 4]>>);
+
+impl Spheres {
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// One of them.
+    ///
+    /// # Panics
+    /// If there are not so many.
+    #[inline(always)]
+    pub fn get(&self, index: usize) -> Sphere {
+        self.0[index].into()
+    }
+
+    /// All of them, in order.
+    pub fn iter(&self) -> impl DoubleEndedIterator<Item = Sphere> + ExactSizeIterator {
+        self.0.iter().map(|&numbers| numbers.into())
+    }
+
+    /// The array itself.
+    #[inline(always)]
+    pub fn as_slice(&self) -> &[[f32; 4]] {
+        &self.0
+    }
+
+    /// Adds one at the end. An array that others share is copied first.
+    pub fn push(&mut self, sphere: Sphere) {
+        Arc::make_mut(&mut self.0).push(sphere.into());
+    }
+}
+
+impl From<Arc<Vec<[f32; 4]>>> for Spheres {
+    fn from(spheres: Arc<Vec<[f32; 4]>>) -> Self {
+        Self(spheres)
+    }
+}
+
+impl From<Vec<Sphere>> for Spheres {
+    fn from(spheres: Vec<Sphere>) -> Self {
+        // In place: the numbers lie in the same order.
+        Self(Arc::new(spheres.into_iter().map(Into::into).collect()))
+    }
+}
+
+impl From<[f32; 4]> for Sphere {
+    #[inline(always)]
+    fn from([x, y, z, radius]: [f32; 4]) -> Self {
+        Self { center: Vec3::new(x, y, z), radius }
+    }
+}
+
+impl From<Sphere> for [f32; 4] {
+    #[inline(always)]
+    fn from(Sphere { center, radius }: Sphere) -> Self {
+        center.extend(radius).to_array()
+    }
 }
 
 /// A cylinder between two points; with two different radii a cone.

@@ -30,7 +30,7 @@ mod world;
 pub use aabb::Aabb;
 pub use build::{BuildError, BuildOptions, Preset};
 pub use eights::{Hits8, Rays8, halves, lanes, whole};
-pub use geometry::{Canonical, Caps, Cylinder, Plane, Primitives, Solid, Sphere};
+pub use geometry::{Canonical, Caps, Cylinder, Plane, Primitives, Solid, Sphere, Spheres};
 pub use lanes::Lanes;
 pub use level::{Kernel, Level};
 pub use ray::{Coordinates, Cost, Hit, Ray, Surface};

@@ -49,7 +49,7 @@ impl<'a> Prepared<'a> {
                 self.shear.intersect(corners).map(|[t, u, v]| Hit { u, v, ..at(t) })
             }
             Primitives::Spheres(spheres) => {
-                self.closest.intersect(&spheres[local as usize]).map(at)
+                self.closest.intersect(&spheres.get(local as usize)).map(at)
             }
             Primitives::Cylinders { cylinders, caps } => {
                 let cylinder = &cylinders[local as usize];

@@ -117,7 +117,7 @@ fn ray(numbers: &mut Random, geometry: &[Primitives]) -> Ray {
             [a, (a + b) / 2.0, a.lerp(b, 0.25), (a + b + c) / 3.0][numbers.below(4)]
         }
         Some(Primitives::Spheres(spheres)) if !spheres.is_empty() => {
-            let sphere = spheres[numbers.below(spheres.len())];
+            let sphere = spheres.get(numbers.below(spheres.len()));
             sphere.center + sphere.radius * [Vec3::ZERO, Vec3::Y, numbers.point()][numbers.below(3)]
         }
         Some(Primitives::Cylinders { cylinders, .. }) if !cylinders.is_empty() => {

@@ -230,8 +230,7 @@ impl Arrays {
                 (TRIANGLE, vertices, indices.to_vec())
             }
             Primitives::Spheres(spheres) => {
-                let four = |s: &phong_bvh::Sphere| [s.center.x, s.center.y, s.center.z, s.radius];
-                (SPHERE_POINT, spheres.iter().flat_map(four).collect(), Vec::new())
+                (SPHERE_POINT, spheres.as_slice().as_flattened().to_vec(), Vec::new())
             }
             Primitives::Cylinders { .. } | Primitives::Plane(_) | Primitives::Solid(_) => {
                 panic!("not asked of Embree")

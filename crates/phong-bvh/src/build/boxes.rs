@@ -108,7 +108,7 @@ fn fill(boxes: &mut [Boxed], first: usize, geometry: &Primitives, index: usize) 
         }
         Primitives::Spheres(spheres) => {
             for (local, slot) in (first..).zip(boxes) {
-                let sphere = spheres[local];
+                let sphere = spheres.get(local);
                 let radius = Vec3::splat(sphere.radius);
                 let bounds = Aabb { lo: sphere.center - radius, hi: sphere.center + radius };
                 *slot = Boxed::boxed(bounds, local, index);

@@ -158,7 +158,7 @@ impl Writer<'_> {
             for b in &self.boxes[range(2 * AHEAD)] {
                 match &self.geometry[b.geometry()] {
                     Primitives::Triangles { indices, .. } => prefetch_item(indices, b.local()),
-                    Primitives::Spheres(spheres) => prefetch_item(spheres, b.local()),
+                    Primitives::Spheres(spheres) => prefetch_item(spheres.as_slice(), b.local()),
                     Primitives::Cylinders { cylinders, .. } => prefetch_item(cylinders, b.local()),
                     Primitives::Solid(_) | Primitives::Plane(_) => {}
                 }
@@ -204,9 +204,8 @@ impl Writer<'_> {
                     }
                 }
                 Primitives::Spheres(spheres) => {
-                    let sphere = spheres[b.local()];
-                    let [x, y, z] = sphere.center.to_array();
-                    for (row, value) in [x, y, z, sphere.radius].into_iter().enumerate() {
+                    let numbers = spheres.as_slice()[b.local()];
+                    for (row, value) in numbers.into_iter().enumerate() {
                         block[row].0[lane] = value;
                     }
                 }

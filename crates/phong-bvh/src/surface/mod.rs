@@ -34,7 +34,7 @@ use self::point::{
     triangle,
 };
 use crate::{
-    Coordinates, Cylinder, Hit, Hits8, Kernel, Primitives, Ray, Rays8, Sphere, Surface,
+    Coordinates, Cylinder, Hit, Hits8, Kernel, Primitives, Ray, Rays8, Sphere, Spheres, Surface,
     eights::{halves, whole},
     frame::{Frame, ROUNDING, Way, unit, wide as wide8},
     lanes, local,
@@ -64,7 +64,7 @@ pub(crate) fn surface(world: &impl Places, ray: &Ray, hit: &Hit) -> Surface {
             triangle(corners(positions, indices[local]), hit.u.into(), hit.v.into())
         }
         Primitives::Spheres(spheres) => {
-            let Sphere { center, radius } = spheres[local];
+            let Sphere { center, radius } = spheres.get(local);
             let (o, d) = line(&ray);
             sphere(center.as_dvec3().to_array(), radius.into(), o, d, t.into())
         }
@@ -107,7 +107,7 @@ fn kernel_slack(cylinder: &Cylinder) -> f64 {
 fn distance(primitives: &Primitives, ray: &local::Ray, way: Way<f64>, hit: &Hit) -> f32 {
     let again = match primitives {
         Primitives::Spheres(spheres) if way.skip > 0.0 => {
-            Closest::new(ray).intersect(&spheres[hit.prim as usize])
+            Closest::new(ray).intersect(&spheres.get(hit.prim as usize))
         }
         Primitives::Cylinders { cylinders, caps } if way.skip > 0.0 => {
             let cylinder = &cylinders[hit.prim as usize];
@@ -328,10 +328,10 @@ fn wide3<S: Simd>(simd: S, [a, b, c, d]: [Vec3; 4]) -> [f64x4<S>; 3] {
 #[inline(always)]
 fn four_spheres<S: Simd>(
     simd: S,
-    spheres: &[Sphere],
+    spheres: &Spheres,
     [a, b, c, d]: [usize; 4],
 ) -> ([f64x4<S>; 3], f64x4<S>) {
-    let [a, b, c, d] = [spheres[a], spheres[b], spheres[c], spheres[d]];
+    let [a, b, c, d] = [spheres.get(a), spheres.get(b), spheres.get(c), spheres.get(d)];
     let center = wide3(simd, [a.center, b.center, c.center, d.center]);
     (center, wide(simd, [a.radius, b.radius, c.radius, d.radius]))
 }
@@ -386,7 +386,7 @@ pub(crate) fn coordinates(world: &impl Places, ray: &Ray, hit: &Hit) -> Coordina
             ((b - a).cross(c - a), b - a, DVec2::new(hit.u.into(), hit.v.into()))
         }
         Primitives::Spheres(spheres) => {
-            let Sphere { center, radius } = spheres[local];
+            let Sphere { center, radius } = spheres.get(local);
             let (o, d) = line(&ray);
             let center = center.as_dvec3().to_array();
             let normal = on_sphere(center, radius.into(), o, d, t.into());

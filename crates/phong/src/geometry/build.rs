@@ -239,7 +239,7 @@ impl Built {
             && first + spheres.len() as u32 == object
         {
             let local = spheres.len() as u32;
-            Arc::make_mut(spheres).push(sphere);
+            spheres.push(sphere);
             materials.push(material);
             batch.rotations.extend(rotation.map(|rotation| (local, rotation)));
             return;

@@ -299,7 +299,7 @@ impl Geometry {
         {
             // The tree holds the sphere unturned, so it is the ray that is turned back about it.
             let about = batch.apart.unwrap_or(self.center);
-            let center = spheres[local as usize].center.as_dvec3() + about;
+            let center = spheres.get(local as usize).center.as_dvec3() + about;
             let back = rotation.transpose();
             let origin = center + back * (ray.origin - center);
             let dir = back * ray.dir.as_dvec3();

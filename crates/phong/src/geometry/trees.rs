@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::Vec3;
-use phong_bvh::{BuildError, BuildOptions, Cylinder, Primitives, Sphere, Tree};
+use phong_bvh::{BuildError, BuildOptions, Cylinder, Primitives, Tree};
 use phong_scene::{Caps, Shared};
 use rayon::prelude::*;
 
@@ -48,13 +48,7 @@ impl Arrays {
             Self::Triangles(positions, indices) => {
                 Primitives::triangles(positions.to_arc(), indices.to_arc())
             }
-            Self::Spheres(spheres) => {
-                let sphere =
-                    |&[x, y, z, radius]: &[f32; 4]| Sphere { center: Vec3::new(x, y, z), radius };
-                let spheres: Vec<_> =
-                    spheres.par_iter().with_min_len(1 << 12).map(sphere).collect();
-                Primitives::spheres(spheres)
-            }
+            Self::Spheres(spheres) => Primitives::spheres(spheres.to_arc()),
             Self::Cylinders(segments, caps) => {
                 let cylinder = |&[from, to]: &[[f32; 4]; 2]| Cylinder {
                     from: Vec3::new(from[0], from[1], from[2]),
@@ -121,6 +115,17 @@ mod tests {
         assert!(Arc::ptr_eq(&get(&arrays), &get(&arrays)));
         assert!(!Arc::ptr_eq(&get(&arrays), &get(&triangle())));
         assert_eq!(trees.len(), 2);
+    }
+
+    #[test]
+    fn a_tree_of_spheres_holds_the_very_array_that_it_is_made_of() {
+        let spheres: Shared<[f32; 4]> = [[1.0, 2.0, 3.0, 0.5], [0.0, 0.0, 0.0, 1.0]].into();
+        let (earlier, options) = (Trees::default(), BuildOptions::default());
+        let arrays = Arrays::Spheres(spheres.clone());
+        let tree = Trees::default().get(arrays, &earlier, options).unwrap();
+        let Primitives::Spheres(held) = tree.primitives() else { panic!("spheres stay spheres") };
+        assert_eq!(held.as_slice().as_ptr(), spheres.as_ptr());
+        assert_eq!(held.get(0).radius, 0.5);
     }
 
     #[test]

@@ -250,7 +250,7 @@ impl Shape {
         };
         match primitives {
             Primitives::Spheres(spheres) => {
-                let sphere = &spheres[local];
+                let sphere = spheres.get(local);
                 let (middle, size) = (sphere.center.as_dvec3(), f64::from(sphere.radius));
                 let curve = Some(Curve { middle, axis: None, size, key: size });
                 Self { flats: Vec::new(), curve, closed: true }
