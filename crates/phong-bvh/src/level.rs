@@ -1,13 +1,16 @@
 //! Which vector instructions the kernels use: picked once, or forced by a test.
 
-use fearless_simd::{Fallback, Level as Cpu, Simd};
+#[cfg(any(target_arch = "x86_64", target_arch = "aarch64"))]
+use fearless_simd::Level as Cpu;
+use fearless_simd::Simd;
 
 /// A set of vector instructions. Every level gives the same bits; they differ in speed alone.
 ///
 /// A level is offered where it can be tested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
-    /// No vector instructions beyond what the compiler makes of plain code.
+    /// No vector instructions beyond what the compiler makes of plain code. Not offered by a module of
+    /// WebAssembly that has vectors: nobody would run it, and it is larger than they are.
     Scalar,
     /// x86 with SSE4.2: four lanes.
     Sse42,
@@ -38,19 +41,17 @@ impl Level {
         Token::of(self).is_some()
     }
 
-    /// Runs `kernel` compiled for this level; where it is not available, for the scalar one.
+    /// Runs `kernel` compiled for this level; where it is not available, for the slowest one that is.
     pub fn run<K: Kernel>(self, kernel: K) -> K::Output {
-        match Token::of(self) {
-            Some(token) => token.run(kernel),
-            None => Token::Scalar(Fallback::new()).run(kernel),
-        }
+        Token::of(self).unwrap_or(Token::BASE).run(kernel)
     }
 }
 
 /// The proof that the machine has a level, which the vector types ask for.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Token {
-    Scalar(Fallback),
+    #[cfg(not(all(target_arch = "wasm32", target_feature = "simd128")))]
+    Scalar(fearless_simd::Fallback),
     #[cfg(target_arch = "x86_64")]
     Sse42(fearless_simd::x86::Sse4_2),
     #[cfg(target_arch = "x86_64")]
@@ -64,13 +65,17 @@ pub(crate) enum Token {
 }
 
 impl Token {
+    /// The level that is always there.
+    #[cfg(not(all(target_arch = "wasm32", target_feature = "simd128")))]
+    const BASE: Self = Self::Scalar(fearless_simd::Fallback::new());
+    #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+    const BASE: Self = Self::Simd128(fearless_simd::wasm32::WasmSimd128::assume_supported());
+
     /// The proof for `level`, or none where the machine lacks it.
     pub(crate) fn of(level: Level) -> Option<Self> {
         match level {
-            Level::Scalar => match Cpu::fallback() {
-                Cpu::Fallback(token) => Some(Self::Scalar(token)),
-                _ => None,
-            },
+            #[cfg(not(all(target_arch = "wasm32", target_feature = "simd128")))]
+            Level::Scalar => Some(Self::BASE),
             #[cfg(target_arch = "x86_64")]
             Level::Sse42 => Cpu::new().as_sse4_2().map(Self::Sse42),
             #[cfg(target_arch = "x86_64")]
@@ -80,7 +85,7 @@ impl Token {
             #[cfg(target_arch = "aarch64")]
             Level::Neon => Cpu::new().as_neon().map(Self::Neon),
             #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
-            Level::Simd128 => Cpu::new().as_wasm_simd128().map(Self::Simd128),
+            Level::Simd128 => Some(Self::BASE),
             _ => None,
         }
     }
@@ -96,6 +101,7 @@ impl Token {
             )
         }
         match self {
+            #[cfg(not(all(target_arch = "wasm32", target_feature = "simd128")))]
             Self::Scalar(simd) => at(simd, kernel),
             #[cfg(target_arch = "x86_64")]
             Self::Sse42(simd) => at(simd, kernel),
