@@ -47,7 +47,7 @@ impl Scene {
         &self,
         py: Python<'_>,
         said: &Said<'_>,
-    ) -> PyResult<(Material, Vec<phong_scene::Texture>, Vec<Diagnostic>)> {
+    ) -> PyResult<(Material, Vec<Texture>, Vec<Diagnostic>)> {
         let name = said.name.clone().unwrap_or_else(|| "material".to_owned());
         let mut text = Text::default();
         let table = text.table(&said.keys)?;
