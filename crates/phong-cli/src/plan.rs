@@ -52,12 +52,19 @@ impl Outputs {
         Ok(Self::Picture(format, files))
     }
 
-    /// Gives up the files of layers that the film will not have.
-    pub(crate) fn keep(&mut self, kinds: &[LayerKind]) {
+    /// Gives up the files of layers that the film will not have, and makes ready those that were not
+    /// known of before, beside the picture's file `path`.
+    pub(crate) fn keep(&mut self, path: &Path, kinds: &[LayerKind]) -> Result<(), Failure> {
         if let Self::Picture(format, files) = self {
             let contents = Content::of(kinds, *format);
             files.retain(|(content, _)| contents.contains(content));
+            for content in contents {
+                if files.iter().all(|(known, _)| *known != content) {
+                    files.push((content, Output::create(&content.path(path))?));
+                }
+            }
         }
+        Ok(())
     }
 
     /// Every file.
@@ -130,6 +137,7 @@ pub(crate) struct Plan {
     pub(crate) output: PathBuf,
     pub(crate) terms: bool,
     pub(crate) aovs: Vec<Aov>,
+    pub(crate) lights: bool,
     pub(crate) encoding: Encoding,
     pub(crate) share: Option<(u32, u32)>,
 }
@@ -152,8 +160,8 @@ impl Plan {
         if stdout && args.work.resume {
             return Err(Failure::usage("--resume needs a file to keep its checkpoint beside"));
         }
-        let (terms, aovs) = (args.terms, args.aov.clone());
-        Ok(Self { output, terms, aovs, encoding: encoding(&args.encoding), share })
+        let (terms, aovs, lights) = (args.terms, args.aov.clone(), args.lights);
+        Ok(Self { output, terms, aovs, lights, encoding: encoding(&args.encoding), share })
     }
 
     /// Makes ready what may be written: which terms the scene has is not known yet.
@@ -163,7 +171,9 @@ impl Plan {
         }
         let any = RenderOptions::of(&Image::default())?;
         let terms = if self.terms { TermSet::ALL } else { TermSet::NONE };
-        let layers = any.with_terms(terms).with_aovs(&self.aovs).layers();
+        // How many lights there are is not known yet; one layer says that there are several files.
+        let lights = u32::from(self.lights);
+        let layers = any.with_terms(terms).with_aovs(&self.aovs).with_lights(lights).layers();
         Outputs::picture(&self.output, args.encoding.output_format, &layers)
     }
 
@@ -177,6 +187,8 @@ impl Plan {
         let terms = if self.terms { TermSet::of_scene(&input.scene) } else { TermSet::NONE };
         let passes = if args.work.passes { Passes::CoarseToFine } else { Passes::One };
         let options = options.with_terms(terms).with_aovs(&self.aovs).with_passes(passes);
+        let lights = if self.lights { input.scene.lights.len() } else { 0 };
+        let options = options.with_lights(u32::try_from(lights).unwrap_or(u32::MAX));
         let Scene { outline, image, .. } = &input.scene;
         let lines = outline.as_ref().map(|outline| Lines::of(outline, image));
         let options = options.with_lines(lines);

@@ -47,8 +47,11 @@ impl Token {
 }
 
 /// What the layers' names stand for.
-fn layers(names: &Bound<'_, PyAny>, scene: &phong_scene::Scene) -> PyResult<(TermSet, Vec<Aov>)> {
-    let (mut terms, mut aovs) = (TermSet::NONE, Vec::new());
+fn layers(
+    names: &Bound<'_, PyAny>,
+    scene: &phong_scene::Scene,
+) -> PyResult<(TermSet, Vec<Aov>, u32)> {
+    let (mut terms, mut aovs, mut lights) = (TermSet::NONE, Vec::new(), 0);
     let names: Vec<String> = match names.cast::<PyString>() {
         Ok(one) => vec![one.to_cow()?.into_owned()],
         Err(_) => names.extract().map_err(|_| {
@@ -62,6 +65,8 @@ fn layers(names: &Bound<'_, PyAny>, scene: &phong_scene::Scene) -> PyResult<(Ter
     for name in names {
         if name == "terms" {
             terms = terms.or(TermSet::of_scene(scene));
+        } else if name == "lights" {
+            lights = u32::try_from(scene.lights.len()).unwrap_or(u32::MAX);
         } else if let Some(term) = Term::from_name(&name) {
             terms = terms.with(term);
         } else if let Some(aov) = Aov::from_name(&name) {
@@ -69,7 +74,10 @@ fn layers(names: &Bound<'_, PyAny>, scene: &phong_scene::Scene) -> PyResult<(Ter
         } else {
             let known = || {
                 let terms = Term::ALL.into_iter().map(Term::name);
-                std::iter::once("terms").chain(terms).chain(Aov::ALL.into_iter().map(Aov::name))
+                ["terms", "lights"]
+                    .into_iter()
+                    .chain(terms)
+                    .chain(Aov::ALL.into_iter().map(Aov::name))
             };
             let meant = closest(&name, known()).map(|name| format!(": did you mean {name:?}?"));
             let all = known().collect::<Vec<_>>().join(", ");
@@ -79,7 +87,7 @@ fn layers(names: &Bound<'_, PyAny>, scene: &phong_scene::Scene) -> PyResult<(Ter
             )));
         }
     }
-    Ok((terms, aovs))
+    Ok((terms, aovs, lights))
 }
 
 /// What is to be rendered.
@@ -162,8 +170,8 @@ impl Asked {
             options = options.with_tile(tile).map_err(told)?;
         }
         if let Some(names) = names {
-            let (terms, aovs) = layers(&names, &snapshot.scene)?;
-            options = options.with_terms(terms).with_aovs(&aovs);
+            let (terms, aovs, lights) = layers(&names, &snapshot.scene)?;
+            options = options.with_terms(terms).with_aovs(&aovs).with_lights(lights);
         }
         let limit = Some(max_memory.unwrap_or_else(memory));
         let film = options.film_bytes();

@@ -30,6 +30,7 @@ mod molecule;
 mod outline;
 mod scene;
 mod shape;
+mod sky;
 mod source;
 mod texels;
 mod texture;
@@ -69,6 +70,7 @@ pub use mesh::{Caps, Cylinders, Mesh, NO_INDEX, Points, Shared};
 pub use outline::Outline;
 pub use scene::{Background, FilterKind, Group, Image, Object, Reading, Scene};
 pub use shape::{GroupId, Shape};
+pub use sky::{Sky, SkyKind};
 pub use source::{Blob, Folder, Jail, Memory, Source, path_of, path_text, read_stream, trouble};
 pub use texels::{TexelValues, Texels, TexelsError};
 pub use texture::{

@@ -39,7 +39,7 @@
 //! | `camera` | a table | required | Where the picture is taken from. |
 //! | `ambient` | a table | every key's default | The ambient light. |
 //! | `ambient_occlusion` | a table | none | What takes ambient light away: a factor of the ambient term. |
-//! | `sky` | not built yet | none | A sky that lights the scene. |
+//! | `sky` | a table | none | A sky that the ambient light comes from. |
 //! | `fog` | a table | none | What is far away fades into a colour. |
 //! | `outline` | a table | none | Lines around things, drawn when the picture is done. |
 //! | `clip` | a list of tables | none | What is cut away. |
@@ -108,6 +108,7 @@ use crate::limits::Range;
 use crate::material::{Material, MaterialId};
 use crate::outline::Outline;
 use crate::shape::Shape;
+use crate::sky::Sky;
 use crate::texture::Texture;
 use crate::wording::words;
 
@@ -140,6 +141,9 @@ pub struct Scene {
     pub fog: Option<Fog>,
     /// Lines around things, drawn when the picture is done; `None`: there are none.
     pub outline: Option<Outline>,
+    /// What the ambient light comes from, and what rays see that hit nothing unless the background is
+    /// transparent. `None`: ambient light comes from everywhere alike.
+    pub sky: Option<Sky>,
     /// What is cut away of the objects, at most [`Clip::MOST`]; empty: nothing.
     pub clips: Vec<Clip>,
     /// The lights, in the order of the text.
@@ -165,6 +169,7 @@ impl Default for Scene {
             ambient_occlusion: None,
             fog: None,
             outline: None,
+            sky: None,
             clips: Vec::new(),
             lights: Vec::new(),
             materials: vec![Material::default()],

@@ -3,6 +3,7 @@
 mod sums;
 mod values;
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -86,18 +87,43 @@ pub enum LayerKind {
     Alpha,
     /// One term of the sum.
     Term(Term),
+    /// What one light brought, by its number from 0: its diffuse and specular light, its surface where
+    /// that is seen, and all of it that mirrors and glass show. Linear, unclamped.
+    Light(u32),
+    /// What no light brought: background, ambient light, what glows, and fog. With all lights it sums to
+    /// the picture, but for rounding.
+    Unlit,
     /// One arbitrary output variable.
     Aov(Aov),
 }
 
 impl LayerKind {
-    /// Its name: `picture`, `alpha`, or that of the term or variable.
-    pub const fn name(self) -> &'static str {
+    /// Its name: `picture`, `alpha`, that of the term or variable, `light.1` for the first light, or
+    /// `light.rest`.
+    pub fn name(self) -> Cow<'static, str> {
         match self {
-            Self::Picture => "picture",
-            Self::Alpha => "alpha",
-            Self::Term(term) => term.name(),
-            Self::Aov(aov) => aov.name(),
+            Self::Picture => "picture".into(),
+            Self::Alpha => "alpha".into(),
+            Self::Term(term) => term.name().into(),
+            Self::Light(number) => format!("light.{}", u64::from(number) + 1).into(),
+            Self::Unlit => "light.rest".into(),
+            Self::Aov(aov) => aov.name().into(),
+        }
+    }
+
+    /// The layer of that [name](Self::name).
+    pub fn from_name(name: &str) -> Option<Self> {
+        let light = |number: &str| {
+            let number = number.parse::<u32>().ok()?.checked_sub(1)?;
+            Some(Self::Light(number)).filter(|layer| layer.name() == name)
+        };
+        match name {
+            "picture" => Some(Self::Picture),
+            "alpha" => Some(Self::Alpha),
+            "light.rest" => Some(Self::Unlit),
+            _ => (Term::from_name(name).map(Self::Term))
+                .or_else(|| Aov::from_name(name).map(Self::Aov))
+                .or_else(|| name.strip_prefix("light.").and_then(light)),
         }
     }
 
@@ -105,7 +131,7 @@ impl LayerKind {
     /// pixel's centre alone.
     pub const fn is_averaged(self) -> bool {
         match self {
-            Self::Picture | Self::Alpha | Self::Term(_) => true,
+            Self::Picture | Self::Alpha | Self::Term(_) | Self::Light(_) | Self::Unlit => true,
             Self::Aov(_) => false,
         }
     }
@@ -113,7 +139,7 @@ impl LayerKind {
     /// Values a pixel.
     pub const fn channels(self) -> usize {
         match self {
-            Self::Picture | Self::Term(_) => 3,
+            Self::Picture | Self::Term(_) | Self::Light(_) | Self::Unlit => 3,
             Self::Alpha => 1,
             Self::Aov(aov) => aov.channels(),
         }

@@ -42,6 +42,7 @@ pub mod part;
 pub mod reflectance;
 pub mod render;
 mod sampling;
+mod sky;
 pub mod terms;
 pub mod texture;
 pub mod view;

@@ -4,7 +4,7 @@
 
 use phong_scene::{
     AmbientOcclusion, Background, Camera, Clip, Diagnostic, Fog, Image, Light, Material, Rgb,
-    Scene, Texture,
+    Scene, Sky, Texture,
 };
 
 /// What a geometry looks like, as it was written. Each part can be replaced.
@@ -26,6 +26,8 @@ pub struct Look {
     pub ambient_occlusion: Option<AmbientOcclusion>,
     /// What is far away fades into a colour; `None`: it does not.
     pub fog: Option<Fog>,
+    /// What the ambient light comes from; `None`: from everywhere alike.
+    pub sky: Option<Sky>,
     /// What is cut away of the objects.
     pub clips: Vec<Clip>,
     /// What rays see that hit nothing.
@@ -43,6 +45,7 @@ impl Look {
             ambient: scene.ambient,
             ambient_occlusion: scene.ambient_occlusion,
             fog: scene.fog,
+            sky: scene.sky,
             clips: scene.clips.clone(),
             background: scene.image.background,
         }
@@ -58,6 +61,7 @@ impl Look {
             ambient,
             ambient_occlusion,
             fog,
+            sky,
             clips,
             background,
         } = self.clone();
@@ -70,6 +74,7 @@ impl Look {
             ambient,
             ambient_occlusion,
             fog,
+            sky,
             clips,
             lights,
             materials,

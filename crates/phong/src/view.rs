@@ -23,6 +23,7 @@ use crate::light::{Light, MOUNTED};
 use crate::look::Look;
 use crate::material::Material;
 use crate::math::Dir3;
+use crate::sky::Sky;
 use crate::texture::Texture;
 use clip::Clipping;
 pub(crate) use coincident::Coincidences;
@@ -61,6 +62,8 @@ pub struct View {
     coincidences: Option<Coincidences>,
     /// What takes ambient light away; `None`: nothing does.
     occlusion: Option<Occlusion>,
+    /// What the ambient light comes from; `None`: from everywhere alike.
+    sky: Option<Sky>,
     /// What is far away fades; `None`: it does not.
     fog: Option<Fog>,
     /// What is cut away; `None`: nothing.
@@ -170,7 +173,8 @@ impl View {
         Ok(Self {
             clipping: Clipping::of(&look.clips, &geometry).map(Arc::new),
             coincidences: Coincidences::of(&geometry, &materials),
-            occlusion: look.ambient_occlusion.map(|o| Occlusion::new(&o, geometry.world())),
+            occlusion: Occlusion::of(&look, geometry.world()),
+            sky: look.sky.as_ref().map(Sky::new),
             has_bounces: look.materials.iter().any(bounces),
             fog: look.fog.map(|fog| Fog::new(&fog, look.background, &camera)),
             has_see_through: look.materials.iter().any(phong_scene::Material::is_see_through),
@@ -277,6 +281,12 @@ impl View {
     #[inline]
     pub(crate) fn is_clipped(&self) -> bool {
         self.clipping.is_some()
+    }
+
+    /// What the ambient light comes from; `None`: from everywhere alike.
+    #[inline]
+    pub(crate) fn sky(&self) -> Option<&Sky> {
+        self.sky.as_ref()
     }
 
     /// What is far away fades; `None`: it does not.

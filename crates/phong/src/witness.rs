@@ -111,6 +111,9 @@ pub trait Witness {
     /// This share of the ambient light finds its way to the surface just met; not told in scenes that do
     /// not ask. What was told of it, and what lights add to its ambient term, counts that much.
     fn opened(&mut self, _share: f32) {}
+    /// This light of the sky finds its way to the surface just met, as a matt surface weighs it; not told
+    /// without a sky. What was told of the ambient term counts that much, in place of the share.
+    fn lit_by_sky(&mut self, _light: Rgb) {}
     /// A light was asked for at the surface just met.
     fn lit(&mut self, light: &LightContribution);
     /// A ray goes on, with this weight; `fresnel` is the reflectance F where it was asked for.

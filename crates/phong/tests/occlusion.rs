@@ -132,7 +132,7 @@ fn the_explanation_tells_it_and_its_parts_are_the_pixel() {
             let Some(End::Surface(surface)) = sample.ray.as_ref().map(|ray| &ray.end) else {
                 continue;
             };
-            let Openness { share, rays, distance } = surface.openness.unwrap();
+            let Openness { share, rays, distance, .. } = surface.openness.unwrap();
             assert_eq!((rays, distance), (9, 1.5));
             let by_hand = surface.material.k_a * surface.c_a * share;
             let lights = surface.lights.iter().map(|lit| lit.ambient);

@@ -57,6 +57,11 @@ pub(crate) struct RenderArgs {
     #[arg(help_heading = "File")]
     pub(crate) aov: Vec<phong::aov::Aov>,
 
+    /// Also what each light brought, and `light.rest`, what none did: layers of an EXR, else files
+    /// STEM.light.N.ext beside OUT, N from 1; they sum to the picture
+    #[arg(long, help_heading = "File")]
+    pub(crate) lights: bool,
+
     #[command(flatten)]
     pub(crate) film: FilmArgs,
 

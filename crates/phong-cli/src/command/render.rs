@@ -42,7 +42,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
     let mut meter = Meter::new(quiet, "reading");
     let mut input = input::open(&args.input, quiet)?;
     let options = plan.settle(args, &mut input)?;
-    outputs.keep(&options.shown_layers());
+    outputs.keep(&plan.output, &options.shown_layers())?;
     keep_inputs_safe(outputs.iter(), input.files())?;
     clock.lap("read");
 

@@ -83,11 +83,14 @@ fn ray_into(out: &mut Map<String, Value>, told: &RayTold) {
             put("e", dir(s.e));
             put("ambient", rgb(s.ambient));
             put("c_a", rgb(s.c_a));
-            if let Some(Openness { share, rays, distance }) = s.openness {
+            if let Some(Openness { share, rays, distance, sky }) = s.openness {
                 let told = json!({
                     "share": number(share), "rays": rays, "distance": number(distance),
                 });
                 put("openness", told);
+                if let Some(sky) = sky {
+                    put("sky", rgb(sky));
+                }
             }
             put("emission", rgb(s.terms.emission));
             put("c_e", rgb(s.c_e()));

@@ -59,7 +59,10 @@ pub(super) fn own_terms(s: &Surface) -> Vec<(Term, Product)> {
     if m.ambient_rule != AmbientRule::PerLight {
         let mut factors = vec![one("k_a", "k_a", m.k_a), color("C_a", "C_a", s.c_a)];
         factors.extend(cover(s));
-        factors.extend(openness(s));
+        match s.openness.and_then(|open| open.sky) {
+            Some(sky) => factors.push(color("× sky", r"\text{sky}", sky)),
+            None => factors.extend(openness(s)),
+        }
         terms.push((Term::Ambient, Product { factors, value: s.ambient }));
     }
     if m.k_e > 0.0 {

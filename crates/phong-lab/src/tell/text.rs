@@ -192,12 +192,18 @@ impl Page {
             ("E       ", self.numbers.direction(s.e) + "   = -d"),
         ]);
         self.blank();
-        if let Some(Openness { share, rays, distance }) = s.openness {
+        if let Some(Openness { share, rays, distance, sky }) = s.openness {
             let met = (share * rays as f32).round();
             let distance = self.numbers.one(distance);
             self.line(format_args!(
                 "openness = {met} of {rays} rays meet nothing within {distance}"
             ));
+            if let Some(sky) = sky {
+                let mean = self.numbers.color(sky);
+                self.line(format_args!(
+                    "sky      = {mean}: its mean over these rays, 0 where they meet"
+                ));
+            }
         }
         if s.material.ambient_rule == AmbientRule::PerLight {
             self.line(format_args!("ambient  is added by each light"));

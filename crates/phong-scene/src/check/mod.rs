@@ -160,6 +160,9 @@ impl<'s> Judge<'s> {
             let name = || "ambient_occlusion".into();
             self.judge(&nowhere, name, |f| settings::occlusion(occlusion, f));
         }
+        if let Some(sky) = &scene.sky {
+            self.judge(&nowhere, || "sky".into(), |f| settings::sky(sky, f));
+        }
         if let Some(fog) = &scene.fog {
             self.judge(&nowhere, || "fog".into(), |f| settings::fog(fog, f));
         }

@@ -13,6 +13,7 @@ use crate::light::{Light, LightKind};
 use crate::limits::LARGEST;
 use crate::outline::Outline;
 use crate::scene::Image;
+use crate::sky::{Sky, SkyKind};
 
 /// Below this sine of the angle to the view, a millionth of a degree, "up" is decided by rounding.
 const PARALLEL: f64 = 1e-8;
@@ -31,6 +32,18 @@ pub(super) fn occlusion(occlusion: &AmbientOcclusion, faults: &mut Faults) {
 
 pub(super) fn outline(outline: &Outline, faults: &mut Faults) {
     values(outline, None, faults);
+}
+
+/// Judges a sky.
+pub(crate) fn sky(sky: &Sky, faults: &mut Faults) {
+    values(sky, None, faults);
+    if let SkyKind::SunAndSky { sun, .. } = sky.kind
+        && faults.spare(&["sun", "up"])
+        && sun.dot(sky.up) < 0.0
+    {
+        let help = "it is a sky by day; `sun` points from the scene to the sun";
+        faults.say("sun", "the sun is below the horizon").help = Some(help.to_owned());
+    }
 }
 
 /// Judges fog.

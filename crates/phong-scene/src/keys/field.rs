@@ -14,6 +14,7 @@ use crate::material::Material;
 use crate::outline::Outline;
 use crate::scene::Image;
 use crate::shape::Shape;
+use crate::sky::Sky;
 use crate::texture::Texture;
 
 /// Where a key's value is kept.
@@ -23,6 +24,7 @@ pub(crate) enum Field {
     None,
     Image(Access<Image>),
     AmbientOcclusion(Access<AmbientOcclusion>),
+    Sky(Access<Sky>),
     Fog(Access<Fog>),
     Clip(Access<Clip>),
     Outline(Access<Outline>),

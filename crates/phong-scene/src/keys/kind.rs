@@ -85,8 +85,6 @@ pub(crate) enum Kind {
     Values,
     /// Options of another program, by its own words.
     Options,
-    /// Known, but not built yet.
-    NotYet,
 }
 
 impl Kind {
@@ -145,7 +143,6 @@ impl Kind {
             Self::Numbers => "a number or a list of numbers".to_owned(),
             Self::Values => "lists of values by the path of a key".to_owned(),
             Self::Options => "words and numbers by name".to_owned(),
-            Self::NotYet => "not built yet".to_owned(),
         }
     }
 }

@@ -18,6 +18,7 @@ mod reference;
 mod scene;
 mod schema;
 mod shape;
+mod sky;
 mod texture;
 mod value;
 

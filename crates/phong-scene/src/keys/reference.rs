@@ -149,11 +149,12 @@ mod tests {
     use crate::keys::shape::SHAPES;
     use crate::keys::{CLIP, INCLUDE, LIGHT, MATERIAL, TEXTURE};
 
-    const CONCEPTS: [(&str, &str); 10] = [
+    const CONCEPTS: [(&str, &str); 11] = [
         ("ambient_occlusion.rs", include_str!("../ambient_occlusion.rs")),
         ("camera.rs", include_str!("../camera.rs")),
         ("clip.rs", include_str!("../clip.rs")),
         ("fog.rs", include_str!("../fog.rs")),
+        ("sky.rs", include_str!("../sky.rs")),
         ("light.rs", include_str!("../light.rs")),
         ("material.rs", include_str!("../material.rs")),
         ("outline.rs", include_str!("../outline.rs")),

@@ -5,6 +5,7 @@ use super::field::{field, keyed};
 use super::light::LIGHT;
 use super::material::MATERIAL;
 use super::shape::{GROUP, SHAPES};
+use super::sky::SKY;
 use super::texture::TEXTURE;
 use super::{Default, Key, Kind, Table};
 use crate::ambient_occlusion::AmbientOcclusion;
@@ -52,7 +53,12 @@ pub(crate) static SCENE: Table = Table {
                 Default::Said("none"),
                 "What takes ambient light away: a factor of the ambient term.",
             ),
-            Key::new("sky", Kind::NotYet, Default::Said("none"), "A sky that lights the scene."),
+            Key::new(
+                "sky",
+                Kind::Table(&SKY),
+                Default::Said("none"),
+                "A sky that the ambient light comes from.",
+            ),
             Key::new(
                 "fog",
                 Kind::Table(&FOG),

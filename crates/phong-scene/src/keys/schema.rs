@@ -174,7 +174,6 @@ fn kind(kind: Kind) -> Value {
         Kind::Options => json!({ "type": "object", "additionalProperties": {
             "type": ["string", "number", "boolean"],
         } }),
-        Kind::NotYet => json!({ "not": {} }),
     }
 }
 

@@ -4,8 +4,8 @@ use glam::{DAffine3, DVec3, Vec2, Vec3};
 use phong_scene::{
     AmbientOcclusion, Background, Camera, CameraKind, Cap, Clip, ClipKind, ConstantMaterial, Fog,
     FogKind, Fresnel, GradientBy, Group, GroupId, Image, Light, LightKind, Material, MaterialId,
-    Mesh, Model, NO_INDEX, Object, OcclusionDistance, Outline, Points, Rgb, Scene, Shape, Texture,
-    TextureId, TextureKind, TextureRef,
+    Mesh, Model, NO_INDEX, Object, OcclusionDistance, Outline, Points, Rgb, Scene, Shape, SkyKind,
+    Texture, TextureId, TextureKind, TextureRef,
 };
 use proptest::prelude::*;
 
@@ -259,6 +259,11 @@ prop_compose! {
             image: Image { size, samples, depth, background, ..Image::default() },
             camera: Camera { kind, eye, look_at, up, aperture, focus: None },
             ambient_occlusion: Some(AmbientOcclusion { samples: depth, distance: OcclusionDistance::Units(fov) }),
+            sky: Some(phong_scene::Sky {
+                kind: SkyKind::SunAndSky { sun: up, turbidity: 2.0 + fov, ground: None },
+                up,
+                ..phong_scene::Sky::default()
+            }),
             fog: Some(Fog {
                 kind: FogKind::Linear { start: 0.0, end: fov },
                 color: Some(top),

@@ -27,6 +27,7 @@ cases! {
     a_lens_has_an_aperture_and_a_focus
     a_light_may_shine_out_of_a_ball_that_throws_no_shadow
     a_material_called_default_is_that_of_shapes_without_one
+    a_sky_may_light_the_scene
     a_model_brings_its_materials_unless_one_is_named
     a_panorama_needs_no_angle
     ambient_light_may_meet_things
@@ -77,6 +78,8 @@ cases! {
     a_material_defined_twice_shows_both_places
     a_model_of_another_format_is_told_where_it_is_named
     a_scene_without_lights_is_a_warning
+    a_sky_has_its_sun_by_day
+    a_sun_below_the_horizon_is_told
     a_scene_without_objects_is_a_warning
     a_spot_shines_somewhere_and_ends_outside
     a_table_and_a_list_of_one_name_are_told
@@ -116,7 +119,6 @@ cases! {
     three_js_leaves_no_choice_of_its_switches
     up_must_not_be_antiparallel_to_the_view_along_z
     up_must_not_be_parallel_to_the_view
-    what_is_not_built_yet_says_so
     what_is_required_and_missing_is_told_at_its_table
     what_nobody_uses_is_a_warning
     without_any_material_the_help_says_how_to_write_one

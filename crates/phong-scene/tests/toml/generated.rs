@@ -6,8 +6,8 @@ use phong_scene::{
     ClipKind, ConstantMaterial as Material, Cylinders, Dialect, Distribution, FilterKind, Fog,
     FogDistance, FogKind, Fresnel, GradientBy, Group, GroupId, Image, Keep, Light, LightKind,
     MaterialId, Mesh, Model, NO_INDEX, NormalFormat, Object, OcclusionDistance, OpacityMode,
-    Outline, Place, Points, Rgb, Scene, ShadowRule, Shadowing, Shape, Texture, TextureId,
-    TextureKind, TextureRef, TextureSpace, Tint, Viewer, WardForm,
+    Outline, Place, Points, Rgb, Scene, ShadowRule, Shadowing, Shape, Sky, SkyKind, Texture,
+    TextureId, TextureKind, TextureRef, TextureSpace, Tint, Viewer, WardForm,
 };
 use proptest::prelude::*;
 
@@ -117,12 +117,23 @@ impl Make {
         ]);
         let distance = self.one(&[FogDistance::Radial, FogDistance::Planar]);
         let (color, strength) = (self.flag().then(|| self.color()), self.one(&[1.0, 0.5]));
+        let (sun, ground) =
+            (DVec3::new(1.0, 0.5, self.number()), self.flag().then(|| self.color()));
+        let kind_of_sky = self.one(&[
+            SkyKind::Constant,
+            SkyKind::Gradient { zenith: Rgb::grey(0.5), horizon: Rgb::WHITE, ground },
+            SkyKind::SunAndSky { sun, turbidity: 2.5, ground },
+        ]);
+        let (color_of_sky, up) = (self.color(), self.one(&[DVec3::Y, DVec3::X]));
+        let of_sky = Sky { kind: kind_of_sky, up, color: color_of_sky, samples: 9 };
+        let sky = self.flag().then_some(of_sky);
         let fog = self.flag().then_some(Fog { kind, color, distance, strength });
         Scene {
             image,
             camera,
             ambient,
             ambient_occlusion,
+            sky,
             fog,
             outline: self.flag().then_some(Outline {
                 width: 0.5,

@@ -69,6 +69,7 @@ fn summary(scene: &Scene) -> String {
         camera,
         ambient,
         ambient_occlusion,
+        sky,
         fog,
         outline,
         clips,
@@ -83,6 +84,7 @@ fn summary(scene: &Scene) -> String {
         differing(camera, &Camera::default()),
         format!("ambient {ambient:?}"),
     ];
+    lines.extend(sky.map(|sky| format!("{sky:?}")));
     lines.extend(fog.map(|fog| format!("{fog:?}")));
     lines.extend(outline.map(|outline| format!("{outline:?}")));
     lines.extend(clips.iter().map(|clip| format!("{clip:?}")));

@@ -12,7 +12,7 @@ use thiserror::Error;
 
 use crate::film::Sums8;
 use crate::filter::Filter;
-use crate::integrator::{Integrator, Radiance8, RayCounts, SampleGrid};
+use crate::integrator::{Brings, Integrator, Radiance8, RayCounts, SampleGrid};
 use crate::math::{Dir3, wide};
 use crate::render::{Drawn, RenderOptions, camera_ray};
 use crate::sampling::Sampler;
@@ -157,6 +157,9 @@ pub struct Openness {
     pub rays: u32,
     /// How far they looked, scene units; infinite: as far as there is anything.
     pub distance: f32,
+    /// The mean of the sky's light over all of them, 0 where they met something: the factor in place of the
+    /// share. `None`: there is no sky.
+    pub sky: Option<Rgb>,
 }
 
 /// A parameter of a material that takes its value from a texture.
@@ -356,6 +359,7 @@ impl<'a> Road<'a> {
             shadows: options.shadows(),
             terminator: options.terminator(),
             grid: SampleGrid { size: size, samples: options.samples() },
+            brings: Brings::All,
             stop: None,
         };
         Ok(Self { integrator, options, filter: Filter::new(options.filter()), pixel })

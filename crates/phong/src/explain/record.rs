@@ -146,7 +146,13 @@ impl Witness for Recorder<'_> {
         if let (Some(surface), Some(Occlusion { samples: rays, distance })) =
             (self.surface(), occlusion)
         {
-            surface.openness = Some(Openness { share, rays, distance });
+            surface.openness = Some(Openness { share, rays, distance, sky: None });
+        }
+    }
+
+    fn lit_by_sky(&mut self, light: Rgb) {
+        if let Some(open) = self.surface().and_then(|surface| surface.openness.as_mut()) {
+            open.sky = Some(light);
         }
     }
 

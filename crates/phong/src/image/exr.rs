@@ -143,7 +143,7 @@ fn in_order(attributes: &[(&str, String)]) -> HashMap<Text, AttributeValue> {
 /// Which layers are the mean of a pixel's samples, and which are of the ray through its centre alone:
 /// the attributes `averaged` and `pixelCenter`, names between commas.
 fn sampled(film: &Film) -> impl Iterator<Item = (&'static str, String)> {
-    let names = |averaged: bool| -> Vec<&str> {
+    let names = |averaged: bool| -> Vec<_> {
         let kinds = film.layers.iter().map(|layer| layer.kind);
         kinds.filter(|kind| kind.is_averaged() == averaged).map(LayerKind::name).collect()
     };
@@ -158,10 +158,13 @@ fn channel_names(kind: LayerKind) -> Vec<String> {
     match kind {
         LayerKind::Picture => ["R", "G", "B"].map(str::to_owned).to_vec(),
         LayerKind::Alpha => vec!["A".to_owned()],
-        LayerKind::Term(_) | LayerKind::Aov(Aov::Albedo) => of(&["R", "G", "B"]),
+        LayerKind::Term(_)
+        | LayerKind::Light(_)
+        | LayerKind::Unlit
+        | LayerKind::Aov(Aov::Albedo) => of(&["R", "G", "B"]),
         LayerKind::Aov(Aov::Normal | Aov::Position) => of(&["X", "Y", "Z"]),
         LayerKind::Aov(Aov::Uv) => of(&["U", "V"]),
-        LayerKind::Aov(_) => vec![kind.name().to_owned()],
+        LayerKind::Aov(_) => vec![kind.name().into_owned()],
     }
 }
 

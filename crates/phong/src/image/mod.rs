@@ -21,6 +21,7 @@ mod png;
 mod pnm;
 mod save;
 
+use std::borrow::Cow;
 use std::io::{Seek, Write};
 use std::path::{Path, PathBuf};
 
@@ -175,7 +176,7 @@ impl Content {
     }
 
     /// The word in the file's name: `None` for the picture and the whole film.
-    pub fn word(self) -> Option<&'static str> {
+    pub fn word(self) -> Option<Cow<'static, str>> {
         match self {
             Self::Layer(LayerKind::Picture) | Self::Film => None,
             Self::Layer(kind) => Some(kind.name()),
@@ -193,7 +194,7 @@ impl Content {
     /// ```
     pub fn path(self, picture: &Path) -> PathBuf {
         let Some(word) = self.word() else { return picture.to_owned() };
-        let mut ending = std::ffi::OsString::from(word);
+        let mut ending = std::ffi::OsString::from(&*word);
         if let Some(extension) = picture.extension() {
             ending.push(".");
             ending.push(extension);

@@ -60,9 +60,10 @@ pub(super) fn write(
             let alpha = alpha.filter(|alpha| !alpha.chunks(4096).all(is_whole));
             (values.into(), Tone { gain, curve, alpha, ..plain })
         }
-        LayerKind::Term(_) | LayerKind::Aov(Aov::Albedo) => {
-            (values.into(), Tone { curve, ..plain })
-        }
+        LayerKind::Term(_)
+        | LayerKind::Light(_)
+        | LayerKind::Unlit
+        | LayerKind::Aov(Aov::Albedo) => (values.into(), Tone { curve, ..plain }),
         LayerKind::Alpha | LayerKind::Aov(Aov::Shadow | Aov::Openness) => (values.into(), plain),
         LayerKind::Aov(Aov::Normal) => (values.iter().map(|n| 0.5 + 0.5 * n).collect(), plain),
         LayerKind::Aov(Aov::Uv) => {

@@ -320,6 +320,7 @@ fn files_of_a_film_are_named_by_their_layers() {
         [PICTURE, LayerKind::Alpha, LayerKind::Term(Term::Diffuse), LayerKind::Aov(Aov::Depth)];
     let words = |format| Content::of(&kinds, format).into_iter().map(Content::word).collect();
     let apart: Vec<_> = words(Format::Png);
+    let apart: Vec<_> = apart.iter().map(|word| word.as_deref()).collect();
     assert_eq!(apart, [None, Some("diffuse"), Some("depth")]);
     let together: Vec<_> = words(Format::Exr);
     assert_eq!(together, [None]);

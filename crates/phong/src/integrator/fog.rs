@@ -4,7 +4,7 @@
 //! the way from the eye.
 
 use phong_bvh::{Rays8, lanes};
-use phong_scene::Background;
+use phong_scene::{Background, Rgb};
 
 use super::Paths;
 use super::bundle::Radiance8;
@@ -67,10 +67,11 @@ pub(super) fn measure(
     }
 }
 
-/// Fades what rays brought. Over a transparent background there is no fog where nothing is met.
+/// Fades what rays brought; where the fog `glows`, it adds its own light. Over a transparent background there is no fog where nothing is met.
 pub(super) fn fade<W: Witness>(
     view: &View,
     fog: &Fog,
+    glows: bool,
     rays: &[Rays8],
     ways: &[[Way; 8]],
     out: &mut [Radiance8],
@@ -82,7 +83,7 @@ pub(super) fn fade<W: Witness>(
         for lane in lanes(hidden) {
             let Way { from, to, .. } = ways[lane];
             let clear = fog.clear(from, to);
-            let light = fog.color * (1.0 - clear);
+            let light = if glows { fog.color * (1.0 - clear) } else { Rgb::BLACK };
             let terms = out.terms.get(lane).behind(clear, light);
             for (term, value) in terms.iter() {
                 set(&mut out.terms[term], lane, value.to_array());

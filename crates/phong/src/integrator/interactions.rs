@@ -8,7 +8,7 @@ use phong_scene::{Background, Rgb};
 use super::bundle::Radiance8;
 use super::crossing::{Crossings, Departure};
 use super::lamps::{self, Lamps8};
-use super::{Integrator, Paths};
+use super::{Brings, Integrator, Paths};
 use crate::interaction::SurfaceInteraction;
 use crate::material::Material;
 use crate::math::lanes::{
@@ -81,6 +81,7 @@ impl Interactions {
             rays,
             interactions: self,
             passed,
+            brings: integrator.brings,
             out,
         });
     }
@@ -205,6 +206,7 @@ struct BeginRadiance<'a> {
     interactions: &'a mut Interactions,
     /// How many see-through surfaces are behind the rays.
     passed: u32,
+    brings: Brings,
     out: &'a mut [Radiance8],
 }
 
@@ -215,7 +217,7 @@ impl Kernel for BeginRadiance<'_> {
     fn run<S: Simd>(self, simd: S) {
         /// What lights add to in any case, and the ambient term.
         const LOCAL: TermSet = TermSet::of(&[Term::Ambient, Term::Diffuse, Term::Specular]);
-        let Self { scene, lift, height, rays, interactions, passed, out } = self;
+        let Self { scene, lift, height, rays, interactions, passed, brings, out } = self;
         let Interactions { hits, surfaces, shading, made, covers, widths, lamps, .. } =
             interactions;
         let eights = rays.iter().zip(hits).zip(surfaces).zip(shading).zip(out);
@@ -226,15 +228,28 @@ impl Kernel for BeginRadiance<'_> {
             if let Some(lamps) = lamps.get(i).filter(|lamps| lamps.seen != 0) {
                 out.brought = out.brought.with(Term::Emission);
                 for lane in lanes(seen) {
-                    let light = &scene.lights()[lamps.light[lane] as usize];
+                    let number = lamps.light[lane] as usize;
+                    if !brings.light(number) {
+                        continue;
+                    }
+                    let light = &scene.lights()[number];
                     set(&mut out.terms[Term::Emission], lane, light.color().to_array());
                 }
             }
             let missed = rays.there & !met & !seen;
-            if missed != 0 {
+            if missed != 0 && brings.unlit() {
                 out.brought = out.brought.with(Term::Background);
                 let to = &mut out.terms[Term::Background];
                 match scene.background() {
+                    Background::Color(_) | Background::Gradient { .. } if scene.sky().is_some() => {
+                        for (sky, lane) in scene
+                            .sky()
+                            .into_iter()
+                            .flat_map(|sky| lanes(missed).map(move |lane| (sky, lane)))
+                        {
+                            set(to, lane, sky.radiance(rays.get(lane).dir).to_array());
+                        }
+                    }
                     Background::Color(color) => {
                         let missed = mask32x8::from_bitmask(simd, missed.into());
                         let black = f32x8::splat(simd, 0.0);
@@ -279,6 +294,9 @@ impl Kernel for BeginRadiance<'_> {
                     cover = Some(own);
                 }
                 let there = |color| cover.map_or(color, |cover| scale(cover, color));
+                if !brings.unlit() {
+                    continue;
+                }
                 let own = there(material.ambient_of(color, scene.ambient()));
                 add_in(simd, &mut out.terms[Term::Ambient], same, own);
                 if material.glows() {

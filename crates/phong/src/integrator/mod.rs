@@ -57,9 +57,39 @@ pub(crate) struct Integrator<'a> {
     pub(crate) terminator: bool,
     /// The picture that rays are samples of.
     pub(crate) grid: SampleGrid,
+    /// What is asked for.
+    pub(crate) brings: Brings,
     /// Once true, whatever is under way ends soon, and what it brought is unspecified. `None`:
     /// nothing stops it.
     pub(crate) stop: Option<&'a AtomicBool>,
+}
+
+/// What rays are to bring.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Brings {
+    /// All light.
+    #[default]
+    All,
+    /// What this light brings.
+    Light(u32),
+    /// What no light brings.
+    Unlit,
+}
+
+impl Brings {
+    /// Whether what a light brings is asked for.
+    pub(super) fn light(self, number: usize) -> bool {
+        match self {
+            Self::All => true,
+            Self::Light(light) => light as usize == number,
+            Self::Unlit => false,
+        }
+    }
+
+    /// Whether what no light brings is asked for.
+    pub(super) fn unlit(self) -> bool {
+        !matches!(self, Self::Light(_))
+    }
 }
 
 /// Memory for tracing a bundle, used again for the next one.
@@ -226,8 +256,11 @@ impl Integrator<'_> {
         }
         openness.begin();
         if let Some(occlusion) = self.scene.occlusion() {
-            counts.shadow += self.look_around(occlusion, interactions, samplers, openness);
-            openness.dim(out);
+            // Else it is a factor of nothing.
+            if self.brings.unlit() || self.scene.has_ambient_per_light() {
+                counts.shadow += self.look_around(occlusion, interactions, samplers, openness);
+                openness.dim(out);
+            }
         }
         lights.begin();
         if W::LISTENS {
@@ -248,6 +281,9 @@ impl Integrator<'_> {
                         if let Some(share) = openness.share(i, lane) {
                             witness.opened(share);
                         }
+                        if let Some(light) = openness.light(i, lane) {
+                            witness.lit_by_sky(light);
+                        }
                     } else {
                         witness.missed(&rays8.get(lane), terms.background);
                     }
@@ -259,6 +295,9 @@ impl Integrator<'_> {
         for light in 0..self.scene.lights().len() {
             if self.is_stopped() {
                 return;
+            }
+            if !self.brings.light(light) {
+                continue;
             }
             if let Some(bounds) = bounds
                 && !bounds.is_some_and(|bounds| self.scene.lights()[light].may_reach(bounds))
@@ -339,7 +378,7 @@ impl Integrator<'_> {
             }
         }
         if let Some(fog) = self.scene.fog() {
-            fog::fade(self.scene, fog, rays, ways, out, witness);
+            fog::fade(self.scene, fog, self.brings.unlit(), rays, ways, out, witness);
         }
     }
 

@@ -14,7 +14,7 @@ use super::interactions::{Interactions, is_above};
 use super::shadow_rays::Starts;
 use crate::camera::concentric_disc8;
 use crate::light::across;
-use crate::math::lanes::{add, load3, normalize, scale, store3};
+use crate::math::lanes::{Lanes3, add, get, load3, normalize, scale, set, store3};
 use crate::sampling::{Samplers8, Use};
 use crate::terms::Term;
 use crate::view::Occlusion;
@@ -26,12 +26,21 @@ pub(super) struct Openness {
     blocked: Vec<u32>,
     /// The share of rays that meet nothing, eight surfaces for eight; empty where it is not asked for.
     shares: Vec<[f32; 8]>,
+    /// The mean of the sky's light that finds its way, eight surfaces for eight; empty without a sky.
+    light: Vec<Lanes3>,
 }
 
 impl Openness {
     /// Forgets what was found out.
     pub(super) fn begin(&mut self) {
         self.shares.clear();
+        self.light.clear();
+    }
+
+    /// The mean of the sky's light that finds its way to a surface; `None` without a sky.
+    #[inline]
+    pub(super) fn light(&self, i: usize, lane: usize) -> Option<Rgb> {
+        self.light.get(i).map(|light| Rgb::from(get(light, lane)))
     }
 
     /// The share of the ambient light that finds its way to a surface; `None` where that is not asked for.
@@ -42,6 +51,14 @@ impl Openness {
 
     /// Takes from the ambient terms what does not find its way.
     pub(super) fn dim(&self, out: &mut [Radiance8]) {
+        for (out, light) in out.iter_mut().zip(&self.light) {
+            for (channel, light) in out.terms[Term::Ambient].iter_mut().zip(light) {
+                channel.iter_mut().zip(light).for_each(|(value, light)| *value *= light);
+            }
+        }
+        if !self.light.is_empty() {
+            return;
+        }
         for (out, shares) in out.iter_mut().zip(&self.shares) {
             for channel in &mut out.terms[Term::Ambient] {
                 channel.iter_mut().zip(shares).for_each(|(value, share)| *value *= share);
@@ -60,10 +77,14 @@ impl Integrator<'_> {
         to: &mut Openness,
     ) -> u64 {
         let world = self.scene.world();
-        let Openness { rays, blocked, shares } = to;
+        let Openness { rays, blocked, shares, light } = to;
+        let sky = self.scene.sky();
         let len = samplers.len();
         shares.clear();
-        if !self.shadows {
+        light.clear();
+        if sky.is_some() {
+            light.resize(len, [[0.0; 8]; 3]);
+        } else if !self.shadows {
             // Nothing stands in the way of any light.
             shares.resize(len, [1.0; 8]);
             return 0;
@@ -78,7 +99,25 @@ impl Integrator<'_> {
                 return count;
             }
             count += world.run(Spread { occlusion, number, interactions, samplers, to: rays });
-            self.scene.occluded_eights(rays, blocked);
+            if self.shadows {
+                self.scene.occluded_eights(rays, blocked);
+            } else {
+                blocked.fill(0);
+            }
+            if let Some(sky) = sky {
+                for ((light, rays), blocked) in light.iter_mut().zip(&*rays).zip(&*blocked) {
+                    for lane in lanes(rays.there) {
+                        let ray = rays.get(lane);
+                        let left = match blocked >> lane & 1 {
+                            0 => Rgb::WHITE,
+                            _ if self.scene.has_filters() => self.left_of_light(&ray, |_| true),
+                            _ => continue,
+                        };
+                        let more = left * sky.radiance(ray.dir);
+                        set(light, lane, (Rgb::from(get(light, lane)) + more).to_array());
+                    }
+                }
+            }
             for ((shares, rays), blocked) in shares.iter_mut().zip(&*rays).zip(&*blocked) {
                 for lane in lanes(rays.there & !blocked) {
                     shares[lane] += 1.0;
@@ -94,6 +133,9 @@ impl Integrator<'_> {
         let all = occlusion.samples as f32;
         for share in shares.as_flattened_mut() {
             *share /= all;
+        }
+        for value in light.as_flattened_mut().as_flattened_mut() {
+            *value /= all;
         }
         count
     }

@@ -19,6 +19,7 @@ pub fn fingerprint(scene: &Scene) -> u32 {
         fog,
         // It is no part of the film.
         outline: _,
+        sky,
         clips,
         lights,
         materials,
@@ -28,6 +29,9 @@ pub fn fingerprint(scene: &Scene) -> u32 {
     } = scene;
     let mut sum = Sum(Hasher::new());
     sum.debug(&(camera, ambient));
+    if let Some(sky) = sky {
+        sum.debug(sky);
+    }
     if let Some(fog) = fog {
         sum.debug(fog);
     }

@@ -5,12 +5,10 @@ use std::fmt::Write as _;
 use phong_scene::Scene;
 
 use super::{ARITHMETIC, checksum, fingerprint};
-use crate::aov::Aov;
 use crate::film::{Film, LayerKind, Window};
 use crate::finish::Finishing;
 use crate::image::{Bits, Encoding};
 use crate::render::{Lines, RenderOptions};
-use crate::terms::Term;
 
 /// What picture a part is of, and how it is to be written when it is whole.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,7 +77,8 @@ impl Settings {
     /// The part of the film that is shown, and its layers; `None`: all of it.
     fn shown(&self) -> Option<(Window, Vec<LayerKind>)> {
         let shown = window_of(self.said("shown")?)?;
-        let layers: Option<Vec<_>> = self.said("kept")?.split(',').map(layer_of).collect();
+        let layers: Option<Vec<_>> =
+            self.said("kept")?.split(',').map(LayerKind::from_name).collect();
         let layers = layers?.into_iter().filter(|kind| self.layers.contains(kind)).collect();
         let within = shown.intersection(&self.window) == shown && shown.fits(self.size);
         within.then_some((shown, layers))
@@ -190,7 +189,7 @@ impl Settings {
         let size = [width.parse().ok()?, height.parse().ok()?];
         let window = window_of(next("crop")?)?;
         let tile = next("tile")?.parse().ok().filter(|&edge| edge > 0)?;
-        let layers = next("layers")?.split(',').map(layer_of).collect::<Option<_>>()?;
+        let layers = next("layers")?.split(',').map(LayerKind::from_name).collect::<Option<_>>()?;
         let share = match next("share")? {
             "none" => None,
             share => {
@@ -226,13 +225,4 @@ fn window_of(text: &str) -> Option<Window> {
 
 fn names(layers: &[LayerKind]) -> String {
     layers.iter().map(|kind| kind.name()).collect::<Vec<_>>().join(",")
-}
-
-fn layer_of(name: &str) -> Option<LayerKind> {
-    match name {
-        "picture" => Some(LayerKind::Picture),
-        "alpha" => Some(LayerKind::Alpha),
-        _ => (Term::from_name(name).map(LayerKind::Term))
-            .or_else(|| Aov::from_name(name).map(LayerKind::Aov)),
-    }
 }

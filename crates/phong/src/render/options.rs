@@ -35,6 +35,8 @@ pub struct RenderOptions {
     tile: u32,
     terms: TermSet,
     aovs: Vec<Aov>,
+    /// How many lights have a layer of their own.
+    lights: u32,
     passes: Passes,
     lines: Option<Lines>,
 }
@@ -117,6 +119,7 @@ impl RenderOptions {
             tile: Self::TILE,
             terms: TermSet::NONE,
             aovs: Vec::new(),
+            lights: 0,
             passes: Passes::default(),
             lines: None,
         };
@@ -248,6 +251,13 @@ impl RenderOptions {
         Self { aovs: each, ..self }
     }
 
+    /// Keeps a layer of what each of the first `count` lights brought, and one of the rest; 0, the
+    /// default: none. The samples are then drawn at once, whatever the passes.
+    #[must_use]
+    pub fn with_lights(self, count: u32) -> Self {
+        Self { lights: count, ..self }
+    }
+
     /// Renders all samples at once, or from coarse to fine; it changes no bit of the last picture.
     #[must_use]
     pub fn with_passes(self, passes: Passes) -> Self {
@@ -343,9 +353,15 @@ impl RenderOptions {
         &self.aovs
     }
 
+    /// How many lights have a layer of their own; 0: none, and there is none of the rest.
+    pub fn lights(&self) -> u32 {
+        self.lights
+    }
+
     /// Whether all samples are drawn at once, or from coarse to fine.
     pub fn passes(&self) -> Passes {
-        self.passes
+        // Nothing is kept of lights' layers from which they could go on.
+        if self.lights == 0 { self.passes } else { Passes::One }
     }
 
     /// The same picture with one sample a pixel, at its centre.
@@ -359,7 +375,7 @@ impl RenderOptions {
         let values: usize = self.layers().iter().map(|kind| kind.channels()).sum();
         let window = self.window();
         let film = window.pixels().saturating_mul(4 * values as u64);
-        let between = match self.passes {
+        let between = match self.passes() {
             // The only sample is the last.
             Passes::CoarseToFine | Passes::Doubling if self.samples == 1 => 0,
             Passes::One => 0,
@@ -392,6 +408,8 @@ impl RenderOptions {
     pub fn shown_layers(&self) -> Vec<LayerKind> {
         let mut kinds = vec![LayerKind::Picture, LayerKind::Alpha];
         kinds.extend(self.terms.iter().map(LayerKind::Term));
+        kinds.extend((0..self.lights).map(LayerKind::Light));
+        kinds.extend((self.lights > 0).then_some(LayerKind::Unlit));
         kinds.extend(self.aovs.iter().copied().map(LayerKind::Aov));
         kinds
     }

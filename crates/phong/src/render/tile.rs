@@ -10,7 +10,7 @@ use super::{Cancel, Cancelled, Pass, RenderOptions};
 use crate::aov::Aov;
 use crate::film::{LayerKind, Sums8, TileSums, Window, coverage};
 use crate::filter::Filter;
-use crate::integrator::{CameraRay, Integrator, RayCounts, ScratchBuffer, first_met};
+use crate::integrator::{Brings, CameraRay, Integrator, RayCounts, ScratchBuffer, first_met};
 use crate::math::lanes::{Lanes3, store3};
 use crate::sampling::Sampler;
 use crate::terms::{Terms, Terms8};
@@ -46,6 +46,8 @@ pub(super) struct TileBuffers {
     drawn: Samples,
     scratch: ScratchBuffer,
     sums: Vec<Sums8>,
+    /// The sums of one light's layer.
+    light_sums: Vec<Vec<Sums8>>,
     /// For each layer the tile's rows.
     values: Vec<Vec<f32>>,
 }
@@ -83,7 +85,7 @@ impl<'a> TileRenderer<'a> {
         let values = &mut buffers.values;
         values.resize_with(self.layers.len(), Vec::new);
         for (kind, values) in self.layers.iter().zip(values) {
-            if matches!(kind, LayerKind::Aov(_)) {
+            if matches!(kind, LayerKind::Aov(_) | LayerKind::Light(_) | LayerKind::Unlit) {
                 // Only pixels that show a surface get a value.
                 values.clear();
             }
@@ -125,6 +127,7 @@ impl<'a> TileRenderer<'a> {
         counts: &mut RayCounts,
     ) -> Result<(), Cancelled> {
         let (integrator, background) = (&self.integrator, self.integrator.scene.background());
+        let world = integrator.scene.world();
         for pixels in pixels.chunks(MOST_EIGHTS) {
             drawn.draw(integrator, self.options, &self.filter, pixels, 0..1);
             let brought = integrator.trace(&drawn.bundle, scratch, counts, &mut ());
@@ -136,9 +139,31 @@ impl<'a> TileRenderer<'a> {
                 (&sample.terms, std::array::from_fn(covered))
             });
             let (resolved, layers) = (pixels.iter().zip(one), &self.layers);
-            integrator.scene.world().run(WriteLayers { window, layers, resolved, values });
+            world.run(WriteLayers { window, layers, resolved, values });
+            for (place, integrator) in self.lights() {
+                let brought =
+                    integrator.trace(&drawn.bundle, scratch, &mut RayCounts::default(), &mut ());
+                self.check_cancelled()?;
+                let one = brought.iter().map(|sample| (&sample.terms, [0.0; 8]));
+                let (resolved, values) = (pixels.iter().zip(one), &mut values[place..=place]);
+                world.run(WriteLayers { window, layers: &[LayerKind::Picture], resolved, values });
+            }
         }
         Ok(())
+    }
+
+    /// The layers of lights: where each is among the layers, and what traces it. The rays of the picture
+    /// are traced once more for each, and meet what they met.
+    fn lights(&self) -> impl Iterator<Item = (usize, Integrator<'a>)> {
+        let brings = |kind: &LayerKind| match kind {
+            LayerKind::Light(number) => Some(Brings::Light(*number)),
+            LayerKind::Unlit => Some(Brings::Unlit),
+            _ => None,
+        };
+        let of = move |(place, kind): (usize, &LayerKind)| {
+            Some((place, Integrator { brings: brings(kind)?, ..self.integrator }))
+        };
+        self.layers.iter().enumerate().filter_map(of)
     }
 
     /// Each pixel's samples up to `to`, those of earlier passes included.
@@ -147,7 +172,7 @@ impl<'a> TileRenderer<'a> {
         window: Window,
         to: u32,
         earlier: Option<&TileSums>,
-        TileBuffers { pixels, drawn, scratch, sums, values }: &mut TileBuffers,
+        TileBuffers { pixels, drawn, scratch, sums, light_sums, values }: &mut TileBuffers,
         counts: &mut RayCounts,
     ) -> Result<Option<TileSums>, Cancelled> {
         let (integrator, background) = (&self.integrator, self.integrator.scene.background());
@@ -164,12 +189,28 @@ impl<'a> TileRenderer<'a> {
                 }
                 None => sums.resize(pixels.len(), Sums8::NONE),
             }
+            light_sums.clear();
+            light_sums.resize(self.lights().count(), vec![Sums8::NONE; pixels.len()]);
             for from in (begin..to).step_by(SAMPLES_PER_BUNDLE as usize) {
                 let indices = from..to.min(from + SAMPLES_PER_BUNDLE);
                 drawn.draw(integrator, self.options, &self.filter, pixels, indices);
                 let brought = integrator.trace(&drawn.bundle, scratch, counts, &mut ());
                 self.check_cancelled()?;
                 Sums8::add(bvh, sums, brought, &drawn.weights);
+                for ((_, integrator), sums) in self.lights().zip(&mut *light_sums) {
+                    let unheard = &mut RayCounts::default();
+                    let brought = integrator.trace(&drawn.bundle, scratch, unheard, &mut ());
+                    self.check_cancelled()?;
+                    Sums8::add(bvh, sums, brought, &drawn.weights);
+                }
+            }
+            for ((place, _), sums) in self.lights().zip(&*light_sums) {
+                for (pixels, sums) in pixels.iter().zip(sums) {
+                    let (terms, alpha) = sums.resolve(bvh, to, background);
+                    let resolved = std::iter::once((pixels, (&terms, alpha)));
+                    let (layers, values) = (&[LayerKind::Picture], &mut values[place..=place]);
+                    bvh.run(WriteLayers { window, layers, resolved, values });
+                }
             }
             for (pixels, sums) in pixels.iter().zip(&*sums) {
                 let (terms, alpha) = sums.resolve(bvh, to, background);
@@ -214,7 +255,8 @@ impl<'a> TileRenderer<'a> {
                         LayerKind::Term(term) => {
                             put(values, place, terms[*term].to_array());
                         }
-                        LayerKind::Aov(_) => {}
+                        // A coarse picture has none of its lights.
+                        LayerKind::Aov(_) | LayerKind::Light(_) | LayerKind::Unlit => {}
                     }
                 }
                 if self.options.has_variables() {
@@ -402,7 +444,7 @@ impl<'a, R: Iterator<Item = (&'a Pixels8, (&'a Terms8, [f32; 8]))>> Kernel for W
                     LayerKind::Term(term) => {
                         put_colors(&mut values[at..][..3 * len], &terms[*term]);
                     }
-                    LayerKind::Aov(_) => {}
+                    LayerKind::Aov(_) | LayerKind::Light(_) | LayerKind::Unlit => {}
                 }
             }
         }

@@ -1,7 +1,9 @@
 //! How far rays look for what takes ambient light away.
 
 use phong_bvh::World;
-use phong_scene::{AmbientOcclusion, OcclusionDistance};
+use phong_scene::{AmbientOcclusion, OcclusionDistance, Sky};
+
+use crate::look::Look;
 
 /// The share of the diagonal of the box around everything that rays look, if the scene does not say how far.
 const SHARE: f64 = 0.25;
@@ -16,7 +18,14 @@ pub(crate) struct Occlusion {
 }
 
 impl Occlusion {
-    pub(super) fn new(written: &AmbientOcclusion, world: &World) -> Self {
+    /// Of a look; one with a sky looks as far as there is anything, unless it says how far.
+    pub(super) fn of(look: &Look, world: &World) -> Option<Self> {
+        let all_around = |sky: &Sky| Self { samples: sky.samples, distance: f32::INFINITY };
+        let written = look.ambient_occlusion.as_ref().map(|written| Self::new(written, world));
+        written.or_else(|| look.sky.as_ref().map(all_around))
+    }
+
+    fn new(written: &AmbientOcclusion, world: &World) -> Self {
         let distance = match written.distance {
             OcclusionDistance::Units(distance) => distance,
             OcclusionDistance::Auto => {

@@ -50,6 +50,9 @@ pub(crate) fn leave_out(
             let message = format!("{format} holds no ambient occlusion");
             account.drop(Diagnostic::warning(message, None));
         }
+        if scene.sky.is_some() {
+            account.drop(Diagnostic::warning(format!("{format} holds no sky"), None));
+        }
         if scene.fog.is_some() {
             account.drop(Diagnostic::warning(format!("{format} holds no fog"), None));
         }

@@ -43,6 +43,9 @@ pub(crate) fn write_gltf(
         if scene.ambient != Rgb::WHITE || scene.ambient_occlusion.is_some() {
             lost.push("ambient light");
         }
+        if scene.sky.is_some() {
+            lost.push("sky");
+        }
         if scene.fog.is_some() {
             lost.push("fog");
         }

@@ -30,6 +30,7 @@ use crate::material::Material;
 use crate::molecule::Topology;
 use crate::outline::Outline;
 use crate::scene::{Image, Scene};
+use crate::sky::Sky;
 use crate::source::Source;
 use crate::texture::Texture;
 use crate::wording::quoted;
@@ -51,6 +52,7 @@ pub(super) struct Reader<'a> {
     pub(super) ambient_occlusion: Option<AmbientOcclusion>,
     pub(super) fog: Option<Fog>,
     pub(super) outline: Option<Outline>,
+    pub(super) sky: Option<Sky>,
     /// The clips, and where in `material_names` the material of each one's cap is.
     pub(super) clips: Vec<(Clip, Option<usize>)>,
     clip_count: usize,
@@ -105,6 +107,7 @@ impl<'a> Reader<'a> {
             ambient_occlusion: None,
             fog: None,
             outline: None,
+            sky: None,
             clips: Vec::new(),
             clip_count: 0,
             lights: Vec::new(),
@@ -200,10 +203,6 @@ impl<'a> Reader<'a> {
                         });
                     }
                 }
-                Kind::NotYet => {
-                    self.notes.error(at, format!("`{}` is not built yet", key.name)).help =
-                        Some("leave it out".to_owned());
-                }
                 _ => self.version(value, file),
             }
         }
@@ -243,7 +242,7 @@ impl<'a> Reader<'a> {
     /// `[image]`, `[ambient]` and the like where the text has none, and something is laid
     /// over them.
     fn settings_not_written(&mut self, document: &DeTable<'_>, head: Spot) {
-        for name in ["image", "ambient", "ambient_occlusion", "fog", "outline"] {
+        for name in ["image", "ambient", "ambient_occlusion", "sky", "fog", "outline"] {
             let Some(Kind::Table(table)) = keys::SCENE.find(name, None).map(|key| key.kind) else {
                 continue;
             };
@@ -291,6 +290,7 @@ impl<'a> Reader<'a> {
         match table.name {
             "camera" => self.camera = settings::camera(&values, &mut self.notes),
             "ambient" => self.ambient = values.color("color").unwrap_or(Rgb::WHITE),
+            "sky" => self.sky = settings::sky(&values, &mut self.notes),
             "fog" => self.fog = settings::fog(&values, &mut self.notes),
             "ambient_occlusion" => {
                 let mut occlusion = AmbientOcclusion::default();

@@ -8,6 +8,7 @@ use crate::clip::{Cap, Clip};
 use crate::fog::Fog;
 use crate::light::{Light, LightKind};
 use crate::scene::Image;
+use crate::sky::Sky;
 
 /// Below this many degrees a field of view is more likely one in radians, which end at π.
 const RADIANS: f64 = 3.0;
@@ -34,6 +35,14 @@ pub(super) fn camera(v: &Values, notes: &mut Notes) -> Option<Camera> {
     }
     let sound = notes.judge(|key| v.spot_of(key), |faults| judge::camera(&camera, faults));
     sound.then_some(camera)
+}
+
+/// `[sky]`; what is wrong with it has been said.
+pub(super) fn sky(v: &Values, notes: &mut Notes) -> Option<Sky> {
+    let mut sky = Sky::default();
+    v.fill(&mut sky)?;
+    let sound = notes.judge(|key| v.spot_of(key), |faults| judge::sky(&sky, faults));
+    sound.then_some(sky)
 }
 
 /// `[fog]`; what is wrong with it has been said.

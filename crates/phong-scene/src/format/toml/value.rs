@@ -108,12 +108,9 @@ impl ValueReader<'_> {
             Kind::Files | Kind::Names => self.files(value).map(Value::Texts),
             Kind::Numbers => self.some_numbers(value).map(Value::Numbers),
             Kind::Map => self.mismatch(value),
-            Kind::Table(_)
-            | Kind::Tables(_)
-            | Kind::Named(_)
-            | Kind::Values
-            | Kind::Options
-            | Kind::NotYet => None,
+            Kind::Table(_) | Kind::Tables(_) | Kind::Named(_) | Kind::Values | Kind::Options => {
+                None
+            }
         }
     }
 

@@ -49,6 +49,7 @@ pub(crate) fn write_toml(
         ambient_occlusion,
         fog,
         outline,
+        sky,
         clips,
         lights,
         materials,
@@ -80,6 +81,12 @@ pub(crate) fn write_toml(
             "camera" => {
                 let kind = table.word_of(&camera);
                 out.setting(&header, table, kind, |key| key.get(&camera));
+            }
+            "sky" => {
+                if let Some(sky) = sky {
+                    let kind = table.word_of(&sky);
+                    out.table(&header, table, kind, |key| key.get(&sky));
+                }
             }
             "fog" => {
                 if let Some(fog) = fog {
