@@ -23,14 +23,14 @@ pub(crate) fn load(
     let mut bytes = vec![0; blob.len() as usize];
     let read = blob.read_full(&mut bytes, 0).map_err(|error| trouble(&error))?;
     bytes.truncate(read);
-    decode(&bytes, limits).map(Arc::new)
+    parse(&bytes, limits).map(Arc::new)
 }
 
 /// The most bytes of an image file.
 const MOST_BYTES: u64 = 1 << 32;
 
 /// The pixels of an image file whose bytes these are, or a clause that says what is wrong with it.
-pub(crate) fn decode(bytes: &[u8], limits: &Limits) -> Result<Texels, String> {
+pub(crate) fn parse(bytes: &[u8], limits: &Limits) -> Result<Texels, String> {
     match bytes {
         [] => Err("it is empty".to_owned()),
         [0x89, b'P', b'N', b'G', ..] => png::decode(bytes, limits),
@@ -42,23 +42,4 @@ pub(crate) fn decode(bytes: &[u8], limits: &Limits) -> Result<Texels, String> {
         [0x76, 0x2f, 0x31, 0x01, ..] => Err("it is an EXR, which is not read here".to_owned()),
         _ => Err("it is no PNG, JPEG, HDR or EXR".to_owned()),
     }
-}
-
-/// Whether an image of this size may be read, `bytes` being what a pixel of it takes.
-pub(super) fn allow(size: [u32; 2], bytes: u64, limits: &Limits) -> Result<(), String> {
-    let [width, height] = size;
-    if width == 0 || height == 0 {
-        return Err(format!("it has no pixels: it is {width} × {height}"));
-    }
-    let pixels = u64::from(width) * u64::from(height);
-    if pixels > limits.image_pixels {
-        let most = limits.image_pixels;
-        return Err(format!("it is {width} × {height}: more than {most} pixels"));
-    }
-    let needed = pixels.saturating_mul(bytes);
-    if needed > limits.bytes {
-        let most = limits.bytes;
-        return Err(format!("its pixels take {needed} bytes, over the limit of {most}"));
-    }
-    Ok(())
 }

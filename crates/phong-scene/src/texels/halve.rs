@@ -77,7 +77,9 @@ mod tests {
                 let covered = covered(from, to, at);
                 let sum: f64 = covered.iter().map(|(_, weight)| weight).sum();
                 assert!((sum - 1.0).abs() < 1e-12, "{from}: {covered:?}");
-                covered.iter().for_each(|&(i, weight)| shares[i as usize] += weight);
+                for &(i, weight) in &covered {
+                    shares[i as usize] += weight;
+                }
             }
             let even = f64::from(to) / f64::from(from);
             assert!(shares.iter().all(|share| (share - even).abs() < 1e-12), "{from}: {shares:?}");

@@ -6,7 +6,7 @@ use zune_jpeg::JpegDecoder;
 use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
-use super::file::allow;
+use super::allowed::allow;
 use super::{TexelValues, Texels};
 use crate::limits::Limits;
 

@@ -3,6 +3,7 @@
 //! Values stay as the file has them: bytes, 16-bit numbers or floats. Whether they are sRGB or linear is what
 //! uses them to say.
 
+mod allowed;
 mod file;
 mod halve;
 mod jpeg;
@@ -11,7 +12,7 @@ mod openexr;
 mod png;
 mod radiance;
 
-pub(crate) use file::load;
+pub(crate) use file::{load, parse};
 
 use std::fmt;
 use std::sync::{Arc, OnceLock};
@@ -145,13 +146,13 @@ impl Texels {
             TexelValues::Bytes(values) => {
                 let tables = decoded();
                 let color = &tables.bytes[usize::from(srgb)];
-                self.pixel(&values[at..][..self.channels], |byte, is_color| {
+                Self::pixel(&values[at..][..self.channels], |byte, is_color| {
                     let table = if is_color { color } else { &tables.bytes[0] };
                     table[usize::from(byte)]
                 })
             }
             TexelValues::Shorts(values) => {
-                self.pixel(&values[at..][..self.channels], |short, is_color| {
+                Self::pixel(&values[at..][..self.channels], |short, is_color| {
                     if srgb && is_color {
                         decoded_shorts()[usize::from(short)]
                     } else {
@@ -160,7 +161,7 @@ impl Texels {
                 })
             }
             TexelValues::Floats(values) => {
-                self.pixel(&values[at..][..self.channels], |value, is_color| {
+                Self::pixel(&values[at..][..self.channels], |value, is_color| {
                     if srgb && is_color { decode(value) } else { value }
                 })
             }
@@ -168,7 +169,7 @@ impl Texels {
     }
 
     #[inline]
-    fn pixel<T: Copy>(&self, of: &[T], value: impl Fn(T, bool) -> f32) -> [f32; 4] {
+    fn pixel<T: Copy>(of: &[T], value: impl Fn(T, bool) -> f32) -> [f32; 4] {
         match *of {
             [grey] => {
                 let grey = value(grey, true);

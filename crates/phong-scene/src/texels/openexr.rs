@@ -7,7 +7,7 @@ use exr::image::read::image::ReadLayers;
 use exr::image::read::layers::ReadChannels;
 use exr::image::read::read;
 
-use super::file::allow;
+use super::allowed::allow;
 use super::{TexelValues, Texels};
 use crate::limits::Limits;
 

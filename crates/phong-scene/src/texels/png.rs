@@ -4,7 +4,7 @@ use std::io::Cursor;
 
 use png::{BitDepth, ColorType, Decoder, Transformations};
 
-use super::file::allow;
+use super::allowed::allow;
 use super::{TexelValues, Texels};
 use crate::limits::Limits;
 

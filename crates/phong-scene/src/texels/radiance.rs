@@ -5,7 +5,7 @@ use std::io::Cursor;
 use zune_hdr::HdrDecoder;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
-use super::file::allow;
+use super::allowed::allow;
 use super::{TexelValues, Texels};
 use crate::limits::Limits;
 

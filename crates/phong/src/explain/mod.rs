@@ -358,7 +358,7 @@ impl<'a> Road<'a> {
             min_weight: options.min_weight(),
             shadows: options.shadows(),
             terminator: options.terminator(),
-            grid: SampleGrid { size: size, samples: options.samples() },
+            grid: SampleGrid { size, samples: options.samples() },
             brings: Brings::All,
             stop: None,
         };

@@ -167,7 +167,7 @@ impl Batch {
     pub(crate) fn uv_edges(&self, local: u32, corners: [u32; 3]) -> Option<[DVec2; 2]> {
         let mesh = self.mesh.as_ref()?;
         let corners = at_corners(&mesh.uvs, &mesh.uv_indices, local, corners)?;
-        let [a, b, c] = corners.map(|uv| uv.as_dvec2());
+        let [a, b, c] = corners.map(|Vec2 { x, y }| DVec2::new(x.into(), y.into()));
         Some([b - a, c - a])
     }
 

@@ -108,7 +108,7 @@ impl ImageTexture {
         let [a, b] = sides.map(length);
         let (along, long, short) = if a > b { (sides[0], a, b) } else { (sides[1], b, a) };
         // What covers less than a pixel is between pixels; NaN is so too.
-        if !(long > 1.0) {
+        if long.is_nan() || long <= 1.0 {
             return Spread { along: DVec2::ZERO, taps: 1, level: 0, part: 0.0 };
         }
         let most = width.max(height);

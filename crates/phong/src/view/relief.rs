@@ -134,7 +134,7 @@ impl View {
         if self.cap(at.hit).is_some() {
             return at.front.as_dvec3();
         }
-        self.own_normal(at.hit).map_or(at.ng, |n| n.to_vec()).as_dvec3()
+        self.own_normal(at.hit).map_or(at.ng, crate::math::Dir3::to_vec).as_dvec3()
     }
 }
 

@@ -234,3 +234,130 @@ fn an_obj_file_brings_its_images_along() {
     }
     assert!(some > 20 && none > 3, "{some} {none}");
 }
+
+fn base64(bytes: &[u8]) -> String {
+    const LETTERS: &[u8] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let letters = bytes.chunks(3).flat_map(|three| {
+        let bits = three.iter().fold(0_u32, |bits, byte| bits << 8 | u32::from(*byte));
+        let bits = bits << (8 * (3 - three.len()));
+        (0..=three.len()).map(move |i| LETTERS[(bits >> (18 - 6 * i)) as usize & 63])
+    });
+    letters.map(char::from).collect()
+}
+
+/// A sheet of a square as glTF, of this material; images are those of `squares.png`, of the first view and of
+/// a text.
+fn gltf(material: &str) -> Scene {
+    let image = png(
+        [2, 2],
+        png::ColorType::Rgba,
+        &[255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 0],
+    );
+    let mut buffer: Vec<u8> = [-1.0, -1.0, 0.0, 1.0, -1.0, 0.0, 1.0, 1.0, 0.0, -1.0, 1.0, 0.0]
+        .into_iter()
+        // From the upper left corner of the image, as the format has it.
+        .chain([0.0, 1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0])
+        .flat_map(f32::to_le_bytes)
+        .collect();
+    buffer.extend([0, 1, 2, 0, 2, 3].into_iter().flat_map(u16::to_le_bytes));
+    let images = buffer.len();
+    buffer.extend(&image);
+    let text = format!(
+        r#"{{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0]}}],
+        "nodes": [{{"mesh": 0}}],
+        "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0, "TEXCOORD_0": 1}},
+            "indices": 2, "material": 0}}]}}],
+        "materials": [{{{material}}}],
+        "textures": [{{"source": 0}}, {{"source": 1, "sampler": 0}}, {{"source": 2}}, {{"source": 3}}],
+        "samplers": [{{"magFilter": 9728, "wrapS": 33071}}],
+        "images": [{{"uri": "squares.png"}}, {{"bufferView": 3, "mimeType": "image/png"}},
+            {{"uri": "data:image/png;base64,{}"}}, {{"uri": "nowhere.png"}}],
+        "accessors": [
+            {{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"}},
+            {{"bufferView": 1, "componentType": 5126, "count": 4, "type": "VEC2"}},
+            {{"bufferView": 2, "componentType": 5123, "count": 6, "type": "SCALAR"}}],
+        "bufferViews": [
+            {{"buffer": 0, "byteOffset": 0, "byteLength": 48}},
+            {{"buffer": 0, "byteOffset": 48, "byteLength": 32}},
+            {{"buffer": 0, "byteOffset": 80, "byteLength": 12}},
+            {{"buffer": 0, "byteOffset": {images}, "byteLength": {}}}],
+        "buffers": [{{"byteLength": {}, "uri": "data:application/octet-stream;base64,{}"}}]}}"#,
+        base64(&image),
+        image.len(),
+        buffer.len(),
+        base64(&buffer)
+    );
+    let scene = "version = 1\n[image]\nsize = [4, 4]\nsamples = 1\nbackground = 0\n\
+                 [camera]\nkind = \"orthographic\"\nheight = 2\neye = [0, 0, 5]\n\
+                 look_at = [0, 0, 0]\n[[light]]\nkind = \"distant\"\ndirection = [0, 0, -1]\n\
+                 [[mesh]]\nfile = \"a.gltf\"\n";
+    let files = Memory::new().with("a.gltf", text.into_bytes()).with("squares.png", squares(8));
+    let reading = reading(scene, files);
+    let told: Vec<_> = reading.diagnostics.iter().map(|told| told.message.as_str()).collect();
+    let lost = material.contains("\"index\": 3");
+    assert_eq!(told.len(), usize::from(lost), "{told:?}");
+    reading.scene.unwrap_or_else(|| panic!("{told:?}"))
+}
+
+/// What four by four pixels of it show.
+fn shown(scene: &Scene) -> Vec<[f32; 3]> {
+    let view = View::of(scene).unwrap();
+    let options = RenderOptions::of(&scene.image).unwrap();
+    let film = render(&view, &options, &|_| {}, &Cancel::new()).film;
+    let picture = &film.layer(LayerKind::Picture).unwrap().values;
+    picture.as_chunks::<3>().0.to_vec()
+}
+
+#[test]
+fn a_gltf_file_brings_its_images_along_the_right_way_up() {
+    let corners = |scene: &Scene| {
+        let pixels = shown(scene);
+        // Of a smooth image the others of the four shine in.
+        let most = |pixel: [f32; 3]| pixel.into_iter().fold(0.0, f32::max);
+        [0, 3, 12, 15].map(|i| pixels[i].map(|v| v > 0.1 && v > 0.6 * most(pixels[i])))
+    };
+    let [red, green, blue, white] =
+        [[true, false, false], [false, true, false], [false, false, true], [true; 3]];
+    for index in [1, 2] {
+        let material = format!(
+            "\"pbrMetallicRoughness\": {{\"baseColorTexture\": {{\"index\": {index}}}, \
+             \"metallicFactor\": 0}}"
+        );
+        let want = [red, green, blue, white];
+        assert_eq!(corners(&gltf(&material)), want, "texture {index}");
+        let masked = format!("{material}, \"alphaMode\": \"MASK\"");
+        let want = [red, green, blue, [false; 3]];
+        assert_eq!(corners(&gltf(&masked)), want, "texture {index}, masked");
+    }
+    let turned = "\"pbrMetallicRoughness\": {\"metallicFactor\": 0, \"baseColorTexture\": \
+                  {\"index\": 1, \"extensions\": {\"KHR_texture_transform\": \
+                  {\"scale\": [-1, 1], \"offset\": [1, 0]}}}}";
+    assert_eq!(corners(&gltf(turned)), [green, red, white, blue]);
+    let lost = "\"pbrMetallicRoughness\": {\"baseColorTexture\": {\"index\": 3}, \
+                \"metallicFactor\": 0}";
+    assert_eq!(corners(&gltf(lost)), [[true; 3]; 4]);
+}
+
+#[test]
+fn a_gltf_material_takes_every_value_from_its_images() {
+    let scene = gltf(
+        "\"pbrMetallicRoughness\": {\"baseColorTexture\": {\"index\": 2}, \
+         \"metallicRoughnessTexture\": {\"index\": 0}}, \"normalTexture\": {\"index\": 0, \
+         \"scale\": 0.5}, \"occlusionTexture\": {\"index\": 0, \"strength\": 0.5}, \
+         \"emissiveTexture\": {\"index\": 2}, \"emissiveFactor\": [1, 0.5, 0]",
+    );
+    let material = &scene.materials[scene.objects[0].material.0 as usize];
+    let mut keys: Vec<_> = material.textured().into_iter().map(|(key, _)| key).collect();
+    keys.sort_unstable();
+    let all = [
+        "ambient_color",
+        "color",
+        "emission_color",
+        "k_a",
+        "normal",
+        "roughness",
+        "specular_color",
+    ];
+    assert_eq!(keys, all);
+    assert!(shown(&scene).iter().flatten().all(|v| v.is_finite()));
+}

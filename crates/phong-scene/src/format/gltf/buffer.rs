@@ -162,6 +162,11 @@ impl Buffers {
         Ok((&bytes[offset as usize..end as usize], stride, view.pointer))
     }
 
+    /// The bytes of a view of a buffer.
+    pub(super) fn bytes(&self, root: &At<'_>, index: &At<'_>) -> Result<&[u8]> {
+        self.view(root, index).map(|(bytes, ..)| bytes)
+    }
+
     /// The rows of an accessor, normalised where it says so.
     pub(super) fn rows(&self, root: &At<'_>, index: &At<'_>, limits: &Limits) -> Result<Rows> {
         let at = root.item("accessors", index.index()?).map_err(|f| index.fault(f.message))?;
@@ -297,7 +302,7 @@ impl Buffers {
 }
 
 /// What a URI names: the bytes that it holds itself, or those of a file.
-fn load(uri: &At<'_>, path: &str, source: &dyn Source, length: u64) -> Result<Vec<u8>> {
+pub(super) fn load(uri: &At<'_>, path: &str, source: &dyn Source, length: u64) -> Result<Vec<u8>> {
     let text = uri.text()?;
     if let Some(data) = text.strip_prefix("data:") {
         let (kind, data) = data.split_once(',').unwrap_or_default();

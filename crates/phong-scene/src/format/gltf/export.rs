@@ -313,7 +313,9 @@ impl<'s> Writer<'s> {
         }
         if !mesh.uvs.is_empty() {
             let uv = |i: u32| mesh.uvs.get(i as usize).copied().unwrap_or_default();
-            let all: Vec<f32> = vertices.iter().flat_map(|[.., i]| uv(*i).to_array()).collect();
+            // The second coordinate grows down the image there.
+            let down = |i: u32| [uv(i).x, 1.0 - uv(i).y];
+            let all: Vec<f32> = vertices.iter().flat_map(|[.., i]| down(*i)).collect();
             let count = vertices.len();
             let accessor = self.floats(&all, json!({ "type": "VEC2", "count": count }));
             attributes.insert("TEXCOORD_0".into(), json!(accessor));

@@ -2,11 +2,16 @@
 
 use std::sync::Arc;
 
+use super::buffer::Buffers;
+use super::images::{Images, Named, green, mixed};
 use super::json::{At, Result};
 use crate::color::Rgb;
 use crate::diagnostic::Place;
 use crate::format::text::{Findings, whole};
-use crate::material::{ConstantMaterial, Distribution, Fresnel, Material, Model, Shadowing};
+use crate::material::{
+    ConstantMaterial, Distribution, Fresnel, Material, Model, OpacityMode, Shadowing,
+};
+use crate::texture::{Channel, TextureRef};
 
 /// The least width of a highlight: one of nothing would not be seen in the light of a point.
 const LEAST_ALPHA: f64 = 1e-3;
@@ -56,23 +61,30 @@ fn surface(base: [f64; 3], metallic: f64, roughness: f64, dielectric: Rgb) -> Su
 }
 
 /// Reads one material. What of it is not drawn is told.
-pub(super) fn read(at: &At<'_>, file: &Arc<str>, findings: &mut Findings) -> Result<Surface> {
+pub(super) fn read(
+    at: &At<'_>,
+    drawn: &mut Images<'_>,
+    from: (&Buffers, &Arc<str>),
+    findings: &mut Findings,
+) -> Result<Surface> {
+    let (_, file) = from;
     let name = at.name("material");
     let unit = |value: f64| value.clamp(0.0, 1.0);
     let mut images = Vec::new();
     let mut image = |of: &At<'_>, key: &str| images.extend(of.get(key).map(|_| key.to_owned()));
     let mut base = [1.0, 1.0, 1.0, 1.0];
     let (mut metallic, mut roughness) = (1.0, 1.0);
+    let mut maps = Maps::default();
     if let Some(pbr) = at.get("pbrMetallicRoughness") {
         base = pbr.numbers_or("baseColorFactor", base)?;
         metallic = pbr.number_or("metallicFactor", 1.0)?;
         roughness = pbr.number_or("roughnessFactor", 1.0)?;
-        image(&pbr, "baseColorTexture");
-        image(&pbr, "metallicRoughnessTexture");
+        maps.base = drawn.named(&pbr, "baseColorTexture", from, findings);
+        maps.facets = drawn.named(&pbr, "metallicRoughnessTexture", from, findings);
     }
-    for key in ["normalTexture", "occlusionTexture", "emissiveTexture"] {
-        image(at, key);
-    }
+    maps.normal = drawn.named(at, "normalTexture", from, findings);
+    maps.occlusion = drawn.named(at, "occlusionTexture", from, findings);
+    maps.emissive = drawn.named(at, "emissiveTexture", from, findings);
     let mut f0 = Rgb::grey(F0 as f32);
     if let Some(ior) = at.extension("KHR_materials_ior") {
         let n = ior.number_or("ior", 1.5)?;
@@ -94,13 +106,16 @@ pub(super) fn read(at: &At<'_>, file: &Arc<str>, findings: &mut Findings) -> Res
         f0 = Rgb::from(specular.map(|c| c as f32));
         metallic = 0.0;
         roughness = 1.0 - unit(glossy.number_or("glossinessFactor", 1.0)?);
-        image(&glossy, "diffuseTexture");
+        maps.base = drawn.named(&glossy, "diffuseTexture", from, findings);
+        maps.facets = None;
         image(&glossy, "specularGlossinessTexture");
     }
     let [r, g, b, alpha] = base.map(|c| if c < 0.0 { 0.0 } else { c });
     let mut surface = surface([r, g, b], unit(metallic), unit(roughness), f0);
     let mut shown = 1.0;
-    if at.get("alphaMode").map_or(Ok("OPAQUE"), |mode| mode.text())? == "BLEND" {
+    let mode = at.get("alphaMode").map_or(Ok("OPAQUE"), |mode| mode.text())?;
+    // Where an image says it, each place has an opacity of its own.
+    if mode == "BLEND" && maps.base.is_none() {
         shown = unit(alpha) as f32;
     }
     let mut through = Rgb::grey(1.0 - shown);
@@ -137,14 +152,143 @@ pub(super) fn read(at: &At<'_>, file: &Arc<str>, findings: &mut Findings) -> Res
     }
     material.name.clone_from(&name);
     material.place = Place { file: Arc::clone(file), ..Place::default() };
+    let material = (&mut surface, [r, g, b, alpha], [unit(metallic), unit(roughness)]);
+    maps.put(at, mode, material, drawn)?;
     if !images.is_empty() {
         let names = images.iter().map(String::as_str);
         let names = crate::wording::list(names, ",");
         findings.warning(
             "materials with images",
             || whole(file),
-            || format!("{}: images are not drawn yet: {names} (material `{name}`)", at.pointer),
+            || format!("{}: images that are not drawn: {names} (material `{name}`)", at.pointer),
         );
     }
     Ok(surface)
+}
+
+/// The images that a material names and that could be read.
+#[derive(Debug, Default)]
+struct Maps {
+    base: Option<Named>,
+    /// Green the roughness, blue how metallic it is.
+    facets: Option<Named>,
+    normal: Option<Named>,
+    occlusion: Option<Named>,
+    emissive: Option<Named>,
+}
+
+impl Maps {
+    /// Puts them in place of the material's own values.
+    fn put(
+        self,
+        at: &At<'_>,
+        mode: &str,
+        (surface, base, [metallic, roughness]): (&mut Surface, [f64; 4], [f64; 2]),
+        images: &mut Images<'_>,
+    ) -> Result<()> {
+        let [r, g, b, alpha] = base.map(|c| c as f32);
+        let base_color = Rgb::new(r, g, b);
+        let Surface { material, color } = surface;
+        let (name, place) = (material.name.clone(), material.place.clone());
+        let mut texture =
+            |named: &Named, tint: Rgb, key: &str| images.texture(named, tint, (&name, key), &place);
+        if let Some(normal) = &self.normal {
+            let by = texture(normal, Rgb::WHITE, "normal");
+            let scale = at.need("normalTexture")?.number_or("scale", 1.0)? as f32;
+            material.normal = Some(TextureRef { scale, ..by });
+        }
+        let is_unlit = matches!(material.model, Model::Lambert);
+        // How metallic it is everywhere, if it is everywhere the same.
+        let mut even = Some(metallic);
+        if let Some(facets) = self.facets.as_ref().filter(|_| !is_unlit) {
+            let alpha = |green: f32| {
+                let rough = f64::from(green) * roughness;
+                (rough * rough).max(LEAST_ALPHA)
+            };
+            if let Some(texels) = green(&facets.texels, alpha) {
+                let by = texture(&facets.with(texels), Rgb::WHITE, "roughness");
+                if let Model::Microfacet { roughness, .. } = &mut material.model {
+                    *roughness = by.into();
+                }
+            }
+            let [least, most] = facets.texels.bounds(false).map(|bound| f64::from(bound[2]));
+            even = (least == most || metallic == 0.0).then_some(metallic * most);
+            if even.is_none() {
+                // The share of metal varies: it is put into the colours of both terms.
+                let base = match &self.base {
+                    Some(base) if base.lies_as(facets) => base.clone(),
+                    _ => facets.with(crate::texels::Texels::white()),
+                };
+                let metal = |other: [f32; 4]| other[2] * metallic as f32;
+                let tinted = |[r, g, b, _]: [f32; 4]| Rgb::new(r, g, b) * base_color;
+                let larger = if base.texels.size() == [1, 1] { facets } else { &base };
+                let flat = base.texels.size() == [1, 1];
+                let of = |c: [f32; 4]| if flat { base_color } else { tinted(c) };
+                let diffuse =
+                    mixed(&larger.texels, &facets.texels, |c, other| of(c) * (1.0 - metal(other)));
+                let mirrored = mixed(&larger.texels, &facets.texels, |c, other| {
+                    let m = metal(other);
+                    Rgb::grey(F0 as f32 * (1.0 - m)) + of(c) * m
+                });
+                if let (Some(diffuse), Some(mirrored)) = (diffuse, mirrored) {
+                    material.color = texture(&larger.with(diffuse), Rgb::WHITE, "diffuse").into();
+                    let by = texture(&larger.with(mirrored), Rgb::WHITE, "specular");
+                    material.specular_color = Some(by.into());
+                    if let Model::Microfacet { fresnel, .. } = &mut material.model {
+                        *fresnel = Fresnel::None;
+                    }
+                }
+            }
+        }
+        if let Some(metal) = even.filter(|_| self.facets.is_some() && !is_unlit) {
+            let (metal, other) = (metal as f32, (1.0 - metal) as f32);
+            material.color = (base_color * other).into();
+            if let Model::Microfacet { fresnel, .. } = &mut material.model {
+                let f0 = Rgb::grey(F0 as f32) * other + base_color * metal;
+                *fresnel = Fresnel::Schlick { f0: f0.map(|c| c.clamp(0.0, 1.0)) };
+            }
+            *color = base_color * other;
+        }
+        if let Some(base) = &self.base {
+            let by = texture(base, base_color, "base color");
+            material.ambient_color = (!is_unlit).then(|| by.into());
+            if let Some(metal) = even {
+                let diffuse = base_color * (1.0 - metal) as f32;
+                material.color = texture(base, diffuse, "color").into();
+                if metal > 0.0 && !is_unlit {
+                    // What metal mirrors has its colour at every angle.
+                    let mirrored = texture(base, base_color, "metal");
+                    material.specular_color = Some(mirrored.into());
+                    if let Model::Microfacet { fresnel, .. } = &mut material.model {
+                        *fresnel = Fresnel::None;
+                    }
+                    material.k_s = (metal as f32 + (1.0 - metal as f32) * F0 as f32).into();
+                }
+            }
+            *color = Rgb::WHITE;
+            let opacity = TextureRef { scale: alpha.min(1.0), channel: Some(Channel::Alpha), ..by };
+            if mode == "BLEND" || mode == "MASK" {
+                material.opacity = opacity.into();
+            }
+        }
+        if mode == "MASK" {
+            material.opacity_mode = OpacityMode::Mask;
+            material.cutoff = at.number_or("alphaCutoff", 0.5)?.clamp(0.0, 1.0) as f32;
+            if self.base.is_none() {
+                material.opacity = alpha.clamp(0.0, 1.0).into();
+            }
+        }
+        if let (Some(occlusion), Some(k_a)) = (&self.occlusion, material.k_a.constant()) {
+            let strength = at.need("occlusionTexture")?.number_or("strength", 1.0)?;
+            let strength = strength.clamp(0.0, 1.0) as f32;
+            let by = texture(occlusion, Rgb::WHITE, "occlusion");
+            let (scale, offset) = (k_a * strength, k_a * (1.0 - strength));
+            material.k_a = TextureRef { scale, offset, ..by }.into();
+        }
+        let glow = material.emission_color.and_then(crate::texture::Param::constant);
+        if let (Some(emissive), Some(glow)) = (&self.emissive, glow) {
+            material.emission_color = Some(texture(emissive, glow, "emission").into());
+        }
+        Ok(())
+    }
 }

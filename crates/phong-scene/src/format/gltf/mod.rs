@@ -16,7 +16,9 @@
 //! | `KHR_materials_ior`, `_specular`, `_emissive_strength`, `_pbrSpecularGlossiness` | F₀, the glow, a roughness of 1 − glossiness |
 //! | `KHR_materials_transmission`, `alphaMode` `BLEND` | rays that go straight on, by the factor and by 1 − alpha |
 //! | `KHR_materials_unlit` | a surface that glows in its colour, and is not lit |
-//! | images | not drawn yet: a warning |
+//! | images of base colour, metal and roughness, normals, occlusion, emission | textures, from buffers, texts and files, with `KHR_texture_transform`; α is of an image of its own, and so are the colours where the share of metal varies, whose facets are then perfect mirrors |
+//! | `alphaMode` with an image of the base colour | `opacity` by its alpha, a mask by `alphaCutoff` |
+//! | other images | a warning |
 //! | other extensions | a warning; where the file requires one, an error |
 //!
 //! What is wrong is said with a JSON pointer. What is out of range, or cut short, refuses the file,
@@ -27,6 +29,7 @@
 
 mod buffer;
 pub(crate) mod export;
+mod images;
 mod json;
 mod material;
 mod nodes;
@@ -41,6 +44,7 @@ use glam::{DAffine3, DMat4};
 use serde_json::Value;
 
 use self::buffer::Buffers;
+use self::images::Images;
 use self::json::{At, Fault, Result};
 use self::material::Surface;
 use self::nodes::Node;
@@ -184,11 +188,11 @@ fn tell(findings: &mut Findings, fatal: bool, file: &Arc<str>, fault: Fault) {
 }
 
 /// All that the document's scene holds.
-fn assemble(
-    root: &At<'_>,
+fn assemble<'a>(
+    root: &At<'a>,
     binary: Option<Vec<u8>>,
     file: &Arc<str>,
-    input: &Input<'_>,
+    input: &Input<'a>,
     findings: &mut Findings,
 ) -> Result<Fragment> {
     let Input { path, source, limits, radius, .. } = *input;
@@ -197,16 +201,20 @@ fn assemble(
     let nodes = nodes::drawn(root)?;
     let buffers = Buffers::read(root, path, binary, source, limits)?;
     let reader = Reader { root: root.clone(), buffers, file: Arc::clone(file), limits, radius };
+    let images = Images::new(root.clone(), path, source, limits);
     let mut scene = Scene {
         lenient: limits.lenient,
         reader,
         fragment: Fragment::default(),
+        images,
         surfaces: BTreeMap::new(),
         names: BTreeSet::new(),
         findings,
     };
     scene.draw(&nodes)?;
-    Ok(scene.fragment)
+    let Scene { mut fragment, images, .. } = scene;
+    fragment.textures = images.textures;
+    Ok(fragment)
 }
 
 fn check_version(root: &At<'_>) -> Result<()> {
@@ -250,6 +258,8 @@ struct Scene<'a, 'f> {
     lenient: bool,
     reader: Reader<'a>,
     fragment: Fragment,
+    /// The images of materials.
+    images: Images<'a>,
     /// By the number of a material, `None` for what names none: its number here, and itself.
     surfaces: BTreeMap<Option<usize>, (MaterialId, Surface)>,
     /// The names of groups.
@@ -389,7 +399,8 @@ impl<'a> Scene<'a, '_> {
             (Some(at), Some(number)) => {
                 let root = &self.reader.root;
                 let of = root.item("materials", number).map_err(|f| at.fault(f.message))?;
-                material::read(&of, &self.reader.file, self.findings)?
+                let Reader { buffers, file, .. } = &self.reader;
+                material::read(&of, &mut self.images, (buffers, file), self.findings)?
             }
             _ => material::plain(),
         };

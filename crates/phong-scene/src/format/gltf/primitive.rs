@@ -79,10 +79,26 @@ impl Reader<'_> {
         let colors = own("COLOR_0")?;
         let weights = (own("JOINTS_0")?, own("WEIGHTS_0")?);
         mesh.normals = normals.map(|rows| rows.vectors()).unwrap_or_default().into();
-        mesh.uvs = uvs.map(|rows| rows.pairs()).unwrap_or_default().into();
+        // The second coordinate grows down the image here, and up everywhere else.
+        let up = |uv: glam::Vec2| glam::Vec2::new(uv.x, 1.0 - uv.y);
+        let pairs = uvs.map(|rows| rows.pairs()).unwrap_or_default();
+        mesh.uvs = pairs.into_iter().map(up).collect();
         let is_bad = |c: &f32| !c.is_finite();
         mesh.uvs.iter_mut().filter(|uv| !uv.is_finite()).for_each(|uv| *uv = glam::Vec2::ZERO);
-        if let Some(rows) = colors {
+        let imaged = surface.material.color.constant().is_none();
+        if colors.is_some() && imaged {
+            findings.warning(
+                "colours of vertices",
+                || whole(&self.file),
+                || {
+                    format!(
+                        "{}: an image gives the colour; those of vertices are left out",
+                        at.pointer
+                    )
+                },
+            );
+        }
+        if let Some(rows) = colors.filter(|_| !imaged) {
             // As the format says, linear whatever they are stored as; an alpha is not drawn.
             let tint = |c: Vec3| Rgb::new(c.x, c.y, c.z) * surface.color;
             let sound = |c: Vec3| c.max(Vec3::ZERO);

@@ -1,6 +1,6 @@
 //! A material as its statements say it, and what it becomes.
 
-use super::maps::Maps;
+use super::maps::{Maps, Said};
 use super::texture::Map;
 use crate::color::Rgb;
 use crate::diagnostic::Span;
@@ -45,6 +45,20 @@ impl Draft {
             illum: None,
             maps: Vec::new(),
             findings: Findings::default(),
+        }
+    }
+
+    /// What its images are beside.
+    pub(super) fn said(&self) -> Said<'_> {
+        let Self { name, maps, ambient, diffuse, specular, exponent, dissolve, .. } = self;
+        Said {
+            name,
+            maps,
+            ambient: *ambient,
+            diffuse: *diffuse,
+            specular: *specular,
+            exponent: *exponent,
+            dissolve: *dissolve,
         }
     }
 

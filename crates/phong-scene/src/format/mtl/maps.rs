@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 
-use super::draft::Draft;
 use super::texture::{Map, MapOf};
 use crate::color::Rgb;
 use crate::diagnostic::Span;
@@ -36,6 +35,17 @@ impl<'a> Images<'a> {
     }
 }
 
+/// What the statements of a material say that images are beside.
+pub(super) struct Said<'a> {
+    pub(super) name: &'a str,
+    pub(super) maps: &'a [(Map, Span)],
+    pub(super) ambient: Option<Rgb>,
+    pub(super) diffuse: Option<Rgb>,
+    pub(super) specular: Option<Rgb>,
+    pub(super) exponent: Option<f32>,
+    pub(super) dissolve: Option<f32>,
+}
+
 /// What the images say that could be read.
 #[derive(Debug, Default)]
 pub(super) struct Maps {
@@ -53,13 +63,13 @@ pub(super) struct Maps {
 impl Maps {
     /// Reads the images of a material, and says which of them cannot be read.
     pub(super) fn read(
-        draft: &Draft,
+        said: &Said<'_>,
         file: &str,
         images: &mut Images<'_>,
         findings: &mut Findings,
     ) -> Self {
         let mut maps = Self::default();
-        for (map, span) in &draft.maps {
+        for (map, span) in said.maps {
             let texels = match load(&map.name, file, images) {
                 Ok(texels) => texels,
                 Err(message) => {
@@ -72,14 +82,14 @@ impl Maps {
                     continue;
                 }
             };
-            maps.take(draft, (map, span), texels, images, findings);
+            maps.take(said, (map, span), texels, images, findings);
         }
         maps
     }
 
     fn take(
         &mut self,
-        draft: &Draft,
+        said: &Said<'_>,
         (map, span): (&Map, &Span),
         texels: Arc<Texels>,
         images: &mut Images<'_>,
@@ -97,9 +107,9 @@ impl Maps {
         let is_normal = map.of == MapOf::Normal || map.of == MapOf::Bump && is_blue(&texels);
         let has_opacity = texels.channels().is_multiple_of(2);
         let (word, tint) = match map.of {
-            MapOf::Ambient => ("map_Ka", tint(draft.ambient)),
-            MapOf::Diffuse => ("map_Kd", tint(draft.diffuse)),
-            MapOf::Specular => ("map_Ks", tint(draft.specular)),
+            MapOf::Ambient => ("map_Ka", tint(said.ambient)),
+            MapOf::Diffuse => ("map_Kd", tint(said.diffuse)),
+            MapOf::Specular => ("map_Ks", tint(said.specular)),
             MapOf::Exponent => ("map_Ns", Rgb::WHITE),
             MapOf::Dissolve => ("map_d", Rgb::WHITE),
             MapOf::Bump | MapOf::Normal => (if is_normal { "norm" } else { "bump" }, Rgb::WHITE),
@@ -107,7 +117,7 @@ impl Maps {
         };
         let texture = TextureId(images.textures.len() as u32);
         images.textures.push(Texture {
-            name: format!("{} {word}", draft.name),
+            name: format!("{} {word}", said.name),
             kind: TextureKind::Image {
                 file: map.name.clone(),
                 texels,
@@ -138,10 +148,10 @@ impl Maps {
             MapOf::Diffuse => self.diffuse = Some(by),
             MapOf::Specular => self.specular = Some(by),
             MapOf::Exponent => {
-                self.exponent = Some(number(draft.exponent.unwrap_or(32.0).max(0.0).into(), None));
+                self.exponent = Some(number(said.exponent.unwrap_or(32.0).max(0.0).into(), None));
             }
             MapOf::Dissolve => {
-                let shown = draft.dissolve.unwrap_or(1.0).clamp(0.0, 1.0);
+                let shown = said.dissolve.unwrap_or(1.0).clamp(0.0, 1.0);
                 self.dissolve = Some(number(shown.into(), has_opacity.then_some(Channel::Alpha)));
             }
             _ if is_normal => {

@@ -146,7 +146,7 @@ impl Library {
         let draft = &mut self.drafts[number];
         self.findings.append(std::mem::take(&mut draft.findings));
         let draft = &self.drafts[number];
-        let maps = Maps::read(draft, &self.file, images, &mut self.findings);
+        let maps = Maps::read(&draft.said(), &self.file, images, &mut self.findings);
         Some(draft.finish(&maps, &mut self.findings))
     }
 

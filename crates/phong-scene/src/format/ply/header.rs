@@ -212,7 +212,7 @@ impl Parser<'_> {
                     self.findings.warning(
                         "textures",
                         || here.here(self.file),
-                        || format!("textures are not drawn yet: `{name}` is left out"),
+                        || format!("the file names a texture, `{name}`, but no place for it: it is left out"),
                     );
                 }
             }
