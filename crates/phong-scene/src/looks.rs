@@ -227,6 +227,7 @@ impl Scene {
     fn apply(&mut self, recipe: &Recipe) {
         self.image.background = recipe.background;
         self.ambient = Rgb::grey(recipe.ambient);
+        self.sky = None;
         self.ambient_occlusion = (recipe.occlusion > 0).then_some(AmbientOcclusion {
             samples: recipe.occlusion,
             distance: OcclusionDistance::Auto,
