@@ -50,7 +50,11 @@ class Light(Keys):
     ``kind``: Where its light comes from.
     ``name``: What `explain` calls it.
     ``position``: Where it is, in scene units.
-    ``direction``: The way the light travels; any length.
+    ``direction``: The way the light travels; any length. / The way the light travels from its
+        middle, across its surface; any length. It shines to this side alone.
+    ``up``: Along its height, made perpendicular to `direction`; any length.
+    ``width``: Across `up`, scene units.
+    ``height``: Along `up`, scene units.
     ``target``: A point on the axis of the cone.
     ``cone``: Half-angle of full light, degrees.
     ``edge``: Half-angle where the light ends, degrees, not below `cone`; between them
@@ -59,26 +63,35 @@ class Light(Keys):
     ``specular_color``: `C_m,s` is this times the material's specular colour.
     ``attenuation``: `[c, l, q]`: the light is divided by c + l d + q d², d the distance.
         Default: [1.0, 0.0, 0.0].
+    ``range``: Distance from `position` beyond which there is nothing of it, scene units.
     ``shadows``: Whether things in between take the light away. Default: true.
-    ``radius``: Radius of the luminous sphere, scene units; 0: hard shadows. Default: 0.0.
+    ``radius``: Radius of the luminous sphere, scene units; 0: hard shadows. / Radius of the
+        disc or sphere, scene units.
+    ``visible``: Whether rays see its surface, from the side to which it shines: an emission of
+        `color`. Default: true.
     ``angle``: Degrees across of the luminous disc; 0: hard shadows. Default: 0.0.
     """
 
     def __init__(
         self,
         *,
-        kind: Literal["point", "distant", "spot"],
+        kind: Literal["point", "distant", "spot", "rectangle", "disc", "sphere"],
         name: str | None = None,
         position: ArrayLike | None = None,
         direction: ArrayLike | None = None,
+        up: ArrayLike | None = None,
+        width: float | None = None,
+        height: float | None = None,
         target: ArrayLike | None = None,
         cone: float | None = None,
         edge: float | None = None,
         color: _Color | None = None,
         specular_color: _Color | None = None,
         attenuation: ArrayLike | None = None,
+        range: float | None = None,
         shadows: bool | None = None,
         radius: float | None = None,
+        visible: bool | None = None,
         angle: float | None = None,
     ) -> None: ...
 
