@@ -26,6 +26,20 @@ impl Placed {
         self.turn.conjugate() * (p - self.at) / self.scale
     }
 
+    /// The point of a ray at `t` in the solid's own space: the difference first, so that nothing is lost of a solid
+    /// that is small and far from the origin.
+    pub(crate) fn local_at(&self, ray: &Ray, t: f64) -> DVec3 {
+        let p = (ray.origin - self.at) + t * ray.dir.as_dvec3();
+        self.turn.conjugate() * p / self.scale
+    }
+
+    /// Whether a ray lies so nearly within the plane of a flat solid that rounding decides where it meets it.
+    pub(crate) fn is_within_plane(&self, ray: &Ray) -> bool {
+        let d = self.turn.conjugate() * ray.dir.as_dvec3() / self.scale;
+        matches!(self.solid.shape, Canonical::Disc | Canonical::Triangle)
+            && d.z.abs() < 1e-8 * d.length()
+    }
+
     /// Around all of it.
     pub(crate) fn bounding_sphere(&self) -> (DVec3, f64) {
         let (low, high) = match self.solid.shape {
@@ -92,8 +106,7 @@ impl Placed {
 
     /// The `t` near that of a hit, which is rounded to f32, at which the sign function is least.
     pub(crate) fn on_surface(&self, ray: &Ray, t: f64) -> f64 {
-        let (o, d) = (ray.origin, ray.dir.as_dvec3());
-        let value = |t: f64| self.side(self.local(o + t * d)).abs();
+        let value = |t: f64| self.side(self.local_at(ray, t)).abs();
         let ulp = f64::from((t as f32).next_up()) - t;
         (-512..=512)
             .map(|i| t + ulp * f64::from(i) / 512.0)
@@ -109,7 +122,7 @@ impl Placed {
         let (middle, radius) = self.bounding_sphere();
         let nearest = (middle - o).dot(d) / d.dot(d);
         let reach = 1.01 * radius / d.length();
-        let value = |t: f64| self.side(self.local(o + t * d));
+        let value = |t: f64| self.side(self.local_at(ray, t));
         let mut found = Vec::new();
         let at = |i: u32| nearest + reach * (2.0 * f64::from(i) / f64::from(STEPS) - 1.0);
         for i in 0..STEPS {
@@ -126,7 +139,7 @@ impl Placed {
                     high = t;
                 }
             }
-            if self.belongs(self.local(o + low * d)) > 0.0 {
+            if self.belongs(self.local_at(ray, low)) > 0.0 {
                 found.push(low);
             }
         }
