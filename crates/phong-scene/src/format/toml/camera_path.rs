@@ -61,7 +61,7 @@ fn whole(document: &DeTable<'_>, file: u32, notes: &mut Notes) -> Option<CameraP
         return None;
     };
     let mut keys: Vec<CameraKey> = Vec::new();
-    for value in tables.iter() {
+    for value in tables {
         let at = Spot::new(file, value.span());
         let Some(table) = value.get_ref().as_table() else {
             notes.error(at, "`key` must be a list of tables").help =

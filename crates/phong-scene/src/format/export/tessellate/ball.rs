@@ -96,7 +96,7 @@ struct Ball {
 
 impl Ball {
     fn of(parts: u32) -> Self {
-        let corners = CORNERS.map(|corner| DVec3::from(corner).normalize());
+        let corners = CORNERS.map(|corner| DVec3::from(corner).normalize_or(DVec3::Y));
         let mut units = Vec::new();
         let mut known: BTreeMap<[(u8, u32); 3], u32> = BTreeMap::new();
         let mut triangles = Vec::new();
@@ -111,7 +111,7 @@ impl Ball {
                         .iter()
                         .map(|(i, share)| f64::from(*share) * corners[usize::from(*i)])
                         .sum();
-                    units.push(sum.normalize());
+                    units.push(sum.normalize_or(DVec3::Y));
                     units.len() as u32 - 1
                 })
             };
@@ -146,11 +146,11 @@ mod tests {
             assert_eq!((ball.units.len(), ball.triangles.len()), (10 * square + 2, 20 * square));
             let nearest = |corners: &[u32; 3]| {
                 let [a, b, c] = corners.map(|i| ball.units[i as usize]);
-                (b - a).cross(c - a).normalize().dot(a)
+                (b - a).cross(c - a).normalize_or(DVec3::ZERO).dot(a)
             };
             let least = ball.triangles.iter().map(nearest).fold(1.0, f64::min);
             assert!(least > 0.0, "every triangle shows its outer side");
-            let sag = (1.0 - least) * f64::from(parts).powi(2);
+            let sag = (1.0 - least) * f64::from(parts * parts);
             assert!(sag <= SAG, "{parts}: {sag}");
         }
         let [radius, within] = [2.0, 0.01];

@@ -60,7 +60,7 @@ impl Profile {
         let [begin, end] = halves(colors);
         let around = parts_of_circle(first.max(last), within);
         let mut profile = Self { around, ..Self::default() };
-        let steep = ((first - last).powi(2) + length * length).sqrt();
+        let steep = ((first - last) * (first - last) + length * length).sqrt();
         let out = [(first - last) / steep, length / steep];
         if caps == Caps::Flat && first > 0.0 {
             profile.ring(0.0, 0.0, begin);
