@@ -104,13 +104,14 @@ impl Settings {
 
     /// How the film is to be finished.
     pub fn finishing(&self) -> Finishing {
-        let mut finishing = Finishing::default();
-        finishing.scene = self.scene();
-        finishing.lines = self.said("lines").and_then(Lines::from_text);
-        finishing.shown = self.shown();
         let dpi = self.said("dpi").and_then(|dpi| dpi.parse().ok());
-        finishing.dpi = dpi.filter(|dpi: &f64| *dpi > 0.0 && dpi.is_finite());
-        finishing
+        Finishing {
+            scene: self.scene(),
+            picture: None,
+            lines: self.said("lines").and_then(Lines::from_text),
+            shown: self.shown(),
+            dpi: dpi.filter(|dpi: &f64| *dpi > 0.0 && dpi.is_finite()),
+        }
     }
 
     /// A checksum of all that the picture and its file depend on, the version of the arithmetic
