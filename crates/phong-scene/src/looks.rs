@@ -112,9 +112,11 @@ impl Scene {
             outline: None,
         };
         let lines =
-            |width, crease, color| Some(Outline { width, crease, color, ..Outline::default() });
+            |width, crease, color| Some(Outline { width, color, crease, ..Outline::default() });
         let shadowless = |lights: &mut Vec<Light>| {
-            lights.iter_mut().for_each(|light| light.shadows = false);
+            for light in lights {
+                light.shadows = false;
+            }
         };
         let mut lights = Vec::new();
         let camera = self.camera.clone();
@@ -297,7 +299,7 @@ fn from_the_eye(
 fn dress(material: &mut Material, recipe: &Recipe) {
     let plain = Material::default();
     let [k_a, k_d, k_s, shininess] = recipe.factors;
-    material.model = recipe.model.clone();
+    material.model = recipe.model;
     material.k_a = Param::Constant(k_a);
     material.k_d = Param::Constant(k_d);
     material.k_s = Param::Constant(k_s);

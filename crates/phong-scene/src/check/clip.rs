@@ -74,7 +74,7 @@ fn passes_through(kind: &ClipKind, bounds: &Bounds) -> bool {
         ClipKind::Box { min, max, keep } => {
             let apart = bounds.max.cmple(min).any() || bounds.min.cmpge(max).any();
             let within = bounds.min.cmpge(min).all() && bounds.max.cmple(max).all();
-            !apart && !(within && keep == Keep::Inside)
+            !(apart || within && keep == Keep::Inside)
         }
     }
 }

@@ -10,7 +10,7 @@ impl Mesh {
         let place: Vec<u32> = self.positions.iter().map(|p| weld.number(*p)).collect();
         // Each edge from its lower corner, and whether the face has it that way round.
         let mut edges: Vec<(u64, bool)> = Vec::with_capacity(3 * self.indices.len());
-        for &face in self.indices.iter() {
+        for &face in &*self.indices {
             let [a, b, c] = face.map(|corner| place[corner as usize]);
             for (from, to) in [(a, b), (b, c), (c, a)] {
                 if from != to {

@@ -32,26 +32,30 @@ impl Stretch {
 
     /// Whether it takes what is at this distance.
     pub(super) fn takes(&self, t: f32) -> bool {
-        match self.is_left {
-            true => t < self.from || t > self.to || self.from == self.to,
-            false => self.from < t && t < self.to,
+        if self.is_left {
+            t < self.from || t > self.to || self.from == self.to
+        } else {
+            self.from < t && t < self.to
         }
     }
 
     /// Whether it takes anything between two distances.
     pub(super) fn touches(&self, t_min: f32, t_max: f32) -> bool {
-        match self.is_left {
-            true => self.from > t_min || self.to < t_max || self.from == self.to,
-            false => self.from < self.to && self.from < t_max && self.to > t_min,
+        if self.is_left {
+            self.from > t_min || self.to < t_max || self.from == self.to
+        } else {
+            self.from < self.to && self.from < t_max && self.to > t_min
         }
     }
 
     /// Where what it takes at this distance ends.
     pub(super) fn end_after(&self, t: f32) -> f32 {
-        match self.is_left {
-            true if t < self.from && self.from < self.to => self.from,
-            true => f32::INFINITY,
-            false => self.to,
+        if !self.is_left {
+            self.to
+        } else if t < self.from && self.from < self.to {
+            self.from
+        } else {
+            f32::INFINITY
         }
     }
 
