@@ -245,7 +245,7 @@ impl LightKind {
         let across = |up: DVec3| {
             let up = up.try_normalize()?;
             let across = up - up.dot(direction) * direction;
-            (across.length() >= PARALLEL).then(|| across.normalize())
+            (across.length() >= PARALLEL).then_some(across)?.try_normalize()
         };
         match up {
             Some(up) => across(up),

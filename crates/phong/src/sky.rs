@@ -67,6 +67,8 @@ struct Daylight {
 
 impl Daylight {
     fn new(sun: DVec3, up: DVec3, turbidity: f64, color: Rgb, ground: Rgb) -> Self {
+        /// Places along and around, of those that the mean is taken over.
+        const RINGS: u32 = 48;
         let t = turbidity;
         let line = |[a, b]: [f64; 2]| (a * t + b) as f32;
         // Their table 2.
@@ -113,7 +115,6 @@ impl Daylight {
         let straight_up = perez.map(|of| function(of, 1.0, height as f32));
         let mut sky = Self { sun: sun.as_vec3(), perez, scale: [1.0; 3], color, ground };
         // The mean that a level surface meets is 1: the places are even in the square of the sine.
-        const RINGS: u32 = 48;
         let mut sum = 0.0;
         let aside = up.any_orthonormal_vector();
         let across = up.cross(aside);
@@ -190,8 +191,8 @@ mod tests {
         let clear = daylight(2.0);
         let above = clear.radiance(Vec3::Y);
         assert!(above.b > 1.5 * above.r, "{above:?}");
-        let at_sun = luminance(clear.radiance(Vec3::new(1.0, 1.0, 0.0).normalize()));
-        let opposite = luminance(clear.radiance(Vec3::new(-1.0, 1.0, 0.0).normalize()));
+        let at_sun = luminance(clear.radiance(Vec3::new(1.0, 1.0, 0.0).normalize_or_zero()));
+        let opposite = luminance(clear.radiance(Vec3::new(-1.0, 1.0, 0.0).normalize_or_zero()));
         assert!(at_sun > 3.0 * opposite, "{at_sun} {opposite}");
         let hazy = daylight(9.0).radiance(Vec3::Y);
         assert!(hazy.b / hazy.r < above.b / above.r, "{hazy:?}");
@@ -201,9 +202,9 @@ mod tests {
     fn a_level_surface_meets_a_mean_luminance_of_1_by_day() {
         for turbidity in [2.0, 4.0] {
             let sky = daylight(turbidity);
-            let (mut sum, n) = (0.0, 60);
+            let (mut sum, n) = (0.0, 60_u32);
             for i in 0..n * n {
-                let (u, v) = ((i % n) as f64 + 0.5, (i / n) as f64 + 0.5);
+                let (u, v) = (f64::from(i % n) + 0.5, f64::from(i / n) + 0.5);
                 let [x, z] = crate::camera::concentric_disc([u / f64::from(n), v / f64::from(n)]);
                 let dir = DVec3::new(x, (1.0 - x * x - z * z).sqrt(), z).as_vec3();
                 sum += f64::from(luminance(sky.radiance(dir)));

@@ -229,7 +229,7 @@ pub(super) fn choose_of_sphere<F: Lanes<Scalar = f32>>(
     let lower = depth * (place[0] * place[0] + place[1] * place[1]);
     let aside = across((depth * (-lower + 2.0)).sqrt(), axis, place);
     let cos = one - lower;
-    let zero = one - one;
+    let zero = one.splat(0.0);
     let is_somewhere = zero.lt(distance);
     let way = select3(is_somewhere, add(scale(cos, axis), aside), [zero; 3]);
     Chosen { toward: scale(distance * cos, way), weight: one }
@@ -336,8 +336,8 @@ mod tests {
         let (mut sum, mut whole) = (DVec3::ZERO, 0.0);
         for [x, y] in points {
             let way = DVec3::from_array(toward) + DVec3::new(x, y, 0.0);
-            let solid_angle = -way.normalize().dot(FACING) / way.length_squared();
-            sum += solid_angle * way.normalize();
+            let solid_angle = -way.normalize_or_zero().dot(FACING) / way.length_squared();
+            sum += solid_angle * way.normalize_or_zero();
             whole += solid_angle;
         }
         sum / whole
@@ -364,7 +364,7 @@ mod tests {
                 let aside = way - DVec3::from_array(toward);
                 assert!(aside.x.abs() <= width / 2.0 + 1e-9, "{toward:?}: {aside}");
                 assert!(aside.y.abs() <= height / 2.0 + 1e-9 && aside.z.abs() < 1e-9);
-                mean += way.normalize() / 1600.0;
+                mean += way.normalize_or_zero() / 1600.0;
             }
             assert!(mean.distance(expected) < 2e-3, "{toward:?}: {mean} instead of {expected}");
             assert_eq!(rectangle.choose(toward, [0.5; 2]), toward, "its middle");
@@ -406,7 +406,7 @@ mod tests {
                 let slack = 1e-5 * Vec3::from(toward).length();
                 assert!(aside.length() <= 0.5 + slack, "{toward:?}: {aside}");
                 assert!(aside.z.abs() <= slack);
-                mean += f64::from(weight) * Vec3::from(way).as_dvec3().normalize() / 3600.0;
+                mean += f64::from(weight) * Vec3::from(way).as_dvec3().normalize_or_zero() / 3600.0;
                 weights += f64::from(weight) / 3600.0;
             }
             assert!((weights - 1.0).abs() < 2e-3, "{toward:?}: {weights}");
