@@ -39,3 +39,32 @@ pub(super) fn decode(bytes: &[u8], limits: &Limits) -> Result<Texels, String> {
     };
     Texels::new(size, channels as usize, values).map_err(|error| error.to_string())
 }
+
+impl Texels {
+    /// Writes it as PNG: floats with 16 bits, between 0 and 1.
+    pub(crate) fn write_png(&self, to: &mut dyn std::io::Write) -> std::io::Result<()> {
+        let mut encoder = png::Encoder::new(to, self.size[0], self.size[1]);
+        encoder.set_color(match self.channels {
+            1 => ColorType::Grayscale,
+            2 => ColorType::GrayscaleAlpha,
+            3 => ColorType::Rgb,
+            _ => ColorType::Rgba,
+        });
+        let short = |value: &f32| (value.clamp(0.0, 1.0) * 65535.0 + 0.5) as u16;
+        let (depth, bytes): (_, Vec<u8>) = match &self.values {
+            TexelValues::Bytes(values) => (BitDepth::Eight, values.clone()),
+            TexelValues::Shorts(values) => {
+                (BitDepth::Sixteen, values.iter().flat_map(|v| v.to_be_bytes()).collect())
+            }
+            TexelValues::Floats(values) => {
+                let shorts = values.iter().map(short);
+                (BitDepth::Sixteen, shorts.flat_map(u16::to_be_bytes).collect())
+            }
+        };
+        encoder.set_depth(depth);
+        let mut writer = encoder.write_header()?;
+        writer.write_image_data(&bytes)?;
+        writer.finish()?;
+        Ok(())
+    }
+}

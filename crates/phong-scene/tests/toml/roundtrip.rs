@@ -36,7 +36,13 @@ pub(crate) fn seen(mut scene: Scene) -> String {
     scene.lights.iter_mut().for_each(|light| light.place = Place::default());
     scene.clips.iter_mut().for_each(|clip| clip.place = Place::default());
     scene.materials.iter_mut().for_each(|material| material.place = Place::default());
-    scene.textures.iter_mut().for_each(|texture| texture.place = Place::default());
+    for texture in &mut scene.textures {
+        texture.place = Place::default();
+        // An image goes along under another name.
+        if let phong_scene::TextureKind::Image { file, .. } = &mut texture.kind {
+            file.clear();
+        }
+    }
     let in_groups = scene.groups.iter_mut().flat_map(|group| &mut group.objects);
     for object in scene.objects.iter_mut().chain(in_groups) {
         plain(object);

@@ -9,6 +9,7 @@ mod text;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
+use std::sync::Arc;
 
 use glam::DVec3;
 
@@ -22,7 +23,8 @@ use crate::material::{Material, MaterialId};
 use crate::mesh::{Cylinders, Mesh};
 use crate::scene::{Object, Scene};
 use crate::shape::Shape;
-use crate::texture::Texture;
+use crate::texels::{TexelValues, Texels};
+use crate::texture::{Texture, TextureKind};
 
 /// The scene as the text of `file` and the files that it names, in the order of the text.
 ///
@@ -228,8 +230,28 @@ impl Writer<'_> {
     }
 
     fn textures(&mut self, textures: &[Texture]) {
+        let mut written: Vec<(Arc<Texels>, String)> = Vec::new();
         for (number, texture) in textures.iter().enumerate() {
             let header = format!("[textures.{}]", text::name(&self.texture_names[number]));
+            let mut texture = texture.clone();
+            if let TextureKind::Image { file, texels, .. } = &mut texture.kind {
+                // Pixels go along: where the file was is somewhere else from there.
+                let known = written.iter().find(|(other, _)| Arc::ptr_eq(other, texels));
+                *file = if let Some((_, name)) = known {
+                    name.clone()
+                } else {
+                    let name = format!("{}-image-{}.png", self.stem, written.len() + 1);
+                    if let TexelValues::Floats(_) = texels.values() {
+                        let message = format!("{header}: of its floats what is above 1 or below 0");
+                        self.account.drop(Diagnostic::warning(message, None));
+                    }
+                    let pixels = Arc::clone(texels);
+                    self.files.push(File::new(name.clone(), move |to| pixels.write_png(to)));
+                    written.push((Arc::clone(texels), name.clone()));
+                    name
+                };
+            }
+            let texture = &texture;
             let kind = keys::TEXTURE.word_of(texture);
             self.table(&header, &keys::TEXTURE, kind, |key| concepts::texture(texture, key));
             self.account.carry("texture", 1);
