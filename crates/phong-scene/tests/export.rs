@@ -325,7 +325,7 @@ fn triangles_in_place_of_solids_are_closed_and_face_outwards() {
     let mut volume = 0.0;
     for (face, corners) in mesh.indices.iter().enumerate() {
         let places = corners.map(|i| mesh.positions[i as usize]);
-        let [a, b, c] = places.map(|p| p.as_dvec3());
+        let [a, b, c] = places.map(Vec3::as_dvec3);
         volume += a.dot(b.cross(c)) / 6.0;
         let normals =
             if mesh.normal_indices.is_empty() { corners } else { &mesh.normal_indices[face] };
@@ -368,7 +368,7 @@ fn triangles_stay_within_the_tolerance_wherever_they_are_placed() {
                 read_in(&Memory::new().with("b.ply", bytes), "b.ply").scene.expect("a model");
             let Shape::Mesh(mesh) = &model.objects[0].shape else { panic!("a mesh") };
             let mut most = 0.0_f64;
-            for corners in mesh.indices.iter() {
+            for corners in &mesh.indices[..] {
                 let [a, b, c] =
                     corners.map(|i| mesh.origin + mesh.positions[i as usize].as_dvec3());
                 for shares in [[1.0, 1.0, 1.0], [1.0, 1.0, 0.0], [0.0, 1.0, 1.0], [1.0, 0.0, 1.0]] {
@@ -381,7 +381,7 @@ fn triangles_stay_within_the_tolerance_wherever_they_are_placed() {
     }
     // A circle of radius 1 within 1 − cos (π / 8) is cut into 8.
     let disc = "[[disc]]\ncenter = [0, 0, 0]\nnormal = [0, 1, 0]\nradius = 1\n";
-    let export = tessellated(scene(disc), Format::Ply, 1.0 - (PI / 8.0).cos() + 1e-9);
+    let export = tessellated(scene(disc), Format::Ply, 1.0 - libm::cos(PI / 8.0) + 1e-9);
     assert_eq!(export.expect("a disc").account.carried["triangle"], 8);
 }
 

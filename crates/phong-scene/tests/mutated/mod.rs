@@ -126,7 +126,7 @@ fn damaged_files_are_read_to_a_sound_scene_or_to_errors() {
         for entry in fs::read_dir(folder).expect("a folder") {
             let path = entry.expect("a file").path();
             let name = path.file_name().expect("a name").to_string_lossy().into_owned();
-            if !name.ends_with(".txt") && path.is_file() {
+            if path.extension().is_none_or(|ending| ending != "txt") && path.is_file() {
                 let bytes = fs::read(&path).expect("a file");
                 all = all.with(name.as_str(), bytes.clone());
                 files.push((name, bytes));
@@ -144,7 +144,7 @@ fn damaged_files_are_read_to_a_sound_scene_or_to_errors() {
         let source = all.clone().with(name.as_str(), bytes.clone());
         // Materials are read by the model that names them.
         let mut name = name.clone();
-        let source = if name.ends_with(".mtl") {
+        let source = if Path::new(&name).extension().is_some_and(|ending| ending == "mtl") {
             let model = format!("mtllib {name}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
             name = "model.obj".to_owned();
             source.with("model.obj", model.into_bytes())

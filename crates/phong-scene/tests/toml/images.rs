@@ -19,7 +19,8 @@ fn reading(image: &[u8], limits: &Limits) -> Reading {
 fn texels(image: &[u8]) -> std::sync::Arc<Texels> {
     let reading = reading(image, &Limits::default());
     assert!(reading.diagnostics.is_empty(), "{:#?}", reading.diagnostics);
-    let TextureKind::Image { texels, .. } = &reading.scene.unwrap().textures[0].kind else {
+    let TextureKind::Image { texels, .. } = &reading.scene.expect("a scene").textures[0].kind
+    else {
         panic!("an image")
     };
     texels.clone()
@@ -31,7 +32,7 @@ fn error(image: &[u8], limits: &Limits) -> Diagnostic {
     assert!(reading.scene.is_none());
     let errors: Vec<_> = reading.diagnostics.into_iter().filter(Diagnostic::is_error).collect();
     assert_eq!(errors.len(), 1, "{errors:#?}");
-    errors.into_iter().next().unwrap()
+    errors.into_iter().next().expect("one")
 }
 
 fn png(size: [u32; 2], kind: (png::ColorType, png::BitDepth), values: &[u8]) -> Vec<u8> {
@@ -43,9 +44,9 @@ fn png(size: [u32; 2], kind: (png::ColorType, png::BitDepth), values: &[u8]) -> 
         encoder.set_palette(vec![255, 0, 0, 0, 0, 255]);
         encoder.set_trns(vec![255, 51]);
     }
-    let mut writer = encoder.write_header().unwrap();
-    writer.write_image_data(values).unwrap();
-    writer.finish().unwrap();
+    let mut writer = encoder.write_header().expect("memory");
+    writer.write_image_data(values).expect("memory");
+    writer.finish().expect("memory");
     bytes
 }
 
@@ -54,7 +55,7 @@ fn every_colour_type_and_depth_of_png_is_read() {
     use png::BitDepth::{Eight, Four, One, Sixteen, Two};
     use png::ColorType::{Grayscale, GrayscaleAlpha, Indexed, Rgb, Rgba};
     // Of two pixels the second.
-    let cases: [((png::ColorType, png::BitDepth), &[u8], [f32; 4]); 11] = [
+    let cases: [(_, &[u8], [f32; 4]); 11] = [
         ((Grayscale, One), &[0b0100_0000], [1.0; 4]),
         ((Grayscale, Two), &[0b0010_0000], [2.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0, 1.0]),
         ((Grayscale, Four), &[0x03], [0.2, 0.2, 0.2, 1.0]),
@@ -103,7 +104,10 @@ fn exr(bright: f32) -> Vec<u8> {
         if at.x() == 1 { (bright, 0.5_f32, 0.25_f32) } else { (0.0, 0.0, 0.0) }
     });
     let mut bytes = std::io::Cursor::new(Vec::new());
-    exr::prelude::Image::from_channels((2, 1), colors).write().to_buffered(&mut bytes).unwrap();
+    exr::prelude::Image::from_channels((2, 1), colors)
+        .write()
+        .to_buffered(&mut bytes)
+        .expect("memory");
     bytes.into_inner()
 }
 

@@ -90,7 +90,7 @@ fn drawn(film: &Film, coverage: &[f32], lines: &Lines) -> [Vec<f32>; 2] {
     [picture, alpha]
 }
 
-impl<'a> Finished<'a> {
+impl Finished<'_> {
     /// The film, as it was rendered.
     pub fn film(&self) -> &Film {
         &self.film

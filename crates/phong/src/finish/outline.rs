@@ -127,7 +127,9 @@ impl Chains {
                     [] => {}
                     _ => {
                         let middle = [2 * x + 1, 2 * y + 1];
-                        ends.iter().for_each(|end| self.segment(&mut numbers, *end, middle));
+                        for end in ends {
+                            self.segment(&mut numbers, end, middle);
+                        }
                     }
                 }
             }
