@@ -218,7 +218,7 @@ pub(crate) fn unpack(text: &str, arrays: &[&[u8]]) -> PyResult<State> {
     let images = packed["images"].as_array().ok_or_else(broken)?;
     let mut files = Memory::new().with("scene.toml", toml.as_bytes());
     for number in 0..images.len() {
-        files = files.with(&image_file(number), PIXEL);
+        files = files.with(image_file(number), PIXEL);
     }
     let reading = read("scene.toml", Some(Format::Toml), &files, &Limits::default());
     let mut scene = reading.scene.ok_or_else(broken)?;

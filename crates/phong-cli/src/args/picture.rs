@@ -86,7 +86,7 @@ pub(crate) struct FilmArgs {
     #[arg(conflicts_with_all = ["tile", "watch", "turntable"], allow_hyphen_values = true)]
     pub(crate) frames: Option<phong_scene::FrameRange>,
 
-    /// Along the way that the camera goes by this file: its [[key]]s say time, eye, look_at, up and fov,
+    /// Along the way that the camera goes by this file: each `[[key]]` says time, eye, `look_at`, up and fov,
     /// `pictures` how many. Files as for --turntable
     #[arg(long, value_name = "FILE", conflicts_with_all = ["tile", "watch", "turntable", "frames"])]
     pub(crate) path: Option<String>,

@@ -179,20 +179,7 @@ mod tests {
                 let x = i / n % 24;
                 *value = match layer.kind {
                     LayerKind::Picture => 1.0,
-                    LayerKind::Alpha => {
-                        if x < 12 {
-                            1.0
-                        } else {
-                            0.0
-                        }
-                    }
-                    LayerKind::Aov(Aov::Object) => {
-                        if x < 12 {
-                            1.0
-                        } else {
-                            0.0
-                        }
-                    }
+                    LayerKind::Alpha | LayerKind::Aov(Aov::Object) if x < 12 => 1.0,
                     _ => 0.0,
                 };
             }

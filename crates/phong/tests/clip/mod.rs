@@ -1,5 +1,7 @@
 //! Clipping: what is cut away, what casts no shadow, and what a cut shows.
 
+use std::fmt::Write as _;
+
 use glam::{DVec3, Vec3};
 use phong::aov::Aov;
 use phong::explain::{End, explain};
@@ -155,13 +157,9 @@ fn the_first_thing_met_is_that_of_trying_all() {
     let mut text = HEAD.to_owned();
     for _ in 0..12 {
         let [x, y, z, r] = [0; 4].map(|_| random());
-        text += &format!(
-            "[[sphere]]\ncenter = [{}, {}, {}]\nradius = {}\n",
-            4.0 * x - 2.0,
-            4.0 * y - 2.0,
-            4.0 * z - 2.0,
-            0.3 + r
-        );
+        let [x, y, z] = [x, y, z].map(|x| 4.0 * x - 2.0);
+        writeln!(text, "[[sphere]]\ncenter = [{x}, {y}, {z}]\nradius = {}", 0.3 + r)
+            .expect("memory");
     }
     text += FRONT;
     text += "[[clip]]\nkind = \"box\"\nmin = [-1, -1, -1]\nmax = [1, 0.5, 1]\n";
@@ -173,7 +171,7 @@ fn the_first_thing_met_is_that_of_trying_all() {
     for _ in 0..300 {
         let [x, y, a, b] = [0; 4].map(|_| 4.0 * random() - 2.0);
         let origin = DVec3::new(x, y, 4.5);
-        let dir = (DVec3::new(a, b, -2.0) - origin).normalize().as_vec3();
+        let dir = (DVec3::new(a, b, -2.0) - origin).normalize_or(DVec3::NEG_Z).as_vec3();
         let ray = Ray::new(origin, dir);
         let hit = view.intersect(&ray);
         let found = hit.is_some().then_some(f64::from(hit.t));
