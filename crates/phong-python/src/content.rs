@@ -159,7 +159,8 @@ pub(crate) fn pack(state: &State) -> PyResult<Packed> {
     let objects: Vec<_> = scene.objects.iter_mut().map(&mut take).collect();
     let in_groups = scene.groups.iter_mut().flat_map(|group| &mut group.objects);
     let in_groups: Vec<_> = in_groups.map(&mut take).collect();
-    let export = scene.export(&ExportOptions::default(), "scene.toml");
+    let export =
+        scene.export(&ExportOptions { images: false, ..ExportOptions::default() }, "scene.toml");
     let Export { files, .. } = export.map_err(|error| value_error(error.to_string()))?;
     let mut text = Vec::new();
     if let Some(file) = files.first() {

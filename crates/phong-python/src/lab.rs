@@ -194,7 +194,7 @@ pub(crate) fn _convert(
     };
     let ply = if ascii { PlyEncoding::Ascii } else { PlyEncoding::Binary };
     let max_bytes = memory();
-    let options = ExportOptions { format, ply, bare, max_bytes, tessellate };
+    let options = ExportOptions { format, ply, bare, max_bytes, tessellate, images: true };
     work::quietly(py, None, move |_| write_files(own, &options, &path))?
 }
 

@@ -12,7 +12,8 @@ use crate::keys::Text;
 
 /// A scene without objects as the tables of its text.
 pub(crate) fn tables(scene: Scene) -> PyResult<Table> {
-    let export = scene.export(&ExportOptions::default(), "scene.toml");
+    let export =
+        scene.export(&ExportOptions { images: false, ..ExportOptions::default() }, "scene.toml");
     let Export { files, .. } = export.map_err(|error| value_error(error.to_string()))?;
     let mut text = Vec::new();
     if let Some(file) = files.first() {

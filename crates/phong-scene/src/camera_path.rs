@@ -79,14 +79,15 @@ pub struct CameraPathReading {
 }
 
 impl CameraPath {
-    /// What keys say of the picture's width that cameras like this one do not have.
+    /// What keys say of the picture's width that cameras like this one do not have, and where no picture can
+    /// be between two keys.
     pub fn unfit(&self, camera: &Camera) -> Option<Diagnostic> {
         let (fov, height) = match camera.kind {
             CameraKind::Perspective { .. } => (true, false),
             CameraKind::Orthographic { .. } => (false, true),
             CameraKind::Fisheye { .. } | CameraKind::Panorama => (false, false),
         };
-        self.keys.iter().find_map(|key| {
+        let unfit = self.keys.iter().find_map(|key| {
             let (name, kind) = match (key.fov, key.height) {
                 (Some(_), _) if !fov => ("fov", "a perspective"),
                 (_, Some(_)) if !height => ("height", "an orthographic"),
@@ -94,6 +95,21 @@ impl CameraPath {
             };
             let message = format!("`{name}` is for {kind} camera, which the scene's is not");
             Some(Diagnostic::error(message, Span { place: key.place.clone(), ..Span::default() }))
+        });
+        // Keys are sound each by itself; the way between them may still lead through what is looked at.
+        let lost = |picture: &u32| {
+            let Camera { eye, look_at, up, .. } = self.camera(camera, *picture);
+            let (view, up) = ((look_at - eye).try_normalize(), up.try_normalize());
+            !view.zip(up).is_some_and(|(view, up)| view.cross(up).length() >= 1e-8)
+        };
+        unfit.or_else(|| {
+            let picture = (0..self.pictures).find(lost)?;
+            let message = format!(
+                "at picture {picture}, between two keys, the eye meets `look_at` or `up` points along the view"
+            );
+            let place = self.keys.first()?.place.clone();
+            let error = Diagnostic::error(message, Span { place, ..Span::default() });
+            Some(error.with_help("add a key there that leads the camera around it"))
         })
     }
 

@@ -215,9 +215,10 @@ impl Scene {
     /// A number that the text cannot hold.
     pub fn look_text(&self) -> Result<String, Box<Diagnostic>> {
         let mut bare = Self { objects: Vec::new(), groups: Vec::new(), ..self.clone() };
-        // The objects that they name are not there.
-        bare.clips.iter_mut().for_each(|clip| clip.objects.clear());
-        let export = bare.export(&ExportOptions::default(), "scene.toml")?;
+        // A clip of objects that are not there would cut everything.
+        bare.clips.retain(|clip| clip.objects.is_empty());
+        let export = bare
+            .export(&ExportOptions { images: false, ..ExportOptions::default() }, "scene.toml")?;
         let mut text = Vec::new();
         if let Some(file) = export.files.first() {
             let written = file.write(&mut text);

@@ -45,7 +45,8 @@ pub(crate) struct RenderArgs {
 
     /// Print what the scene looks like (camera, lights, materials, and what --look has set) as scene
     /// text on standard output, and draw nothing
-    #[arg(long, help_heading = "File", conflicts_with_all = ["json", "output", "watch"])]
+    #[arg(long, help_heading = "File")]
+    #[arg(conflicts_with_all = ["json", "output", "watch", "turntable", "frames", "path", "tile"])]
     pub(crate) toml: bool,
 
     /// Also every term by itself: layers of an EXR, else files STEM.TERM.ext beside OUT

@@ -341,6 +341,7 @@ fn options(written: &Written) -> Result<Vec<String>, Box<Diagnostic>> {
         (work.threads.is_some(), "--threads", "write `threads = N`"),
         (work.tile.is_some(), "--tile", "write `shares = N`"),
         (work.watch, "--watch", "leave it out"),
+        (args.toml, "--toml", "leave it out: it draws nothing"),
         (
             args.film.is_asked_for(),
             "--turntable, --frames and --path",

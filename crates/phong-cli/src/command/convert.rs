@@ -87,9 +87,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     input::look(&mut input, &args.view)?;
     meter.stage("converting");
     let ply = if args.ascii { PlyEncoding::Ascii } else { PlyEncoding::Binary };
-    let tessellate = args.tessellate;
+    let (bare, tessellate, images) = (input.bare, args.tessellate, true);
     let max_bytes = memory::limit();
-    let options = ExportOptions { format, ply, bare: input.bare, max_bytes, tessellate };
+    let options = ExportOptions { format, ply, bare, max_bytes, tessellate, images };
     let name = args.output.file_name().unwrap_or(OsStr::new("-")).to_string_lossy();
     let inputs = input.files().to_vec();
     let Export { files, account } =

@@ -1,5 +1,7 @@
 //! What clips name and what they leave.
 
+use std::collections::BTreeSet;
+
 use super::at;
 use crate::bounds::Bounds;
 use crate::clip::{Cap, Clip, ClipKind, Keep};
@@ -18,6 +20,8 @@ pub(super) fn names(scene: &Scene, say: &mut dyn FnMut(Diagnostic)) {
         say(Diagnostic::error(message, at(&beyond.place)));
     }
     let names = || scene.objects.iter().map(|object| object.name.as_str());
+    let asked = scene.clips.iter().any(|clip| !clip.objects.is_empty());
+    let all: BTreeSet<&str> = names().filter(|_| asked).collect();
     for clip in &scene.clips {
         if let Cap::Of(material) = clip.cap
             && material.0 as usize >= scene.materials.len()
@@ -31,7 +35,7 @@ pub(super) fn names(scene: &Scene, say: &mut dyn FnMut(Diagnostic)) {
         }
         for name in &clip.objects {
             let top = name.split(" / ").next().unwrap_or_default();
-            if names().any(|own| own == top || own == name) {
+            if all.contains(top) || all.contains(name.as_str()) {
                 continue;
             }
             let message = format!("clip: there is no object {}", quoted(name));

@@ -157,6 +157,9 @@ pub struct ExportOptions {
     /// Triangles in place of spheres, cylinders, cones, tori, discs and boxes, no point of which is farther
     /// from the surface than this, in scene units, above 0. Default `None`: they stay what they are.
     pub tessellate: Option<f64>,
+    /// Whether the images of textures are written beside a TOML file. If not, its text names the files
+    /// that the scene names. Default: yes.
+    pub images: bool,
 }
 
 impl Default for ExportOptions {
@@ -167,6 +170,7 @@ impl Default for ExportOptions {
             bare: false,
             max_bytes: u64::MAX,
             tessellate: None,
+            images: true,
         }
     }
 }
@@ -215,8 +219,8 @@ impl Scene {
         if let Some(error) = self.check().into_iter().find(Diagnostic::is_error) {
             return Err(Box::new(error));
         }
-        let ExportOptions { format, ply, bare, max_bytes, tessellate } = *options;
-        let writing = Writing { format: format.name(), ply, bare, max_bytes };
+        let ExportOptions { format, ply, bare, max_bytes, tessellate, images } = *options;
+        let writing = Writing { format: format.name(), ply, bare, max_bytes, images };
         let mut account = Account::default();
         if let Some(tolerance) = tessellate {
             export::tessellate::tessellate(&mut self, tolerance, max_bytes, &mut account)?;

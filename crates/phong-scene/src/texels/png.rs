@@ -41,6 +41,20 @@ pub(super) fn decode(bytes: &[u8], limits: &Limits) -> Result<Texels, String> {
 }
 
 impl Texels {
+    /// A PNG of two pixels, of the least and the greatest values: it stands for the image where only what
+    /// its values may be counts. Floats beyond 0 to 1 are cut off.
+    ///
+    /// # Errors
+    /// None that memory does not have.
+    pub fn stand_in(&self) -> std::io::Result<Vec<u8>> {
+        let [least, most] = self.bounds(false);
+        let values = TexelValues::Floats([least, most].concat());
+        let bounds = Self::new([2, 1], 4, values).map_err(std::io::Error::other)?;
+        let mut bytes = Vec::new();
+        bounds.write_png(&mut bytes)?;
+        Ok(bytes)
+    }
+
     /// Writes it as PNG: floats with 16 bits, between 0 and 1.
     pub(crate) fn write_png(&self, to: &mut dyn std::io::Write) -> std::io::Result<()> {
         let mut encoder = png::Encoder::new(to, self.size[0], self.size[1]);

@@ -75,7 +75,11 @@ pub(super) fn file(
         FileKind::Exr => (Format::Exr, Content::Film, "exr"),
     };
     let film = painting.and_then(Painting::finished).ok_or("the picture is not finished yet")?;
-    let finishing = Finishing::default().of_scene(fingerprint(&opened.scene()?));
+    let scene = opened.scene()?;
+    if scene.outline.is_some() && matches!(format, Format::Png) {
+        return Err("the studio does not draw outlines yet: `phong render` does".to_owned());
+    }
+    let finishing = Finishing::default().of_scene(fingerprint(&scene));
     let mut out = Cursor::new(Vec::new());
     write(&finish(film, &finishing), content, format, &Encoding::default(), &mut out)
         .map_err(|error| error.to_string())?;

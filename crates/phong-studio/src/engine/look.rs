@@ -5,13 +5,15 @@
 //! reader, as `--set` lays them over the scene's own text. So a value means the same here and there,
 //! is held against the same table, and nothing of a large model is read again.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use phong::geometry::Geometry;
 use phong::glam::DVec3;
 use phong::image::srgb_level;
 use phong::scene::{
-    Change, Diagnostic, ExportOptions, Limits, Memory, Param, Rgb, Scene, SceneError, read_changed,
+    Change, Diagnostic, ExportOptions, Limits, Memory, Param, Rgb, Scene, SceneError, Texels,
+    TextureKind, read_changed,
 };
 use serde_json::{Map, Value, json};
 
@@ -24,6 +26,8 @@ pub(super) struct Base {
     pub(super) geometry: Arc<Geometry>,
     /// All but the objects as a text of its own, which values are laid over.
     pub(super) look: String,
+    /// A file for each image that the text names.
+    pub(super) stand_ins: Memory,
     /// What was laid over the objects when they were read.
     pub(super) laid: Map<String, Value>,
     /// The objects' middles; empty where there are too many to take hold of.
@@ -34,11 +38,12 @@ pub(super) struct Base {
 const NAME: &str = "scene.toml";
 
 /// What can be laid over a scene, by the first word of its keys.
-const PARTS: [&str; 10] = [
+const PARTS: [&str; 11] = [
     "image",
     "camera",
     "ambient",
     "ambient_occlusion",
+    "sky",
     "fog",
     "clip",
     "outline",
@@ -87,12 +92,53 @@ pub(super) fn text(scene: &Scene) -> Result<String, String> {
     let mut bare = Scene { objects: Vec::new(), groups: Vec::new(), ..scene.clone() };
     // The objects that they name are not there.
     bare.clips.iter_mut().for_each(|clip| clip.objects.clear());
-    let export = bare.export(&ExportOptions::default(), NAME);
+    for (number, texture) in bare.textures.iter_mut().enumerate() {
+        if let TextureKind::Image { file, .. } = &mut texture.kind {
+            *file = image_file(number);
+        }
+    }
+    let options = ExportOptions { images: false, ..ExportOptions::default() };
+    let export = bare.export(&options, NAME);
     let export = export.map_err(|diagnostic| diagnostic.message.clone())?;
     let mut text = Vec::new();
     let file = export.files.first().ok_or("the scene has no text")?;
     file.write(&mut text).map_err(|error| error.to_string())?;
     String::from_utf8(text).map_err(|error| error.to_string())
+}
+
+/// A small file for each image of a scene, by the name that its text has: nothing is encoded anew at each
+/// change, and what the values of a texture may be is judged as of the image itself.
+pub(super) fn stand_ins(scene: &Scene) -> Result<Memory, String> {
+    let mut files = Memory::new();
+    for (number, texture) in scene.textures.iter().enumerate() {
+        if let TextureKind::Image { texels, .. } = &texture.kind {
+            let bytes = texels.stand_in().map_err(|error| error.to_string())?;
+            files = files.with(image_file(number), bytes);
+        }
+    }
+    Ok(files)
+}
+
+/// What the image of a texture is called in the text of a look.
+fn image_file(texture: usize) -> String {
+    format!("image-{texture}.png")
+}
+
+/// Puts the images of a scene in the place of what stood for them.
+fn give_images_back(scene: &mut Scene, own: &Scene) {
+    let images = own.textures.iter().enumerate().filter_map(|(number, texture)| {
+        let TextureKind::Image { file, texels, .. } = &texture.kind else { return None };
+        Some((image_file(number), (file, texels)))
+    });
+    let images: BTreeMap<String, (&String, &Arc<Texels>)> = images.collect();
+    for texture in &mut scene.textures {
+        if let TextureKind::Image { file, texels, .. } = &mut texture.kind
+            && let Some((own_file, own_texels)) = images.get(file)
+        {
+            file.clone_from(own_file);
+            texels.clone_from(own_texels);
+        }
+    }
 }
 
 /// The scene, without its objects, with these values laid over it; and all its values by their keys.
@@ -101,7 +147,7 @@ pub(super) fn laid_over(base: &Base, set: &Map<String, Value>) -> Result<(Scene,
     let of_look = of_look.map(|(path, value)| (path.clone(), value.clone())).collect();
     let changes: Result<Vec<Change>, String> =
         changes(&of_look).map(|words| Change::parse(&words)).collect();
-    let files = Memory::new().with(NAME, base.look.as_bytes());
+    let files = base.stand_ins.clone().with(NAME, base.look.as_bytes());
     let reading = read_changed(NAME, None, &files, &small(), &changes?);
     let mut scene = reading.into_scene().map_err(|error| first_error(&error))?;
     let (lights, materials) = (&base.scene.lights, &base.scene.materials);
@@ -116,6 +162,7 @@ pub(super) fn laid_over(base: &Base, set: &Map<String, Value>) -> Result<(Scene,
         clip.place.clone_from(&written.place);
         clip.objects.clone_from(&written.objects);
     }
+    give_images_back(&mut scene, &base.scene);
     for (material, written) in scene.materials.iter_mut().zip(materials) {
         material.place.clone_from(&written.place);
         material.name.clone_from(&written.name);

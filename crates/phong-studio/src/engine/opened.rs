@@ -225,8 +225,9 @@ impl Opened {
         };
         let geometry = Arc::new(geometry.map_err(|error| error.to_string())?);
         let look = look::text(&scene)?;
+        let stand_ins = look::stand_ins(&scene)?;
         let middles = handles::middles(&scene);
-        Ok(Arc::new(Base { scene, geometry, look, laid, middles }))
+        Ok(Arc::new(Base { scene, geometry, look, stand_ins, laid, middles }))
     }
 
     /// Whether the text can be drawn, and all there is to say about it.

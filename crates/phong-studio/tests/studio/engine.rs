@@ -7,7 +7,7 @@ use phong::finish::{Finishing, finish};
 use phong::image::{Content, Encoding, Format, write};
 use phong::part::fingerprint;
 use phong::render::{Cancel, RenderOptions, render};
-use phong::scene::{Change, Limits, Memory, Scene, read_changed};
+use phong::scene::{Change, Limits, Memory, Scene, TexelValues, Texels, read_changed};
 use phong::view::View;
 use phong_studio::engine::{Bounds, Engine};
 use phong_studio::protocol::Message;
@@ -139,6 +139,29 @@ fn a_value_laid_over_the_scene_is_that_of_set() {
     talk.ask(&json!({ "do": "reset" }));
     talk.draw();
     assert_eq!(seen(&talk.page), bits(&film(&scene(&[]))));
+}
+
+#[test]
+fn an_image_stays_where_a_value_is_laid_over_the_scene() {
+    let text = SCENE.replace(
+        "[materials.plastic]\n",
+        "[textures.stripes]\nkind = \"image\"\nfile = \"stripes.png\"\n\
+         [materials.plastic]\nopacity = { texture = \"stripes\", scale = 4, channel = \"r\" }\n",
+    );
+    assert_ne!(text, SCENE);
+    let stripes = TexelValues::Bytes(vec![51, 20, 20, 20, 51, 20]);
+    let stripes = Texels::new([2, 1], 3, stripes).unwrap().stand_in().unwrap();
+    let files = Memory::new().with("a.toml", text.as_bytes()).with("stripes.png", stripes);
+    let engine = Engine::new(files.clone(), Bounds::default());
+    let mut talk = Talk { engine, page: Page::default(), stops: false };
+    talk.ask(&json!({ "do": "pixels", "kind": "linear" }));
+    talk.ask(&json!({ "do": "open", "path": "a.toml" }));
+    talk.ask(&json!({ "do": "look", "set": { "materials.plastic.shininess": 7 } }));
+    talk.draw();
+    let changes = [Change::parse("materials.plastic.shininess=7").unwrap()];
+    let reading = read_changed("a.toml", None, &files, &Limits::default(), &changes);
+    let scene = reading.scene.unwrap();
+    assert_eq!(seen(&talk.page), bits(&film(&scene)));
 }
 
 #[test]

@@ -35,6 +35,8 @@ pub(crate) struct Writing {
     pub(crate) bare: bool,
     /// Bytes of memory that unfolded instances may take.
     pub(crate) max_bytes: u64,
+    /// Whether the images of textures are written beside a TOML file.
+    pub(crate) images: bool,
 }
 
 /// Writes a scene as a file of this name and those beside it.

@@ -107,8 +107,8 @@ impl Profile {
         profile.arc(0.0, first, [-FRAC_PI_2, touch], step, begin);
         let [low, high] = [first * out[0], length + last * out[0]];
         if begin != end {
-            let along = (0.5 * length).clamp(low, high);
-            let share = (along - low) / (high - low);
+            let along = (0.5 * length).min(high).max(low);
+            let share = if high > low { (along - low) / (high - low) } else { 0.0 };
             let wide = out[1] * (first + share * (last - first));
             profile.band(along, wide, begin, [out; 2]);
             profile.ring(along, wide, end);

@@ -24,7 +24,7 @@ use crate::mesh::{Cylinders, Mesh};
 use crate::scene::{Object, Scene};
 use crate::shape::Shape;
 use crate::texels::{TexelValues, Texels};
-use crate::texture::{Texture, TextureKind};
+use crate::texture::{Encoding, Texture, TextureKind};
 
 /// The scene as the text of `file` and the files that it names, in the order of the text.
 ///
@@ -70,6 +70,7 @@ pub(crate) fn write_toml(
         counts: BTreeMap::new(),
         files: Vec::new(),
         ply: options.ply,
+        images: options.images,
         account,
         trouble: None,
     };
@@ -155,6 +156,8 @@ struct Writer<'a> {
     counts: BTreeMap<&'static str, usize>,
     files: Vec<File>,
     ply: PlyEncoding,
+    /// Whether images are written beside the text.
+    images: bool,
     account: &'a mut Account,
     /// The first number that cannot be written.
     trouble: Option<Diagnostic>,
@@ -234,15 +237,25 @@ impl Writer<'_> {
         for (number, texture) in textures.iter().enumerate() {
             let header = format!("[textures.{}]", text::name(&self.texture_names[number]));
             let mut texture = texture.clone();
-            if let TextureKind::Image { file, texels, .. } = &mut texture.kind {
+            if self.images
+                && let TextureKind::Image { file, texels, encoding, .. } = &mut texture.kind
+            {
+                // A PNG has no floats, and its numbers would be taken for sRGB.
+                if let (TexelValues::Floats(_), Encoding::Auto) = (texels.values(), *encoding) {
+                    *encoding = Encoding::Linear;
+                }
                 // Pixels go along: where the file was is somewhere else from there.
                 let known = written.iter().find(|(other, _)| Arc::ptr_eq(other, texels));
                 *file = if let Some((_, name)) = known {
                     name.clone()
                 } else {
                     let name = format!("{}-image-{}.png", self.stem, written.len() + 1);
-                    if let TexelValues::Floats(_) = texels.values() {
-                        let message = format!("{header}: of its floats what is above 1 or below 0");
+                    if let TexelValues::Floats(values) = texels.values()
+                        && values.iter().any(|value| !(0.0..=1.0).contains(value))
+                    {
+                        let message = format!(
+                            "{header}: a PNG holds 0 to 1; brighter and negative values are cut off"
+                        );
                         self.account.drop(Diagnostic::warning(message, None));
                     }
                     let pixels = Arc::clone(texels);
