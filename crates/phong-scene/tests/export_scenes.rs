@@ -91,6 +91,21 @@ fn a_scene_comes_back_from_gltf_with_its_instances_camera_and_lights() {
 }
 
 #[test]
+fn a_light_comes_back_from_gltf_with_its_end() {
+    let mut scene = scene("");
+    scene.lights[1].range = Some(12.0);
+    let (back, ..) = again(scene, Format::Gltf, "b.glb");
+    let ranges: Vec<_> = back.lights.iter().map(|light| light.range).collect();
+    assert_eq!(ranges, [None, Some(12.0)]);
+}
+
+#[test]
+fn a_sky_that_tachyon_cannot_hold_is_told() {
+    let (_, dropped, _) = again(scene("[sky]\ncolor = 0.5\n"), Format::Tachyon, "b.dat");
+    assert!(dropped.contains("Tachyon holds no sky"), "{dropped}");
+}
+
+#[test]
 fn what_gltf_cannot_hold_is_told() {
     let ball = "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n";
     let (_, dropped, _) = again(scene(ball), Format::Gltf, "b.glb");

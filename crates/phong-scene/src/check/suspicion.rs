@@ -62,8 +62,10 @@ fn without_coordinates(scene: &Scene, say: &mut dyn FnMut(Diagnostic)) {
         let asked = |number: &u32| asked.get(*number as usize).copied().flatten();
         let Some(texture) = numbers.iter().find_map(asked) else { continue };
         let texture = quoted(texture);
-        let message =
-            format!("{} has no texture coordinates, where the texture {texture} lies", object.name);
+        let message = format!(
+            "{} has no texture coordinates, which the texture {texture} needs",
+            object.name
+        );
         let help =
             "each of its triangles shows the texture for itself; `space = \"object\"` needs none";
         say(Diagnostic::warning(message, at(&object.place)).with_help(help));

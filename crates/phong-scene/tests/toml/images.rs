@@ -180,5 +180,5 @@ fn an_image_that_is_not_there_is_told_and_a_mesh_without_coordinates_is_warned_o
         .with("flat.obj", &b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"[..]);
     let told = read_changed("a.toml", None, &files, &Limits::default(), &[]).diagnostics;
     let messages: Vec<_> = told.iter().map(|told| told.message.as_str()).collect();
-    assert_eq!(messages, ["mesh 1 has no texture coordinates, where the texture \"map\" lies"]);
+    assert_eq!(messages, ["mesh 1 has no texture coordinates, which the texture \"map\" needs"]);
 }

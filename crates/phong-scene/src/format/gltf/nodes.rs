@@ -10,6 +10,7 @@ use crate::camera::{Camera, CameraKind};
 use crate::color::Rgb;
 use crate::diagnostic::Place;
 use crate::light::{Light, LightKind};
+use crate::limits::LARGEST;
 
 /// The extension that holds lights.
 pub(super) const LIGHTS: &str = "KHR_lights_punctual";
@@ -155,7 +156,10 @@ pub(super) fn light(root: &At<'_>, node: &Node<'_>, place: &Place) -> Result<Opt
         }
         other => return Err(kind.fault(format!("`{other}` is no type of a light"))),
     };
+    let ends = matches!(kind, LightKind::Point { .. } | LightKind::Spot { .. });
+    let range = Some(at.number_or("range", 0.0)?);
+    let range = range.filter(|range| ends && *range > 0.0 && *range <= LARGEST);
     let name = at.name("light");
     let place = place.clone();
-    Ok(Some(Light { name, kind, color, specular_color: color, place, ..Light::default() }))
+    Ok(Some(Light { name, kind, color, specular_color: color, range, place, ..Light::default() }))
 }

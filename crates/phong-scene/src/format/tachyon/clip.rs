@@ -9,11 +9,16 @@ use crate::scene::Object;
 /// The clip groups of a scene.
 #[derive(Debug, Default)]
 pub(super) struct Clips {
-    /// The planes of each, as clips that name no objects yet.
-    groups: Vec<Vec<Clip>>,
+    groups: Vec<ClipGroup>,
     /// Whether what is read now is in the last of them.
     open: bool,
-    /// Planes without a normal, or of which a number is none.
+}
+
+#[derive(Debug)]
+struct ClipGroup {
+    /// Its planes, as clips that name no objects yet.
+    planes: Vec<Clip>,
+    /// How many others are without a normal, or have a number that is none.
     bad: usize,
 }
 
@@ -29,8 +34,8 @@ impl Clips {
             sound.then(|| Clip { kind, cap: Cap::Open, place: place.clone(), ..Clip::default() })
         };
         let clips: Vec<Clip> = planes.iter().filter_map(clip).collect();
-        self.bad += planes.len() - clips.len();
-        self.groups.push(clips);
+        let bad = planes.len() - clips.len();
+        self.groups.push(ClipGroup { planes: clips, bad });
         self.open = true;
     }
 
@@ -43,29 +48,30 @@ impl Clips {
         self.groups.len().checked_sub(1).filter(|_| self.open)
     }
 
-    /// What of them is not drawn, in words.
-    pub(super) fn beyond(&self) -> Option<String> {
-        let count: usize = self.groups.iter().map(Vec::len).sum();
-        let beyond = count.saturating_sub(Clip::MOST) + self.bad;
-        (beyond > 0).then(|| {
-            let most = Clip::MOST;
-            format!("planes of clip groups that do not cut: {beyond}; at most {most} do, and none without a normal")
-        })
-    }
-
-    /// The clips, each with the names of the objects of its group; `groups`: that of each object.
-    pub(super) fn of(self, objects: &[Object], groups: &[Option<usize>]) -> Vec<Clip> {
-        let mut clips = Vec::new();
-        for (number, planes) in self.groups.into_iter().enumerate() {
+    /// The clips, each with the names of the objects of its group, and what of them is left out, in words;
+    /// `groups`: that of each object.
+    pub(super) fn of(
+        self,
+        objects: &[Object],
+        groups: &[Option<usize>],
+    ) -> (Vec<Clip>, Option<String>) {
+        let (mut clips, mut bad) = (Vec::new(), 0);
+        for (number, group) in self.groups.into_iter().enumerate() {
             let within = objects.iter().zip(groups).filter(|(_, group)| **group == Some(number));
             let names: Vec<String> = within.map(|(object, _)| object.name.clone()).collect();
             // Without a name it would cut everything.
             if !names.is_empty() {
-                clips
-                    .extend(planes.into_iter().map(|clip| Clip { objects: names.clone(), ..clip }));
+                let planes = group.planes.into_iter();
+                clips.extend(planes.map(|clip| Clip { objects: names.clone(), ..clip }));
+                bad += group.bad;
             }
         }
-        clips.truncate(Clip::MOST);
-        clips
+        let most = Clip::MOST;
+        let beyond = clips.len().saturating_sub(most) + bad;
+        let message = format!(
+            "planes of clip groups that are left out: {beyond} (a scene has at most {most}, each with a normal)"
+        );
+        clips.truncate(most);
+        (clips, (beyond > 0).then_some(message))
     }
 }

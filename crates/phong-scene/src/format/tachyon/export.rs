@@ -131,6 +131,10 @@ fn head(scene: &Scene, account: &mut Account) -> String {
             account.drop(Diagnostic::warning(message.to_owned(), None));
         }
     }
+    if scene.sky.is_some() {
+        let message = "Tachyon holds no sky: `[sky]` is not written";
+        account.drop(Diagnostic::warning(message.to_owned(), None));
+    }
     if scene.outline.is_some() {
         let message = "Tachyon's outlines are of materials: `[outline]` is not written";
         account.drop(Diagnostic::warning(message.to_owned(), None));

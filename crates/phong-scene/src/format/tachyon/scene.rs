@@ -345,7 +345,9 @@ impl<'a> Assembly<'a> {
             scene.ambient_occlusion = Some(AmbientOcclusion { samples, distance });
         }
         scene.lights = self.lights();
-        self.shapes(&mut scene);
+        if let Some(message) = self.shapes(&mut scene) {
+            warn("clip groups", message);
+        }
         if scene.objects.is_empty() && self.left_out > 0 {
             let message = || "there is nothing to draw: nothing of the file is left".to_owned();
             findings.error("empty scenes", || whole(file), message);
@@ -376,9 +378,6 @@ impl<'a> Assembly<'a> {
             let message = "opacity by angle (`TRANSMODE R3D`) is the same at every angle where what \
                            is behind is added, and not mixed (`TRANS_VMD`)";
             warn("opacities", message.to_owned());
-        }
-        if let Some(message) = self.clips.beyond() {
-            warn("clip groups", message);
         }
         if self.left_out > 0 {
             let message = format!(
@@ -424,8 +423,8 @@ impl<'a> Assembly<'a> {
         self.lamps.iter().enumerate().map(light).collect()
     }
 
-    /// Adds all shapes with their materials.
-    fn shapes(&mut self, scene: &mut Scene) {
+    /// Adds all shapes with their materials, and what cuts them; in words what of that is left out.
+    fn shapes(&mut self, scene: &mut Scene) -> Option<String> {
         let open = self.mode.open.map_or(0.0, |color| {
             let Rgb { r, g, b } = rgb(color);
             (r + g + b) / 3.0
@@ -459,6 +458,8 @@ impl<'a> Assembly<'a> {
             *count += 1;
             object.name = format!("{} {count}", object.shape.kind());
         }
-        scene.clips = std::mem::take(&mut self.clips).of(&scene.objects, &groups);
+        let (clips, left_out) = std::mem::take(&mut self.clips).of(&scene.objects, &groups);
+        scene.clips = clips;
+        left_out
     }
 }
