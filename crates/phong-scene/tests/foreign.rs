@@ -2,6 +2,8 @@
 //!
 //! `cases/` holds the inputs of strangers' reports; the neighbours of each stand here.
 
+mod images;
+
 use std::fs;
 use std::path::Path;
 

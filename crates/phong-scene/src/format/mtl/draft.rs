@@ -51,6 +51,8 @@ impl Draft {
     /// What its images are beside.
     pub(super) fn said(&self) -> Said<'_> {
         let Self { name, maps, ambient, diffuse, specular, exponent, dissolve, .. } = self;
+        // `Tr 1` without `d` is what programs write of opaque materials.
+        let transparency = self.transparency.filter(|tr| *tr != 1.0);
         Said {
             name,
             maps,
@@ -58,7 +60,7 @@ impl Draft {
             diffuse: *diffuse,
             specular: *specular,
             exponent: *exponent,
-            dissolve: *dissolve,
+            dissolve: dissolve.or(transparency.map(|tr| 1.0 - tr)),
         }
     }
 
@@ -88,14 +90,16 @@ impl Draft {
         let exponent = self.in_range("Ns", self.exponent.unwrap_or(32.0), 0.0, most, findings);
         let ior = self.index_of_refraction(findings);
         // An image mixes the surface with what is behind it by itself.
-        let opacity = if maps.dissolve.is_some() { 1.0 } else { self.opacity(findings) };
+        let opacity = self.opacity(findings);
+        let opacity = if maps.dissolve.is_some() { 1.0 } else { opacity };
         self.warn_of_model(illum, highlight, findings);
 
         let filter = self.filter.unwrap_or(Rgb::WHITE);
         let mirrors = matches!(illum, 3..=7);
         let refracts = matches!(illum, 6 | 7);
         let transmission = if refracts {
-            (Rgb::WHITE - k_s).map(|c| c.max(0.0)) * filter
+            // Not of the white that stands for an image.
+            (Rgb::WHITE - self.specular.unwrap_or(Rgb::BLACK)).map(|c| c.max(0.0)) * filter
         } else {
             (1.0 - opacity) * filter
         };
@@ -133,6 +137,9 @@ impl Draft {
         }
         if let (true, Some(by)) = (highlight, maps.specular) {
             material.specular_color = Some(by.into());
+        }
+        if let (true, Some(by)) = (mirrors, maps.specular) {
+            material.reflection = by.into();
         }
         if let Some(by) = maps.exponent {
             material.shininess = by.into();

@@ -20,7 +20,7 @@
 //! | 0 | as 1, with a warning: unlit colour is not there |
 //! | 1 | Lambert; a `Ks` keeps its highlight, with a warning (the specification's own example has one) |
 //! | 2, 8 | the model above |
-//! | 3 | and `reflection` = Ks |
+//! | 3 | and `reflection` = Ks, times `map_Ks` |
 //! | 4 | as 3; what `d` lets through is seen as below |
 //! | 5 | as 3 with `fresnel`: the mirror ray is weighted by the exact dielectric reflectance of `Ni` |
 //! | 6 | as 3, and `transmission` = (1 − Ks) Tf, refracted by `Ni`, without `fresnel` |
@@ -39,7 +39,7 @@
 //! | `map_Kd`, `map_Ks` | a texture of `color`, of `specular_color`: times `Kd`, `Ks`, unless they are black |
 //! | `map_Ka` | of `ambient_color`, if `Ka` is said and not white |
 //! | `map_Ns` | of `shininess`, times `Ns` |
-//! | `map_d` | of `opacity`, times `d`: by the image's own opacity, or else its red, unless `-imfchan` |
+//! | `map_d` | of `opacity`, times `d` or 1 − `Tr`: by the image's own opacity, or else its red, unless `-imfchan` |
 //! | `norm`; `bump`, `map_Bump` | `normal`, times `-bm`; `bump`, of which 1 is a hundredth of a unit; an image of normals is one by either name |
 //!
 //! Other textures, emission, `-halo`, spectral and XYZ colours and the physically based extension are
