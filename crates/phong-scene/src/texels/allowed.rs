@@ -1,9 +1,28 @@
 //! How large an image may be, told before it is decoded.
 
+use super::{TexelValues, Texels};
 use crate::limits::Limits;
 
-/// Whether an image of this size may be read, `bytes` being what a pixel of it takes.
-pub(super) fn allow(size: [u32; 2], bytes: u64, limits: &Limits) -> Result<(), String> {
+impl Texels {
+    /// Bytes that its numbers take.
+    pub(crate) fn bytes(&self) -> u64 {
+        let size = match self.values {
+            TexelValues::Bytes(_) => 1,
+            TexelValues::Shorts(_) => 2,
+            TexelValues::Floats(_) => 4,
+        };
+        size * self.values.len() as u64
+    }
+
+    /// The limits of the next image where `all` are in memory already: together they stay within `limits`.
+    pub(crate) fn left<'a>(limits: &Limits, all: impl Iterator<Item = &'a Self>) -> Limits {
+        let taken = all.map(Self::bytes).fold(0, u64::saturating_add);
+        Limits { bytes: limits.bytes.saturating_sub(taken), ..limits.clone() }
+    }
+}
+
+/// Whether an image of this size may be read or made, `bytes` being what a pixel of it takes.
+pub(crate) fn allow(size: [u32; 2], bytes: u64, limits: &Limits) -> Result<(), String> {
     let [width, height] = size;
     if width == 0 || height == 0 {
         return Err(format!("it has no pixels: it is {width} × {height}"));
@@ -16,7 +35,9 @@ pub(super) fn allow(size: [u32; 2], bytes: u64, limits: &Limits) -> Result<(), S
     let needed = pixels.saturating_mul(bytes);
     if needed > limits.bytes {
         let most = limits.bytes;
-        return Err(format!("its pixels take {needed} bytes, over the limit of {most}"));
+        return Err(format!(
+            "its pixels take {needed} bytes, over the {most} that are left of the limit"
+        ));
     }
     Ok(())
 }

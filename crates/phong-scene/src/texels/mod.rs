@@ -12,6 +12,7 @@ mod openexr;
 mod png;
 mod radiance;
 
+pub(crate) use allowed::allow;
 pub(crate) use file::{load, parse};
 
 use std::fmt;

@@ -1,6 +1,8 @@
-//! Images that MTL files bring along, and what they do to materials.
+//! Images that MTL and glTF files bring along, and what they do to materials.
 
-use phong_scene::{Limits, Material, Rgb, Scene};
+use std::collections::BTreeMap;
+
+use phong_scene::{Fresnel, Limits, Material, Model, Reading, Rgb, Scene, TextureKind};
 
 use super::{read_with, scene, told};
 
@@ -51,5 +53,177 @@ fn an_image_of_opacity_is_multiplied_with_tr_as_with_d() {
         assert_eq!(by.1.scale, scale, "{said}");
         assert_eq!(told.contains("disagree"), said.contains('\n'), "{told}");
         assert_eq!(told.contains("it is read as opaque"), said == "Tr 1", "{told}");
+    }
+}
+
+/// A triangle as glTF of each of these materials, with its textures and images, beside `s.png`, a grey of 0.2,
+/// `m.png`, which is `metal`, and `nothing.png`, which is not there.
+fn gltf(materials: &[&str], metal: &[u8], limits: &Limits) -> Reading {
+    let primitive = |i: usize| {
+        format!(r#"{{"attributes": {{"POSITION": 0, "TEXCOORD_0": 1}}, "material": {i}}}"#)
+    };
+    let primitives: Vec<_> = (0..materials.len()).map(primitive).collect();
+    let text = format!(
+        r#"{{"asset": {{"version": "2.0"}}, "nodes": [{{"mesh": 0}}],
+        "meshes": [{{"primitives": [{}]}}], "materials": [{}],
+        "textures": [{{"source": 0}}, {{"source": 1}}, {{"source": 2}}, {{"source": 1, "sampler": 0}},
+            {{"source": 3}}],
+        "samplers": [{{"wrapS": 33071}}],
+        "images": [{{"uri": "s.png"}}, {{"uri": "m.png"}}, {{"uri": "nothing.png"}}, {{"uri": "m.png"}}],
+        "accessors": [{{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}},
+            {{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC2"}}],
+        "bufferViews": [{{"buffer": 0, "byteLength": 36}}],
+        "buffers": [{{"byteLength": 36, "uri": "b.bin"}}]}}"#,
+        primitives.join(", "),
+        materials.join(", ")
+    );
+    let corners = [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+    let corners: Vec<u8> = corners.into_iter().flat_map(f32::to_le_bytes).collect();
+    let grey = png([1, 1], &[51; 3]);
+    let files: [(&str, &[u8]); 4] =
+        [("a.gltf", text.as_bytes()), ("b.bin", &corners), ("s.png", &grey), ("m.png", metal)];
+    read_with(&files, limits)
+}
+
+/// The material that a `pbrMetallicRoughness` and more gives, the pixels of its images by key, and what was told.
+fn pbr(pbr: &str, more: &str) -> (Material, Pixels, String) {
+    let material = format!(r#"{{"pbrMetallicRoughness": {{{pbr}}}{more}}}"#);
+    // Metal by 0, and by 1.
+    let metal = png([2, 1], &[0, 255, 0, 0, 255, 255]);
+    let reading = gltf(&[&material], &metal, &Limits::default());
+    let told = told(&reading);
+    let scene = scene(reading);
+    let material = scene.materials[scene.objects[0].material.0 as usize].clone();
+    let image = |key: &str| {
+        let textured = material.textured();
+        let by = textured.into_iter().find(|(other, _)| *other == key)?.1;
+        match &scene.textures[by.texture.0 as usize].kind {
+            TextureKind::Image { texels, .. } => {
+                Some((0..texels.size()[0]).map(|x| texels.get([x, 0], false)).collect())
+            }
+            other => panic!("{other:?}"),
+        }
+    };
+    let keys = ["color", "specular_color", "roughness"];
+    let images = keys.into_iter().filter_map(|key| Some((key, image(key)?))).collect();
+    (material, images, told)
+}
+
+type Pixels = BTreeMap<&'static str, Vec<[f32; 4]>>;
+
+const METAL: &str = r#""metallicRoughnessTexture": {"index": 1}"#;
+
+#[test]
+fn what_is_no_metal_keeps_its_reflectance_beside_an_image_of_metal() {
+    let ior = r#", "extensions": {"KHR_materials_ior": {"ior": 3}}"#;
+    let f0 = |model: &Model| match model {
+        Model::Microfacet { fresnel: Fresnel::Schlick { f0 }, .. } => f0.to_array()[0],
+        other => panic!("{other:?}"),
+    };
+    let (even, ..) = pbr(&format!(r#""metallicFactor": 0, {METAL}"#), ior);
+    assert!((f0(&even.model) - 0.25).abs() < 1e-6);
+    let (_, images, told) = pbr(METAL, ior);
+    let mirrored = &images["specular_color"];
+    assert!((mirrored[0][0] - 0.25).abs() < 1e-6 && mirrored[1][0] == 1.0, "{mirrored:?} {told}");
+}
+
+#[test]
+fn ambient_light_is_that_of_the_mean_share_of_metal() {
+    for (factor, want) in [(0.0, 0.1), (0.5, 0.175), (1.0, 0.25)] {
+        let (material, ..) = pbr(&format!(r#""metallicFactor": {factor}, {METAL}"#), "");
+        let k_a = material.k_a.constant().expect("a number");
+        assert!((k_a - want).abs() < 1e-6, "{factor}: {k_a}");
+    }
+}
+
+#[test]
+fn an_image_of_one_pixel_gives_its_colour_to_metal_and_to_the_rest() {
+    let base = r#""baseColorTexture": {"index": 0}"#;
+    let (_, images, told) = pbr(&format!("{base}, {METAL}"), "");
+    // 51 is 0.0331 of linear light.
+    let [color, mirrored] = ["color", "specular_color"].map(|key| &images[key]);
+    assert!((color[0][0] - 0.0331).abs() < 1e-4 && color[1][0] == 0.0, "{color:?} {told}");
+    assert!((mirrored[1][0] - 0.0331).abs() < 1e-4, "{mirrored:?}");
+}
+
+#[test]
+fn images_of_colour_and_of_metal_that_lie_differently_are_told_and_both_drawn() {
+    let base = r#""baseColorTexture": {"index": 4, "extensions": {"KHR_texture_transform": {"scale": [2, 2]}}}"#;
+    let (material, images, told) = pbr(&format!("{base}, {METAL}"), "");
+    assert!(told.contains("its images of colour and of metal lie differently"), "{told}");
+    assert_eq!(images["color"].len(), 2);
+    assert!((material.k_a.constant().expect("a number") - 0.25).abs() < 1e-6);
+}
+
+#[test]
+fn a_gltf_colour_whose_image_is_not_there_is_grey() {
+    let base = r#""metallicFactor": 0, "baseColorTexture": {"index": 2}"#;
+    let (material, _, told) = pbr(base, "");
+    assert!(told.contains("`baseColorTexture` is left out"), "{told}");
+    assert_eq!(material.color, Rgb::grey(0.8).into());
+    let red = format!(r#"{base}, "baseColorFactor": [1, 0, 0, 1]"#);
+    assert_eq!(pbr(&red, "").0.color, Rgb::new(1.0, 0.0, 0.0).into());
+}
+
+#[test]
+fn a_sampler_that_differs_between_axes_is_told() {
+    let (_, _, told) = pbr(r#""metallicRoughnessTexture": {"index": 3}"#, "");
+    assert!(told.contains("/samplers/0: `wrapT` is not `wrapS`"), "{told}");
+    assert!(!pbr(METAL, "").2.contains("wrapT"));
+}
+
+/// Squares of metal and of none, 64 along each side: 12288 bytes.
+fn squares() -> Vec<u8> {
+    let blue = |i: u32| if (i + i / 64).is_multiple_of(2) { 255 } else { 0 };
+    let values: Vec<u8> = (0..64 * 64).flat_map(|i| [0, 128, blue(i)]).collect();
+    png([64, 64], &values)
+}
+
+#[test]
+fn images_of_a_gltf_file_are_bounded_in_sum_and_made_once() {
+    // Of each of two images roughness (2 bytes a pixel) and two colours (12 each) are made.
+    let each = 64 * 64 * (3 + 2 + 2 * 12);
+    let of = |image: &str| {
+        format!(
+            r#"{{"pbrMetallicRoughness": {{"metallicRoughnessTexture": {{"index": {image}}}}}}}"#
+        )
+    };
+    let all = [of("1"), of("1"), of("4")];
+    let all = [0, 1, 2].map(|i| all[i].as_str());
+    let textures = |bytes| {
+        let reading = gltf(&all, &squares(), &Limits { bytes, ..Limits::default() });
+        let told = told(&reading);
+        (scene(reading).textures.len(), told)
+    };
+    let (count, all_told) = textures(2 * each);
+    assert_eq!(count, 9, "{all_told}");
+    let (count, told) = textures(2 * each - 1);
+    assert_eq!(count, 7);
+    assert!(told.contains("everywhere as metallic as the mean: its pixels take 49152"), "{told}");
+    let (count, told) = textures(each + 1000);
+    assert_eq!(count, 6);
+    assert!(told.contains("its pixels take 12288 bytes, over the 1000 that are left"), "{told}");
+}
+
+#[test]
+fn images_of_an_mtl_file_and_of_a_scene_are_bounded_in_sum() {
+    let image = squares();
+    let limits = Limits { bytes: 20_000, ..Limits::default() };
+    let obj = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n\
+               usemtl b\nf 1/1 2/1 3/1\nusemtl c\nf 1/1 2/1 3/1\n";
+    let mtl = "newmtl a\nmap_Kd a.png\nnewmtl b\nmap_Kd a.png\nnewmtl c\nmap_Kd b.png\n";
+    let toml = "version = 1\n[textures.a]\nkind = \"image\"\nfile = \"a.png\"\n\
+                [textures.b]\nkind = \"image\"\nfile = \"a.png\"\n\
+                [textures.c]\nkind = \"image\"\nfile = \"b.png\"\n";
+    for (name, text) in [("a.obj", obj), ("a.toml", toml)] {
+        let files = [
+            (name, text.as_bytes()),
+            ("a.mtl", mtl.as_bytes()),
+            ("a.png", &image),
+            ("b.png", &image),
+        ];
+        let told = told(&read_with(&files, &limits));
+        assert_eq!(told.matches("cannot be read").count(), 1, "{name}: {told}");
+        assert!(told.contains("take 12288 bytes, over the 7712 that are left"), "{name}: {told}");
     }
 }

@@ -269,7 +269,7 @@ fn gltf(material: &str) -> Scene {
             "indices": 2, "material": 0}}]}}],
         "materials": [{{{material}}}],
         "textures": [{{"source": 0}}, {{"source": 1, "sampler": 0}}, {{"source": 2}}, {{"source": 3}}],
-        "samplers": [{{"magFilter": 9728, "wrapS": 33071}}],
+        "samplers": [{{"magFilter": 9728, "wrapS": 33071, "wrapT": 33071}}],
         "images": [{{"uri": "squares.png"}}, {{"bufferView": 3, "mimeType": "image/png"}},
             {{"uri": "data:image/png;base64,{}"}}, {{"uri": "nowhere.png"}}],
         "accessors": [

@@ -12,7 +12,7 @@ use crate::diagnostic::Place;
 use crate::format::text::{Findings, whole};
 use crate::limits::Limits;
 use crate::source::Source;
-use crate::texels::{self, TexelValues, Texels};
+use crate::texels::{self, TexelValues, Texels, TexelsError};
 use crate::texture::{
     Encoding, TexelFilter, Texture, TextureId, TextureKind, TextureRef, TextureSpace, Wrap,
 };
@@ -24,13 +24,30 @@ pub(super) struct Images<'a> {
     pub(super) source: &'a dyn Source,
     pub(super) limits: &'a Limits,
     read: BTreeMap<usize, std::result::Result<Arc<Texels>, Fault>>,
+    /// What was made of them for materials, by what it was made of.
+    made: BTreeMap<Made, std::result::Result<Arc<Texels>, String>>,
+    /// The means of those that were asked for.
+    means: BTreeMap<usize, [f32; 4]>,
     /// The textures, in the order in which materials asked for them.
     pub(super) textures: Vec<Texture>,
+}
+
+/// What an image is made of, so that materials that make the same share it.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Made {
+    /// What for.
+    pub(super) what: &'static str,
+    /// The numbers of the images that it is made of.
+    pub(super) images: Vec<usize>,
+    /// The bits of the factors of the material.
+    pub(super) factors: Vec<u64>,
 }
 
 /// An image as a material names it, before it is known what for.
 #[derive(Clone, Debug)]
 pub(super) struct Named {
+    /// The number of the image in the file.
+    pub(super) image: usize,
     pub(super) texels: Arc<Texels>,
     wrap: Wrap,
     filter: TexelFilter,
@@ -44,7 +61,16 @@ impl<'a> Images<'a> {
         source: &'a dyn Source,
         limits: &'a Limits,
     ) -> Self {
-        Self { root, path, source, limits, read: BTreeMap::new(), textures: Vec::new() }
+        Self {
+            root,
+            path,
+            source,
+            limits,
+            read: BTreeMap::new(),
+            made: BTreeMap::new(),
+            means: BTreeMap::new(),
+            textures: Vec::new(),
+        }
     }
 
     /// The image that a material's member names; `None`: there is no such member, or what is wrong with it has
@@ -57,7 +83,7 @@ impl<'a> Images<'a> {
         findings: &mut Findings,
     ) -> Option<Named> {
         let at = of.get(key)?;
-        match self.find(&at, buffers) {
+        match self.find(&at, (buffers, file), findings) {
             Ok(named) => {
                 let set = at.whole_or_zero("texCoord").unwrap_or(0);
                 if set > 0 {
@@ -80,7 +106,12 @@ impl<'a> Images<'a> {
         }
     }
 
-    fn find(&mut self, at: &At<'_>, buffers: &Buffers) -> Result<Named> {
+    fn find(
+        &mut self,
+        at: &At<'_>,
+        (buffers, file): (&Buffers, &Arc<str>),
+        findings: &mut Findings,
+    ) -> Result<Named> {
         let index = at.need("index")?;
         let texture =
             self.root.item("textures", index.index()?).map_err(|f| index.fault(f.message))?;
@@ -88,12 +119,25 @@ impl<'a> Images<'a> {
         if let Some(number) = texture.get("sampler") {
             let sampler = self.root.item("samplers", number.index()?);
             let sampler = sampler.map_err(|f| number.fault(f.message))?;
-            // Of the two axes the first: an image is beside itself as the format's samplers mostly say.
-            wrap = match sampler.whole_or_zero("wrapS")? {
-                33071 => Wrap::Clamp,
-                33648 => Wrap::Mirror,
-                _ => Wrap::Repeat,
+            let along = |key: &str| -> Result<Wrap> {
+                Ok(match sampler.whole_or_zero(key)? {
+                    33071 => Wrap::Clamp,
+                    33648 => Wrap::Mirror,
+                    _ => Wrap::Repeat,
+                })
             };
+            // A texture has one rule for both axes; the first axis decides.
+            wrap = along("wrapS")?;
+            if along("wrapT")? != wrap {
+                findings.warning(
+                    "samplers that differ between axes",
+                    || whole(file),
+                    || {
+                        let at = &sampler.pointer;
+                        format!("{at}: `wrapT` is not `wrapS`, which is taken for both axes")
+                    },
+                );
+            }
             if sampler.whole_or_zero("magFilter")? == 9728 {
                 filter = TexelFilter::Nearest;
             }
@@ -107,22 +151,52 @@ impl<'a> Images<'a> {
             read
         };
         let texels = read?;
-        Ok(Named { texels, wrap, filter, transform: placed(at)? })
+        Ok(Named { image: number.index()?, texels, wrap, filter, transform: placed(at)? })
     }
 
     fn load(&self, number: &At<'_>, buffers: &Buffers) -> Result<Arc<Texels>> {
         let image = self.root.item("images", number.index()?);
         let image = image.map_err(|f| number.fault(f.message))?;
+        let limits = self.left();
         let decoded = match (image.get("bufferView"), image.get("uri")) {
-            (Some(view), _) => texels::parse(buffers.bytes(&self.root, &view)?, self.limits),
+            (Some(view), _) => texels::parse(buffers.bytes(&self.root, &view)?, &limits),
             (None, Some(uri)) => {
                 let most = self.limits.bytes.min(1 << 32);
                 let bytes = buffer::load(&uri, self.path, self.source, most)?;
-                texels::parse(&bytes, self.limits)
+                texels::parse(&bytes, &limits)
             }
             (None, None) => Err("it has neither `bufferView` nor `uri`".to_owned()),
         };
         decoded.map(Arc::new).map_err(|message| image.fault(message))
+    }
+
+    /// The limits of the next image: all together stay within those of the file.
+    fn left(&self) -> Limits {
+        let read = self.read.values().flatten();
+        let made = self.made.values().flatten();
+        Texels::left(self.limits, read.chain(made).map(AsRef::as_ref))
+    }
+
+    /// The mean of an image's linear values.
+    pub(super) fn mean(&mut self, named: &Named) -> [f32; 4] {
+        *self.means.entry(named.image).or_insert_with(|| named.texels.mean(false))
+    }
+
+    /// An image made for materials, each once; or a clause that says why it cannot be. `size` is that of the
+    /// image and `bytes` what a pixel of it takes.
+    pub(super) fn made(
+        &mut self,
+        of: Made,
+        (size, bytes): ([u32; 2], u64),
+        make: impl FnOnce() -> std::result::Result<Texels, TexelsError>,
+    ) -> std::result::Result<Arc<Texels>, String> {
+        if let Some(made) = self.made.get(&of) {
+            return made.clone();
+        }
+        let made = texels::allow(size, bytes, &self.left())
+            .and_then(|()| make().map(Arc::new).map_err(|error| error.to_string()));
+        self.made.insert(of, made.clone());
+        made
     }
 
     /// An image as a texture of the material, for this member.
@@ -133,7 +207,7 @@ impl<'a> Images<'a> {
         (material, key): (&str, &str),
         place: &Place,
     ) -> TextureRef {
-        let Named { texels, wrap, filter, transform } = named;
+        let Named { texels, wrap, filter, transform, .. } = named;
         let id = TextureId(self.textures.len() as u32);
         self.textures.push(Texture {
             name: format!("{material} {key}"),
@@ -156,8 +230,8 @@ impl<'a> Images<'a> {
 
 impl Named {
     /// The same with other pixels.
-    pub(super) fn with(&self, texels: Texels) -> Self {
-        Self { texels: Arc::new(texels), ..self.clone() }
+    pub(super) fn with(&self, texels: Arc<Texels>) -> Self {
+        Self { texels, ..self.clone() }
     }
 
     /// Whether another image lies just as this one.
@@ -167,11 +241,14 @@ impl Named {
 }
 
 /// A channel of an image made anew, as 16-bit numbers: of green what `value` says.
-pub(super) fn green(texels: &Texels, value: impl Fn(f32) -> f64) -> Option<Texels> {
+pub(super) fn green(
+    texels: &Texels,
+    value: impl Fn(f32) -> f64,
+) -> std::result::Result<Texels, TexelsError> {
     let [width, height] = texels.size();
     let pixels = (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
     let short = |at| (value(texels.get(at, false)[1]).clamp(0.0, 1.0) * 65535.0 + 0.5) as u16;
-    Texels::new([width, height], 1, TexelValues::Shorts(pixels.map(short).collect())).ok()
+    Texels::new([width, height], 1, TexelValues::Shorts(pixels.map(short).collect()))
 }
 
 /// The colours of an image, each made anew by what another image has there, as floats.
@@ -179,7 +256,7 @@ pub(super) fn mixed(
     base: &Texels,
     other: &Texels,
     value: impl Fn([f32; 4], [f32; 4]) -> Rgb,
-) -> Option<Texels> {
+) -> std::result::Result<Texels, TexelsError> {
     let [width, height] = base.size();
     let [w, h] = other.size();
     let there =
@@ -189,7 +266,7 @@ pub(super) fn mixed(
         let beside = other.get([there(x, width, w), there(y, height, h)], false);
         value(base.get([x, y], true), beside).to_array()
     };
-    Texels::new([width, height], 3, TexelValues::Floats(pixels.flat_map(color).collect())).ok()
+    Texels::new([width, height], 3, TexelValues::Floats(pixels.flat_map(color).collect()))
 }
 
 /// Where an image lies: `KHR_texture_transform` is of coordinates whose second one grows down the image, and is

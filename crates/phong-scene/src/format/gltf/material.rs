@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::buffer::Buffers;
-use super::images::{Images, Named, green, mixed};
+use super::images::{Images, Made, Named, green, mixed};
 use super::json::{At, Result};
 use crate::color::Rgb;
 use crate::diagnostic::Place;
@@ -19,6 +19,9 @@ const LEAST_ALPHA: f64 = 1e-3;
 /// The weight of ambient light; and how much more metals have, in place of what they would mirror.
 const AMBIENT: [f32; 2] = [0.1, 0.3];
 
+/// What a material takes whose colour is an image that cannot be read.
+const GREY: f64 = 0.8;
+
 /// Reflectance at normal incidence of what is no metal, where the file does not say it.
 const F0: f64 = 0.04;
 
@@ -33,6 +36,11 @@ pub(super) struct Surface {
 /// The material that a primitive has which names none.
 pub(super) fn plain() -> Surface {
     surface([1.0; 3], 1.0, 1.0, Rgb::grey(F0 as f32))
+}
+
+/// The weight of ambient light of what is metal to this share.
+fn ambient(metal: f32) -> f32 {
+    AMBIENT[0] + AMBIENT[1] * metal
 }
 
 /// Microfacets over a diffuse base, which metals have none of.
@@ -52,7 +60,7 @@ fn surface(base: [f64; 3], metallic: f64, roughness: f64, dielectric: Rgb) -> Su
         color,
         ambient_color: Some(base_color),
         specular_color: Some(Rgb::WHITE),
-        k_a: AMBIENT[0] + AMBIENT[1] * metal,
+        k_a: ambient(metal),
         k_d: 1.0,
         k_s: 1.0,
         ..ConstantMaterial::default()
@@ -75,12 +83,15 @@ pub(super) fn read(
     let mut base = [1.0, 1.0, 1.0, 1.0];
     let (mut metallic, mut roughness) = (1.0, 1.0);
     let mut maps = Maps::default();
+    // Whether the colour is an image that cannot be read.
+    let mut lost = false;
     if let Some(pbr) = at.get("pbrMetallicRoughness") {
         base = pbr.numbers_or("baseColorFactor", base)?;
         metallic = pbr.number_or("metallicFactor", 1.0)?;
         roughness = pbr.number_or("roughnessFactor", 1.0)?;
         maps.base = drawn.named(&pbr, "baseColorTexture", from, findings);
         maps.facets = drawn.named(&pbr, "metallicRoughnessTexture", from, findings);
+        lost = maps.base.is_none() && pbr.get("baseColorTexture").is_some();
     }
     maps.normal = drawn.named(at, "normalTexture", from, findings);
     maps.occlusion = drawn.named(at, "occlusionTexture", from, findings);
@@ -108,9 +119,12 @@ pub(super) fn read(
         roughness = 1.0 - unit(glossy.number_or("glossinessFactor", 1.0)?);
         maps.base = drawn.named(&glossy, "diffuseTexture", from, findings);
         maps.facets = None;
+        lost = maps.base.is_none() && glossy.get("diffuseTexture").is_some();
         image(&glossy, "specularGlossinessTexture");
     }
     let [r, g, b, alpha] = base.map(|c| if c < 0.0 { 0.0 } else { c });
+    let white = lost && [r, g, b] == [1.0; 3];
+    let [r, g, b] = if white { [GREY; 3] } else { [r, g, b] };
     let mut surface = surface([r, g, b], unit(metallic), unit(roughness), f0);
     let mut shown = 1.0;
     let mode = at.get("alphaMode").map_or(Ok("OPAQUE"), |mode| mode.text())?;
@@ -133,7 +147,7 @@ pub(super) fn read(
     let glow = Rgb::from(emissive.map(|c| (c * strength).max(0.0) as f32));
     let material = &mut surface.material;
     material.k_d = shown.into();
-    material.k_a = (shown * (AMBIENT[0] + AMBIENT[1] * unit(metallic) as f32)).into();
+    material.k_a = (shown * ambient(unit(metallic) as f32)).into();
     // Light goes straight on: surfaces are thin unless an extension that is not read says otherwise.
     material.transmission = through.into();
     material.ior = 1.0;
@@ -152,8 +166,8 @@ pub(super) fn read(
     }
     material.name.clone_from(&name);
     material.place = Place { file: Arc::clone(file), ..Place::default() };
-    let material = (&mut surface, [r, g, b, alpha], [unit(metallic), unit(roughness)]);
-    maps.put(at, mode, material, drawn)?;
+    let factors = ([r, g, b, alpha], [unit(metallic), unit(roughness)], f0);
+    maps.put(at, mode, (&mut surface, factors), (drawn, findings))?;
     if !images.is_empty() {
         let names = images.iter().map(String::as_str);
         let names = crate::wording::list(names, ",");
@@ -183,13 +197,108 @@ impl Maps {
         self,
         at: &At<'_>,
         mode: &str,
-        (surface, base, [metallic, roughness]): (&mut Surface, [f64; 4], [f64; 2]),
-        images: &mut Images<'_>,
+        (surface, (base, [metallic, roughness], f0)): (&mut Surface, ([f64; 4], [f64; 2], Rgb)),
+        (images, findings): (&mut Images<'_>, &mut Findings),
     ) -> Result<()> {
         let [r, g, b, alpha] = base.map(|c| c as f32);
         let base_color = Rgb::new(r, g, b);
         let Surface { material, color } = surface;
         let (name, place) = (material.name.clone(), material.place.clone());
+        let is_unlit = matches!(material.model, Model::Lambert);
+        // How metallic it is everywhere, if it is everywhere the same.
+        let mut even = Some(metallic);
+        if let Some(facets) = self.facets.as_ref().filter(|_| !is_unlit) {
+            let mut tell = |message: String| {
+                findings.warning(
+                    "materials with images",
+                    || whole(&place.file),
+                    || format!("{}: {message} (material `{name}`)", at.pointer),
+                );
+            };
+            let alpha = |green: f32| {
+                let rough = f64::from(green) * roughness;
+                (rough * rough).max(LEAST_ALPHA)
+            };
+            let (of, size) = (vec![facets.image], facets.texels.size());
+            let of = Made { what: "roughness", images: of, factors: vec![roughness.to_bits()] };
+            match images.made(of, (size, 2), || green(&facets.texels, alpha)) {
+                Ok(texels) => {
+                    let named = (name.as_str(), "roughness");
+                    let by = images.texture(&facets.with(texels), Rgb::WHITE, named, &place);
+                    if let Model::Microfacet { roughness, .. } = &mut material.model {
+                        *roughness = by.into();
+                    }
+                }
+                Err(why) => tell(format!("the image of roughness is left out: {why}")),
+            }
+            let [least, most] = facets.texels.bounds(false).map(|bound| f64::from(bound[2]));
+            let mean = if least == most || metallic == 0.0 {
+                metallic * most
+            } else {
+                metallic * f64::from(images.mean(facets)[2])
+            };
+            even = (least == most || metallic == 0.0).then_some(mean);
+            if let Some(k_a) = material.k_a.constant() {
+                // What is ambient has one weight everywhere: that of the mean.
+                material.k_a = (k_a * ambient(mean as f32) / ambient(metallic as f32)).into();
+            }
+            // An image of one pixel lies everywhere alike.
+            let lies = |base: &Named| base.texels.size() == [1, 1] || base.lies_as(facets);
+            if even.is_none() && self.base.as_ref().is_some_and(|base| !lies(base)) {
+                tell(
+                    "its images of colour and of metal lie differently, so that it is \
+                      everywhere as metallic as the mean"
+                        .to_owned(),
+                );
+                even = Some(mean);
+            }
+            if even.is_none() {
+                // The share of metal varies: it is put into the colours of both terms.
+                let base = self.base.as_ref().filter(|base| base.texels.size() != [1, 1]);
+                let flat = match &self.base {
+                    Some(base) if base.texels.size() == [1, 1] => base.texels.get([0, 0], true),
+                    _ => [1.0; 4],
+                };
+                let flat = base.is_none().then_some(flat);
+                let larger = base.unwrap_or(facets);
+                let metal = |other: [f32; 4]| other[2] * metallic as f32;
+                let of = |c: [f32; 4]| {
+                    let [r, g, b, _] = flat.unwrap_or(c);
+                    Rgb::new(r, g, b) * base_color
+                };
+                let mut made = |what, of: &dyn Fn([f32; 4], [f32; 4]) -> Rgb| {
+                    let numbers = self.base.iter().chain([facets]).map(|named| named.image);
+                    let colors = base_color.to_array().into_iter().chain(f0.to_array());
+                    let factors = colors.map(f64::from).chain([metallic]).map(f64::to_bits);
+                    let (numbers, factors) = (numbers.collect(), factors.collect());
+                    let from = Made { what, images: numbers, factors };
+                    let make = || mixed(&larger.texels, &facets.texels, of);
+                    images.made(from, (larger.texels.size(), 12), make)
+                };
+                let diffuse = made("diffuse", &|c, other| of(c) * (1.0 - metal(other)));
+                let mirrored = made("specular", &|c, other| {
+                    let m = metal(other);
+                    f0 * (1.0 - m) + of(c) * m
+                });
+                match diffuse.and_then(|diffuse| Ok((diffuse, mirrored?))) {
+                    Ok((diffuse, mirrored)) => {
+                        let mut texture = |texels, key| {
+                            let named = (name.as_str(), key);
+                            images.texture(&larger.with(texels), Rgb::WHITE, named, &place)
+                        };
+                        material.color = texture(diffuse, "diffuse").into();
+                        material.specular_color = Some(texture(mirrored, "specular").into());
+                        if let Model::Microfacet { fresnel, .. } = &mut material.model {
+                            *fresnel = Fresnel::None;
+                        }
+                    }
+                    Err(why) => {
+                        tell(format!("it is everywhere as metallic as the mean: {why}"));
+                        even = Some(mean);
+                    }
+                }
+            }
+        }
         let mut texture =
             |named: &Named, tint: Rgb, key: &str| images.texture(named, tint, (&name, key), &place);
         if let Some(normal) = &self.normal {
@@ -197,54 +306,11 @@ impl Maps {
             let scale = at.need("normalTexture")?.number_or("scale", 1.0)? as f32;
             material.normal = Some(TextureRef { scale, ..by });
         }
-        let is_unlit = matches!(material.model, Model::Lambert);
-        // How metallic it is everywhere, if it is everywhere the same.
-        let mut even = Some(metallic);
-        if let Some(facets) = self.facets.as_ref().filter(|_| !is_unlit) {
-            let alpha = |green: f32| {
-                let rough = f64::from(green) * roughness;
-                (rough * rough).max(LEAST_ALPHA)
-            };
-            if let Some(texels) = green(&facets.texels, alpha) {
-                let by = texture(&facets.with(texels), Rgb::WHITE, "roughness");
-                if let Model::Microfacet { roughness, .. } = &mut material.model {
-                    *roughness = by.into();
-                }
-            }
-            let [least, most] = facets.texels.bounds(false).map(|bound| f64::from(bound[2]));
-            even = (least == most || metallic == 0.0).then_some(metallic * most);
-            if even.is_none() {
-                // The share of metal varies: it is put into the colours of both terms.
-                let base = match &self.base {
-                    Some(base) if base.lies_as(facets) => base.clone(),
-                    _ => facets.with(crate::texels::Texels::white()),
-                };
-                let metal = |other: [f32; 4]| other[2] * metallic as f32;
-                let tinted = |[r, g, b, _]: [f32; 4]| Rgb::new(r, g, b) * base_color;
-                let larger = if base.texels.size() == [1, 1] { facets } else { &base };
-                let flat = base.texels.size() == [1, 1];
-                let of = |c: [f32; 4]| if flat { base_color } else { tinted(c) };
-                let diffuse =
-                    mixed(&larger.texels, &facets.texels, |c, other| of(c) * (1.0 - metal(other)));
-                let mirrored = mixed(&larger.texels, &facets.texels, |c, other| {
-                    let m = metal(other);
-                    Rgb::grey(F0 as f32 * (1.0 - m)) + of(c) * m
-                });
-                if let (Some(diffuse), Some(mirrored)) = (diffuse, mirrored) {
-                    material.color = texture(&larger.with(diffuse), Rgb::WHITE, "diffuse").into();
-                    let by = texture(&larger.with(mirrored), Rgb::WHITE, "specular");
-                    material.specular_color = Some(by.into());
-                    if let Model::Microfacet { fresnel, .. } = &mut material.model {
-                        *fresnel = Fresnel::None;
-                    }
-                }
-            }
-        }
         if let Some(metal) = even.filter(|_| self.facets.is_some() && !is_unlit) {
             let (metal, other) = (metal as f32, (1.0 - metal) as f32);
             material.color = (base_color * other).into();
             if let Model::Microfacet { fresnel, .. } = &mut material.model {
-                let f0 = Rgb::grey(F0 as f32) * other + base_color * metal;
+                let f0 = f0 * other + base_color * metal;
                 *fresnel = Fresnel::Schlick { f0: f0.map(|c| c.clamp(0.0, 1.0)) };
             }
             *color = base_color * other;
@@ -262,7 +328,8 @@ impl Maps {
                     if let Model::Microfacet { fresnel, .. } = &mut material.model {
                         *fresnel = Fresnel::None;
                     }
-                    material.k_s = (metal as f32 + (1.0 - metal as f32) * F0 as f32).into();
+                    let metal = metal as f32;
+                    material.k_s = (metal + (1.0 - metal) * f0.max_channel()).into();
                 }
             }
             *color = Rgb::WHITE;

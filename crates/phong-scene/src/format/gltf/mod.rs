@@ -10,15 +10,17 @@
 //! | accessors: strided, sparse, normalised, without a view | numbers, as the format says |
 //! | skins | the mesh bent to where its bones stand in the file; morph targets are not applied |
 //! | cameras | the camera of the first node that has one |
-//! | `KHR_lights_punctual` | lights of their intensity / π; point and spot lights fall off with the square |
+//! | `KHR_lights_punctual` | lights of their intensity / π; point and spot lights fall off with the square, and end at their `range` |
 //! | metallic and rough materials | GGX with α = roughness², Smith, Schlick; F₀ = 0.04 and the base colour for metals, of which no diffuse colour is left |
-//! | ambient light, of which the format says nothing | `k_a` is 0.1, for metals 0.4, in place of what they would mirror |
+//! | ambient light, of which the format says nothing | `k_a` is 0.1, for metals 0.4, in place of what they would mirror; by the mean of an image of metal |
 //! | `KHR_materials_ior`, `_specular`, `_emissive_strength`, `_pbrSpecularGlossiness` | F₀, the glow, a roughness of 1 − glossiness |
 //! | `KHR_materials_transmission`, `alphaMode` `BLEND` | rays that go straight on, by the factor and by 1 − alpha |
 //! | `KHR_materials_unlit` | a surface that glows in its colour, and is not lit |
 //! | images of base colour, metal and roughness, normals, occlusion, emission | textures, from buffers, texts and files, with `KHR_texture_transform`; α is of an image of its own, and so are the colours where the share of metal varies, whose facets are then perfect mirrors |
 //! | `alphaMode` with an image of the base colour | `opacity` by its alpha, a mask by `alphaCutoff` |
-//! | other images | a warning |
+//! | a base colour whose image cannot be read | a warning; the factor, or a grey of 0.8 where that is white |
+//! | images of base colour and of metal that lie differently | a warning; everywhere as metallic as the mean |
+//! | other images; samplers whose `wrapT` is not `wrapS`, which counts | a warning |
 //! | other extensions | a warning; where the file requires one, an error |
 //!
 //! What is wrong is said with a JSON pointer. What is out of range, or cut short, refuses the file,

@@ -190,9 +190,14 @@ fn load(name: &str, file: &str, images: &mut Images<'_>) -> Result<Arc<Texels>, 
         return Err("it is not named".to_owned());
     }
     let path = locate(name, file, images.source).ok_or("there is no such file")?;
-    let (source, limits) = (images.source, images.limits);
-    let load = || texels::load(&path, source, limits);
-    images.read.entry(path.clone()).or_insert_with(load).clone()
+    if let Some(read) = images.read.get(&path) {
+        return read.clone();
+    }
+    let all = images.read.values().flatten().map(AsRef::as_ref);
+    let limits = Texels::left(images.limits, all);
+    let read = texels::load(&path, images.source, &limits);
+    images.read.insert(path, read.clone());
+    read
 }
 
 /// Where a file of that name is; `None`: nowhere.

@@ -36,8 +36,13 @@ impl Images<'_> {
     /// The pixels of the image of this name, which stands there; `None`: what is wrong has been said.
     fn load(&mut self, file: &str, spot: Spot, notes: &mut Notes) -> Option<Arc<Texels>> {
         let path = join(self.path, file);
-        let load = || texels::load(&path, self.source, self.limits);
-        match self.read.0.entry(normal(&path)).or_insert_with(load) {
+        let key = normal(&path);
+        if !self.read.0.contains_key(&key) {
+            let all = self.read.0.values().flatten().map(AsRef::as_ref);
+            let limits = Texels::left(self.limits, all);
+            self.read.0.insert(key.clone(), texels::load(&path, self.source, &limits));
+        }
+        match &self.read.0[&key] {
             Ok(texels) => Some(Arc::clone(texels)),
             Err(message) => {
                 let message = format!("{} cannot be read: {message}", wording::path(&path));
