@@ -4,7 +4,8 @@ use std::fmt::{self, Write as _};
 
 use crc32fast::Hasher;
 use phong_scene::{
-    Clip, Cylinders, Group, Material, Mesh, Object, Place, Points, Scene, Shape, Texture,
+    Clip, Cylinders, Group, Material, Mesh, Object, Place, Points, Scene, Shape, TexelValues,
+    Texels, Texture, TextureKind,
 };
 
 /// A checksum of everything in a scene but its picture settings and the places it was written at:
@@ -54,7 +55,14 @@ pub fn fingerprint(scene: &Scene) -> u32 {
         sum.debug(&Material { place: Place::default(), ..material.clone() });
     }
     for texture in textures {
-        sum.debug(&Texture { place: Place::default(), ..texture.clone() });
+        let mut texture = Texture { place: Place::default(), ..texture.clone() };
+        if let TextureKind::Image { file, .. } = &mut texture.kind {
+            file.clear();
+        }
+        sum.debug(&texture);
+        if let TextureKind::Image { texels, .. } = &texture.kind {
+            sum.texels(texels);
+        }
     }
     sum.objects(objects);
     for Group { name, objects } in groups {
@@ -131,6 +139,18 @@ impl Sum {
         self.debug(&(origin, caps));
         self.words(segments.as_flattened(), |end| end.map(f32::to_bits));
         self.words(colors.as_flattened(), |c| c.to_array().map(f32::to_bits));
+    }
+
+    /// The numbers of an image; its size and kind are part of what [`Texels`] prints.
+    fn texels(&mut self, texels: &Texels) {
+        match texels.values() {
+            TexelValues::Bytes(values) => {
+                self.0.update(values);
+                self.0.update(&(values.len() as u64).to_le_bytes());
+            }
+            TexelValues::Shorts(values) => self.words(values, |&value| [u32::from(value)]),
+            TexelValues::Floats(values) => self.words(values, |value| [value.to_bits()]),
+        }
     }
 
     /// Bulk numbers, then how many there were, so that neighbouring arrays cannot trade places.

@@ -236,6 +236,36 @@ fn a_scene_is_known_by_what_it_holds_and_not_by_where_it_was_written() {
     assert_ne!(fingerprint(&other), fingerprint(&scene));
 }
 
+#[test]
+fn a_scene_is_known_by_the_pixels_of_its_images_and_not_by_their_files() {
+    use phong_scene::{
+        Encoding, Rgb, TexelFilter, TexelValues, Texels, Texture, TextureKind, Wrap,
+    };
+    let of = |file: &str, values: TexelValues| {
+        let kind = TextureKind::Image {
+            file: file.to_owned(),
+            texels: Arc::new(Texels::new([2, 1], 1, values).unwrap()),
+            wrap: Wrap::Repeat,
+            border: Rgb::BLACK,
+            tint: Rgb::WHITE,
+            filter: TexelFilter::Auto,
+            encoding: Encoding::Auto,
+        };
+        let textures = vec![Texture { kind, ..Texture::default() }];
+        fingerprint(&Scene { textures, ..Scene::default() })
+    };
+    let kinds: [fn(u8) -> TexelValues; 3] = [
+        |last| TexelValues::Bytes(vec![7, last]),
+        |last| TexelValues::Shorts(vec![7, last.into()]),
+        |last| TexelValues::Floats(vec![7.0, last.into()]),
+    ];
+    for values in kinds {
+        let own = of("a.png", values(8));
+        assert_eq!(of("b.png", values(8)), own);
+        assert_ne!(of("a.png", values(9)), own, "one pixel is another");
+    }
+}
+
 /// Between them, of every camera, shape, model, light, filter and texture some.
 const DRAWN: [&str; 17] = [
     "cameras/fisheye",
