@@ -8,6 +8,7 @@
 mod batch;
 mod build;
 mod change;
+mod closed;
 mod estimate;
 mod flatten;
 mod scale;
@@ -18,10 +19,11 @@ mod trees;
 
 use glam::{DAffine3, DVec3};
 use phong_bvh::{BuildError, BuildOptions, Coordinates, Hit, Preset, Primitives, Ray, World};
-use phong_scene::{Cap, Diagnostic, Place, Scene, Shape, Shared, SoundArrays};
+use phong_scene::{Diagnostic, Place, Scene, Shape, SoundArrays};
 use thiserror::Error;
 
 pub(crate) use batch::Batch;
+use closed::Closed;
 use scale::Scale;
 use tangents::KnownTangents;
 pub(crate) use tangents::Tangents;
@@ -58,8 +60,8 @@ pub struct Geometry {
     own_spaces: Vec<(u32, DAffine3)>,
     /// One more than the highest number of a material; 0: nothing has a material.
     materials: u32,
-    /// Which objects enclose what is inside, where a clip of the scene asks for it; else empty.
-    closed: Vec<bool>,
+    /// Which objects enclose what is inside.
+    closed: Closed,
     /// The trees of meshes and clouds.
     trees: Trees,
     /// The arrays of meshes and clouds, which are sound.
@@ -150,19 +152,6 @@ fn soonest(scene: &Scene, rays: u64) -> BuildOptions {
     BuildOptions { preset: Preset::for_rays(primitives, rays), ..BuildOptions::default() }
 }
 
-/// Which objects enclose what is inside. Meshes that share their arrays are looked at once.
-fn closed(placed: &[flatten::Placed<'_>]) -> Vec<bool> {
-    let mut known = std::collections::BTreeMap::new();
-    let of_one = |placed: &flatten::Placed<'_>| match &placed.object.shape {
-        Shape::Mesh(mesh) => {
-            let arrays = (Shared::address(&mesh.positions), Shared::address(&mesh.indices));
-            *known.entry(arrays).or_insert_with(|| mesh.is_closed())
-        }
-        shape => shape.is_closed(),
-    };
-    placed.iter().map(of_one).collect()
-}
-
 impl Geometry {
     /// Builds the trees of a scene's objects, in the current rayon pool. The scene's arrays are
     /// shared, not copied.
@@ -172,7 +161,8 @@ impl Geometry {
     pub fn new(scene: &Scene, options: GeometryOptions) -> Result<Self, GeometryError> {
         let build = options.build.unwrap_or_else(|| soonest(scene, options.rays));
         let options = GeometryOptions { build: Some(build), ..options };
-        Self::with_trees(scene, options, &Trees::default(), SoundArrays::default())
+        let earlier = (&Trees::default(), &Closed::default());
+        Self::with_known(scene, options, earlier, SoundArrays::default())
     }
 
     /// The geometry of a scene that differs in some objects: as [`Geometry::new`] would build it, to
@@ -184,13 +174,14 @@ impl Geometry {
     /// # Errors
     /// [`GeometryError`].
     pub fn update(&self, scene: &Scene) -> Result<Self, GeometryError> {
-        Self::with_trees(scene, self.options, &self.trees, self.sound.clone())
+        let earlier = (&self.trees, &self.closed);
+        Self::with_known(scene, self.options, earlier, self.sound.clone())
     }
 
-    fn with_trees(
+    fn with_known(
         scene: &Scene,
         options: GeometryOptions,
-        earlier: &Trees,
+        (trees, closed): (&Trees, &Closed),
         mut sound: SoundArrays,
     ) -> Result<Self, GeometryError> {
         let broken = scene.check_objects_again(&mut sound);
@@ -205,11 +196,10 @@ impl Geometry {
         }
         let build = options.build.unwrap_or_default();
         let placed = flatten::flatten(scene);
-        let asks = scene.clips.iter().any(|clip| clip.cap != Cap::Open);
-        let closed = if asks { closed(&placed) } else { Vec::new() };
+        let closed = Closed::of(&placed, closed);
         let scale = Scale::of(&placed);
         let center = scale.center;
-        let built = build::build(placed, scale, earlier, build)?;
+        let built = build::build(placed, scale, trees, build)?;
         let build::Built { parts, batches, objects, own_spaces, trees } = built;
         let materials = batches.iter().filter_map(Batch::highest_material).max();
         let materials = materials.map_or(0, |highest| highest.saturating_add(1));
@@ -271,9 +261,9 @@ impl Geometry {
         self.batch(hit.part).object(hit.prim)
     }
 
-    /// Whether an object encloses what is inside; false for all where no clip of the scene asked for it.
+    /// Whether an object encloses what is inside. Of a mesh it is found out when it is first asked for.
     pub(crate) fn is_closed(&self, object: u32) -> bool {
-        self.closed.get(object as usize).copied().unwrap_or(false)
+        self.closed.of_object(object)
     }
 
     /// A point of the world in the own space of the object hit: before its transform, and that of

@@ -239,3 +239,21 @@ fn clips_may_differ_from_look_to_look() {
     assert!(depth(vec![plane(0.5, Cap::Of(MaterialId(9)))]).is_err());
     assert!(depth(vec![plane(f64::NAN, Cap::Own)]).is_err());
 }
+
+#[test]
+fn a_look_may_ask_for_caps_that_the_geometry_was_built_without() {
+    let closed = "[[mesh]]\nfile = \"closed.obj\"\nsmooth = false\n";
+    let ray = Ray::new(DVec3::new(0.0, 0.0, 5.0), Vec3::NEG_Z);
+    for body in [BALL, closed] {
+        let capped = scene(&format!("{HEAD}{body}{FRONT}"));
+        for clip in ["", &format!("{FRONT}cap = false\n")] {
+            let bare = scene(&format!("{HEAD}{body}{clip}"));
+            let geometry = Geometry::new(&bare, GeometryOptions::default()).expect("a geometry");
+            let updated = geometry.update(&bare).expect("a geometry");
+            for geometry in [geometry, updated] {
+                let view = View::new(std::sync::Arc::new(geometry), Look::new(&capped));
+                assert_eq!(view.expect("a view").intersect(&ray).t, 4.75, "{body}{clip}");
+            }
+        }
+    }
+}
