@@ -200,6 +200,23 @@ impl Light {
         }
     }
 
+    /// How far a ray from `origin` towards `dir`, which is unit, may be moved along, at most `start`, and still
+    /// see its surface.
+    pub(crate) fn approach(&self, origin: DVec3, dir: DVec3, start: f64) -> f64 {
+        let Some(position) = self.position().filter(|_| self.is_seen) else { return start };
+        // Where the ray comes into a ball twice as large as the surface. It is found in f64; from there on f32
+        // is exact enough to tell whether the surface is met.
+        let way = position - origin;
+        let along = way.dot(dir);
+        let half = 4.0 * self.extent * self.extent - (way - along * dir).length_squared();
+        let from = (along - half.max(0.0).sqrt()).max(0.0);
+        if half <= 0.0 || from >= start {
+            return start;
+        }
+        let t = self.meet(origin + from * dir, dir.as_vec3());
+        if from + f64::from(t) < start { from } else { start }
+    }
+
     /// Its own colour: that of its surface, where it has one. Linear.
     pub(crate) fn color(&self) -> Rgb {
         self.color

@@ -40,7 +40,8 @@ impl Sky {
 
     /// What comes from a unit direction. Linear.
     pub(crate) fn radiance(&self, dir: Vec3) -> Rgb {
-        let height = dir.dot(self.up);
+        // Beyond 1, as rounding may have it, the horizon's colour would be taken off.
+        let height = dir.dot(self.up).min(1.0);
         match &self.kind {
             Kind::Constant(color) => *color,
             Kind::Gradient { ground, .. } if height < 0.0 => *ground,
@@ -184,6 +185,8 @@ mod tests {
         assert_eq!(sky.radiance(Vec3::X), horizon);
         assert_eq!(sky.radiance(Vec3::new(0.8, 0.0, 0.6)), Rgb::new(1.0 - 0.6, 0.0, 0.6));
         assert_eq!(sky.radiance(-Vec3::Z), Rgb::grey(0.5));
+        let rounded = Vec3::new(0.0, 0.0, 1.0 + f32::EPSILON);
+        assert_eq!(sky.radiance(rounded), zenith, "nothing is negative");
     }
 
     #[test]

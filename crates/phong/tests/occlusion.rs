@@ -98,6 +98,18 @@ fn where_nothing_casts_shadows_all_ambient_light_finds_its_way() {
 }
 
 #[test]
+fn where_nothing_casts_shadows_no_ray_to_the_sky_is_traced_or_counted() {
+    let scene = Scene { sky: Some(phong_scene::Sky::default()), ..scene(FLOOR) };
+    let view = View::of(&scene).unwrap();
+    let counted = |shadows: bool| {
+        let options = options(&scene).with_shadows(shadows);
+        render(&view, &options, &|_| {}, &Cancel::new()).rays.shadow
+    };
+    assert!(counted(true) > 0);
+    assert_eq!(counted(false), 0);
+}
+
+#[test]
 fn the_bits_do_not_depend_on_tiles_threads_and_crops() {
     let whole = film(MIXED, |options| options);
     let shares = layer(&whole, LayerKind::Aov(Aov::Openness));

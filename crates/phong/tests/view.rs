@@ -167,3 +167,29 @@ fn arrays_that_are_shared_count_once_towards_the_memory_limit() {
     let each = (needed(&scene) - few) / 1000;
     assert!((200..1500).contains(&each), "{each} bytes for each instance");
 }
+
+#[test]
+fn what_turns_the_normals_of_a_mesh_counts_towards_the_memory_limit() {
+    let mut scene = with_meshes();
+    let Shape::Mesh(mesh) = &mut scene.objects[4].shape else { panic!("a mesh") };
+    mesh.uvs = mesh.positions.iter().map(|p| p.truncate()).collect();
+    let triangles = mesh.indices.len() as u64;
+    let needed = |scene: &Scene| {
+        let options = GeometryOptions { max_bytes: Some(0), ..GeometryOptions::default() };
+        match Geometry::new(scene, options) {
+            Err(GeometryError::Memory { needed, .. }) => needed,
+            other => panic!("{other:?}"),
+        }
+    };
+    let plain = needed(&scene);
+    scene.textures.push(phong_scene::Texture::default());
+    let material = scene.objects[4].material.0 as usize;
+    let texture = phong_scene::TextureRef::new(phong_scene::TextureId(0));
+    scene.materials[material].bump = Some(texture);
+    let more = needed(&scene) - plain;
+    assert!((48 * triangles..1000 * triangles).contains(&more), "{more} bytes");
+    // The same arrays again cost no more than any instance.
+    let copy = scene.objects[4].clone();
+    scene.objects.push(copy);
+    assert!(needed(&scene) - plain - more < 1500);
+}

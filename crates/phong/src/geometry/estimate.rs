@@ -5,13 +5,18 @@ use std::mem::size_of;
 
 use glam::{DAffine3, Vec2};
 use phong_bvh::{Cylinder, Sphere};
-use phong_scene::{Object, Rgb, Scene, Shape, Shared};
+use phong_scene::{Material, Mesh, Object, Rgb, Scene, Shape, Shared};
 
 use super::ObjectRecord;
 use super::batch::Batch;
 
 /// Nodes and leaves of a triangle, and what the builder holds for a moment: measured, rounded up.
 const TRIANGLE: usize = 160;
+/// The tangents at the corners of a triangle, where a texture turns its normals.
+const TANGENTS: usize = size_of::<[[f32; 4]; 3]>();
+/// What making them holds for a moment, of the mesh at hand: for each triangle by what `bevy_mikktspace` keeps of
+/// it, 152 bytes, of its corners, 24, of their results, 108, and at most three groups of 96.
+const MAKING_TANGENTS: usize = 576;
 /// The same of a sphere, or of another primitive.
 const SPHERE: usize = 120;
 /// The same of a cylinder of a bundle.
@@ -25,9 +30,43 @@ pub(super) fn estimate(scene: &Scene, count: u64) -> u64 {
     let mut seen = BTreeSet::new();
     let in_groups = scene.groups.iter().flat_map(|group| &group.objects);
     let arrays = scene.objects.iter().chain(in_groups).map(|object| bytes(object, &mut seen));
-    let arrays = arrays.fold(0_u64, |sum, bytes| sum.saturating_add(bytes as u64));
+    let arrays = arrays.fold(tangents(scene), |sum, bytes| sum.saturating_add(bytes as u64));
     let each = size_of::<Object>() + size_of::<ObjectRecord>() + size_of::<Batch>() + INSTANCE;
     arrays.saturating_add(count.saturating_mul(each as u64))
+}
+
+/// Bytes that the tangents of meshes take that have a material with turned normals, and those that making
+/// them takes, one mesh after another.
+fn tangents(scene: &Scene) -> u64 {
+    let is_turned = |material: &Material| material.normal.is_some() || material.bump.is_some();
+    if !scene.materials.iter().any(is_turned) {
+        return 0;
+    }
+    let turned = |number: u32| scene.materials.get(number as usize).is_some_and(is_turned);
+    let mut seen = BTreeSet::new();
+    let (mut triangles, mut largest) = (0_u64, 0);
+    let in_groups = scene.groups.iter().flat_map(|group| &group.objects);
+    for object in scene.objects.iter().chain(in_groups) {
+        let Shape::Mesh(mesh) = &object.shape else { continue };
+        let Mesh { positions, indices, normals, uvs, uv_indices, face_materials, .. } = &**mesh;
+        let key = [
+            Shared::address(positions),
+            Shared::address(indices),
+            Shared::address(uvs),
+            Shared::address(uv_indices),
+            Shared::address(normals),
+        ];
+        let is_turned = match &face_materials[..] {
+            [] => turned(object.material.0),
+            each => each.iter().any(|&number| turned(number)),
+        };
+        if !uvs.is_empty() && is_turned && seen.insert(key) {
+            triangles = triangles.saturating_add(indices.len() as u64);
+            largest = largest.max(indices.len() as u64);
+        }
+    }
+    let kept = triangles.saturating_mul(TANGENTS as u64);
+    kept.saturating_add(largest.saturating_mul(MAKING_TANGENTS as u64))
 }
 
 /// Bytes that the arrays of an object take with their tree, unless they were seen before.

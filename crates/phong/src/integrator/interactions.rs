@@ -42,8 +42,8 @@ pub(super) struct Interactions {
 
 impl Interactions {
     /// Intersects rays with the scene, and begins their radiance with the background and the terms that
-    /// need no light. `passed` is how many see-through surfaces are behind the rays. `height` gives the place in a gradient background, 0 to 1, of a ray that hits
-    /// nothing.
+    /// need no light. `passed` is how many see-through surfaces are behind the rays. `height` gives the place
+    /// in a gradient background, 0 to 1, of a ray that hits nothing.
     pub(super) fn intersect(
         &mut self,
         integrator: &Integrator<'_>,
@@ -64,14 +64,14 @@ impl Interactions {
         }
         out.resize(rays.len(), Radiance8::NONE);
         scene.intersect_eights(rays, &mut self.hits);
-        self.widths.clear();
-        if scene.has_images() {
-            integrator.measure_widths(rays, &self.hits, paths, &mut self.widths);
-        }
         self.etas.clear();
         match scene.coincidences() {
             None => scene.surface_eights(rays, &self.hits, &mut self.surfaces),
             Some(coincidences) => self.settle(scene, coincidences, rays, &paths.departures),
+        }
+        self.widths.clear();
+        if scene.has_images() {
+            integrator.measure_widths(rays, &self.hits, paths, &mut self.widths);
         }
         lamps::find(scene, rays, &mut self.hits, &mut self.lamps);
         scene.world().run(BeginRadiance {
@@ -240,30 +240,26 @@ impl Kernel for BeginRadiance<'_> {
             if missed != 0 && brings.unlit() {
                 out.brought = out.brought.with(Term::Background);
                 let to = &mut out.terms[Term::Background];
-                match scene.background() {
-                    Background::Color(_) | Background::Gradient { .. } if scene.sky().is_some() => {
-                        for (sky, lane) in scene
-                            .sky()
-                            .into_iter()
-                            .flat_map(|sky| lanes(missed).map(move |lane| (sky, lane)))
-                        {
+                match (scene.background(), scene.sky()) {
+                    (Background::Transparent, _) => {}
+                    (_, Some(sky)) => {
+                        for lane in lanes(missed) {
                             set(to, lane, sky.radiance(rays.get(lane).dir).to_array());
                         }
                     }
-                    Background::Color(color) => {
+                    (Background::Color(color), None) => {
                         let missed = mask32x8::from_bitmask(simd, missed.into());
                         let black = f32x8::splat(simd, 0.0);
                         let color = splat3(black, color.to_array());
                         *to = store3(select3(missed, color, [black; 3]));
                     }
-                    Background::Gradient { top, bottom } => {
+                    (Background::Gradient { top, bottom }, None) => {
                         for lane in lanes(missed) {
                             let height = height(i, lane);
                             let seen = (1.0 - height) * top + height * bottom;
                             set(to, lane, seen.to_array());
                         }
                     }
-                    Background::Transparent => {}
                 }
             }
             if met == 0 {

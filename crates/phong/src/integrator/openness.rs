@@ -68,7 +68,8 @@ impl Openness {
 }
 
 impl Integrator<'_> {
-    /// Finds out how open the surroundings of every surface are. Returns the number of rays.
+    /// Finds out how open the surroundings of every surface are. Returns the number of rays
+    /// that were traced.
     pub(super) fn look_around(
         &self,
         occlusion: Occlusion,
@@ -98,8 +99,9 @@ impl Integrator<'_> {
             if self.is_stopped() {
                 return count;
             }
-            count += world.run(Spread { occlusion, number, interactions, samplers, to: rays });
+            let sent = world.run(Spread { occlusion, number, interactions, samplers, to: rays });
             if self.shadows {
+                count += sent;
                 self.scene.occluded_eights(rays, blocked);
             } else {
                 blocked.fill(0);

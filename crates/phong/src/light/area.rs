@@ -70,7 +70,7 @@ impl Area {
             let facing = all(facing);
             let (along, slope) = (dot(toward, facing), dot(dir, facing));
             let t = along / slope;
-            // Only who looks against the way it faces sees it.
+            // It is seen only from its front.
             let seen = along.lt(zero) & slope.lt(zero);
             (F::select(seen, t, none), sub(scale(F::select(seen, t, zero), dir), toward))
         };
@@ -306,9 +306,11 @@ pub(super) fn choose_of_disc<F: Lanes<Scalar = f32>>(
     let dir =
         add(axis, add(scale(a * place[0] * stretch, wide), scale(b * place[1] * stretch, narrow)));
     let t = depth / dot(dir, n);
-    // The middle of all places is the disc's own.
+    // The middle of all places is the disc's own. From a point in its plane the disc is a line, and t would be
+    // 0 / 0: its middle stands for it.
+    let is_seen = depth.abs().gt(zero);
     Chosen {
-        toward: select3(is_off, scale(t, dir), toward),
+        toward: select3(is_off & is_seen, scale(t, dir), toward),
         weight: F::select(is_off, own * 8.0 / mean, one),
     }
 }
@@ -450,5 +452,17 @@ mod tests {
         assert_eq!(ball.meet([0.0, 0.0, 3.0], ahead), 2.0);
         assert_eq!(ball.meet([1.1, 0.0, 3.0], ahead), f32::INFINITY);
         assert_eq!(ball.meet([0.0, 0.0, 0.5], ahead), f32::INFINITY, "from within");
+    }
+
+    #[test]
+    fn from_a_point_in_its_plane_a_disc_is_seen_at_its_middle() {
+        for toward in [[0.3_f32, -0.2, 0.0], [2.0, 0.5, 0.0], [-40.0, 0.0, 0.0]] {
+            for place in [[0.0, 0.0], [0.5, -0.25], [-0.1, 0.9]] {
+                let Chosen { toward: way, weight } =
+                    choose_of_disc((FACING.as_vec3(), 0.5), toward, place);
+                assert_eq!(way, toward, "{place:?}");
+                assert!(weight.is_finite(), "{toward:?}, {place:?}: {weight}");
+            }
+        }
     }
 }

@@ -59,7 +59,9 @@ impl ImageTexture {
         };
         // Rows run down from the upper edge.
         let at = DVec2::new(at.x, 1.0 - at.y);
-        let at = if at.is_finite() { at } else { DVec2::ZERO };
+        // Farther away than 1e100, times the size in pixels, may be infinite, and the part of a pixel then NaN.
+        let is_near = at.is_finite() && at.abs().max_element() < 1e100;
+        let at = if is_near { at } else { DVec2::ZERO };
         let [r, g, b, opacity] = match self.filter {
             TexelFilter::Nearest => self.nearest(at, srgb),
             TexelFilter::Linear => self.between(&self.texels, at, srgb),
@@ -107,7 +109,7 @@ impl ImageTexture {
         let length = |side: DVec2| (side * DVec2::new(width, height)).length();
         let [a, b] = sides.map(length);
         let (along, long, short) = if a > b { (sides[0], a, b) } else { (sides[1], b, a) };
-        // What covers less than a pixel is between pixels; NaN is so too.
+        // A footprint of less than a pixel, or NaN: one look-up in the image itself is enough.
         if long.is_nan() || long <= 1.0 {
             return Spread { along: DVec2::ZERO, taps: 1, level: 0, part: 0.0 };
         }
@@ -236,6 +238,20 @@ mod tests {
         }
         assert_eq!(at(Wrap::Repeat, 1e300), at(Wrap::Repeat, 1e300), "far away is no panic");
         at(Wrap::Repeat, f64::NAN);
+    }
+
+    #[test]
+    fn however_far_away_values_are_numbers() {
+        for filter in [TexelFilter::Linear, TexelFilter::Auto] {
+            let image = image([2, 1], &[51, 255], Wrap::Repeat, filter);
+            for far in [1e99, 1e101, 1.7e308, -1.7e308] {
+                for side in [0.0, 1.0, 1e300] {
+                    let sides = [DVec2::new(side, 0.0), DVec2::new(0.0, side)];
+                    let value = image.value(DVec2::splat(far), sides, true);
+                    assert!(value.iter().all(|v| v.is_finite()), "{far}, {side}: {value:?}");
+                }
+            }
+        }
     }
 
     #[test]

@@ -361,3 +361,29 @@ fn a_gltf_material_takes_every_value_from_its_images() {
     assert_eq!(keys, all);
     assert!(shown(&scene).iter().flatten().all(|v| v.is_finite()));
 }
+
+#[test]
+fn within_glass_an_image_is_looked_up_as_if_no_glass_of_lower_priority_were_before_it() {
+    let film = |ball: &str| {
+        let text = format!(
+            "version = 1\n[image]\nsize = [32, 24]\nsamples = 1\n\
+             [camera]\neye = [0, 0, 6]\nlook_at = [0, 0, 0]\nfov = 25\n\
+             [[light]]\nkind = \"distant\"\ndirection = [0, 0, -1]\nshadows = false\n\
+             [textures.squares]\nkind = \"image\"\nfile = \"squares.png\"\n\
+             [materials.sheet]\ncolor = {{ texture = \"squares\" }}\n\
+             [materials.hard]\ncolor = 0\nreflection = 1\ntransmission = 1\npriority = 1\n\
+             [materials.water]\ncolor = 0\nreflection = 1\ntransmission = 1\nior = 1.33\n\
+             [[mesh]]\nfile = \"sheet.obj\"\nmaterial = \"sheet\"\ntranslate = [0, 0, -4]\n\
+             [[box]]\nmin = [-2, -2, -5]\nmax = [2, 2, 2]\nmaterial = \"hard\"\n\
+             [[sphere]]\ncenter = [{ball}]\nradius = 1.5\nmaterial = \"water\"\n"
+        );
+        let files =
+            Memory::new().with("squares.png", squares(64)).with("sheet.obj", SHEET.as_bytes());
+        let scene = scene(&text, files);
+        let options = RenderOptions::of(&scene.image).unwrap();
+        let film = render(&View::of(&scene).unwrap(), &options, &|_| {}, &Cancel::new()).film;
+        film.layer(LayerKind::Picture).unwrap().values.clone()
+    };
+    let [inside, elsewhere] = ["0, 0, 0", "0, 0, 40"].map(film);
+    assert!(inside == elsewhere, "a ball that is not there is seen");
+}
