@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 
 use crate::aov::Aov;
 use crate::film::{Film, LayerKind};
+use crate::math::wide::cos;
 use crate::render::{Lines, SMOOTHINGS};
 
 /// How much each pixel of a film is covered by lines, from 0 to 1; `None`: the film lacks what they are
@@ -23,7 +24,7 @@ pub(super) fn coverage(film: &Film, lines: &Lines) -> Option<Vec<f32>> {
         depth: layer(Aov::Depth)?,
         normal: layer(Aov::Normal)?,
         least_cos: if lines.crease < 180.0 {
-            libm::cos(f64::from(lines.crease).to_radians()) as f32
+            cos(f64::from(lines.crease).to_radians()) as f32
         } else {
             f32::NEG_INFINITY
         },

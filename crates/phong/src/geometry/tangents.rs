@@ -35,7 +35,7 @@ impl Geometry {
             Shared::address(&mesh.uv_indices),
             Shared::address(&mesh.normals),
         ];
-        // What was put in is whole, whoever panicked since.
+        // Only finished tangents are put in, so a panic of another thread leaves nothing half made.
         let known = &self.tangents.0;
         if let Some(known) = known.lock().unwrap_or_else(PoisonError::into_inner).get(&key) {
             return Some(Arc::clone(known));

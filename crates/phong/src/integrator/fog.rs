@@ -67,7 +67,8 @@ pub(super) fn measure(
     }
 }
 
-/// Fades what rays brought; where the fog `glows`, it adds its own light. Over a transparent background there is no fog where nothing is met.
+/// Fades what rays brought; where the fog `glows`, it adds its own light.
+/// Over a transparent background there is no fog where nothing is met.
 pub(super) fn fade<W: Witness>(
     view: &View,
     fog: &Fog,

@@ -256,7 +256,7 @@ impl Integrator<'_> {
         }
         openness.begin();
         if let Some(occlusion) = self.scene.occlusion() {
-            // Else it is a factor of nothing.
+            // Otherwise there is no ambient light to dim.
             if self.brings.unlit() || self.scene.has_ambient_per_light() {
                 counts.shadow += self.look_around(occlusion, interactions, samplers, openness);
                 openness.dim(out);
@@ -290,7 +290,7 @@ impl Integrator<'_> {
                 }
             }
         }
-        // Who listens is told of each light.
+        // A witness is told of every light, so then none is skipped.
         let bounds = (self.scene.has_ends() && !W::LISTENS).then(|| interactions.bounds());
         for light in 0..self.scene.lights().len() {
             if self.is_stopped() {
