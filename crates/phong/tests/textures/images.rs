@@ -378,7 +378,7 @@ fn within_glass_an_image_is_looked_up_as_if_no_glass_of_lower_priority_were_befo
              [[sphere]]\ncenter = [{ball}]\nradius = 1.5\nmaterial = \"water\"\n"
         );
         let files =
-            Memory::new().with("squares.png", squares(64)).with("sheet.obj", SHEET.as_bytes());
+            Memory::new().with("squares.png", squares(16)).with("sheet.obj", SHEET.as_bytes());
         let scene = scene(&text, files);
         let options = RenderOptions::of(&scene.image).unwrap();
         let film = render(&View::of(&scene).unwrap(), &options, &|_| {}, &Cancel::new()).film;
