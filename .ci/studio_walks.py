@@ -238,7 +238,7 @@ def manners(walk):
     # Tab goes through the page, and is caught nowhere.
     page.evaluate("document.activeElement.blur()")
     reached = set()
-    for _ in range(150):
+    for _ in range(400):
         page.keyboard.press("Tab")
         reached.add(page.evaluate("document.activeElement.id || document.activeElement.dataset.path || ''"))
     missed = {"file", "frame", "stop", "png", "text", "x", "follow", "sphere.1.center"} - reached

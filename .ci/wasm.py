@@ -26,7 +26,7 @@ CHROMIUM = "/usr/bin/chromium"
 ROOT = Path(__file__).resolve().parent.parent
 SCENES = sorted((ROOT / "scenes").glob("*.toml"))
 SETS = ["--set", "image.size=[320, 180]", "--set", "image.samples=4"]
-LARGEST = 2_100_000  # bytes of a module, gzipped; 1,936,222 were measured, and 800,000 are the aim
+LARGEST = 1_750_000  # bytes of a module, gzipped; 1,665,001 were measured, and 1,300,000 are the aim
 POLICY = (
     "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' blob: data:; "
     "connect-src 'self'; worker-src 'self'; base-uri 'self'; form-action 'none'; frame-ancestors 'none'"

@@ -39,8 +39,8 @@ def render(
     ``size``: width and height, pixels. ``samples``: a pixel. ``threads``: ``None`` for all cores;
     the picture has the same bits with any number. ``crop``: ``(x0, y0, x1, y1)``, half-open; the
     picture has the crop's size. ``layers``: names of terms (``"diffuse"``; ``"terms"`` for all), of
-    variables (``"depth"``, ``"normal"``, ...), and ``"lights"``: each light's share, ``light.1`` and
-    so on, and ``light.rest``; found in ``image.layers``. ``progress``:
+    variables (``"depth"``, ``"normal"``, ...), and ``"lights"``: each light's share, ``light.1``
+    and so on, and ``light.rest``; found in ``image.layers``. ``progress``:
     ``True`` shows it, ``False`` does not, ``None`` does in a session that somebody watches when it
     takes a while; a function is called with the share that is done, from 0 to 1. ``cancel``: a
     :class:`phong.Cancel`; when it is used, :class:`phong.Cancelled` is raised. ``overrides``: other
