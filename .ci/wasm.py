@@ -27,7 +27,7 @@ ROOT = Path(__file__).resolve().parent.parent
 # The studio does not draw outlines yet, and says so when a picture with some is saved.
 SCENES = [scene for scene in sorted((ROOT / "scenes").glob("*.toml")) if "\n[outline]" not in scene.read_text()]
 SETS = ["--set", "image.size=[320, 180]", "--set", "image.samples=4"]
-LARGEST = 1_750_000  # bytes of a module, gzipped; 1,665,001 were measured, and 1,300,000 are the aim
+LARGEST = 1_750_000  # bytes of a module, gzipped; 1,683,639 were measured, and 1,300,000 are the aim
 POLICY = (
     "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' blob: data:; "
     "connect-src 'self'; worker-src 'self'; base-uri 'self'; form-action 'none'; frame-ancestors 'none'"
