@@ -52,7 +52,10 @@ fn signal(child: &Child, name: &str) {
 fn is_right(folder: &Given) {
     folder.done("render a.toml --size 80x60 --samples 48 -o alone.png");
     assert_eq!(folder.bytes("b/a.png"), folder.bytes("alone.png"));
-    assert_eq!(fs::read_dir(folder.path("b/by-content")).unwrap().count(), 1);
+    // The temporary file of a process that was killed a moment ago is there until another one writes.
+    let left = fs::read_dir(folder.path("b/by-content")).unwrap().map(|e| e.unwrap().file_name());
+    let left = left.filter(|name| !name.to_string_lossy().starts_with(".phong-"));
+    assert_eq!(left.count(), 1);
 }
 
 #[test]
