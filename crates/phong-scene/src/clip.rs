@@ -25,6 +25,8 @@
 //! | `cap` | `true`, `false` or the name of a material, in quotes | `true` | Whether closed objects look solid where they are cut, in their own material or another; false: one looks into them. |
 //! | `objects` | a list of names, in quotes | all objects | The names of the objects that it cuts, or of the instances they are in. |
 
+use std::collections::BTreeSet;
+
 use glam::DVec3;
 
 use crate::diagnostic::Place;
@@ -48,13 +50,25 @@ impl Clip {
     /// The most of them in a scene.
     pub const MOST: usize = 32;
 
-    /// Whether it cuts the object of this name; within an instance that is `instance 1 / sphere 2`.
-    pub fn cuts(&self, name: &str) -> bool {
-        let is = |own: &String| {
-            let rest = name.strip_prefix(own.as_str());
-            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(" / "))
-        };
-        self.objects.is_empty() || self.objects.iter().any(is)
+    /// The objects that it cuts.
+    pub fn cut_objects(&self) -> CutObjects<'_> {
+        CutObjects { names: self.objects.iter().map(String::as_str).collect() }
+    }
+}
+
+/// The objects that a clip cuts, found by name: there may be very many of both.
+#[derive(Clone, Debug)]
+pub struct CutObjects<'a> {
+    /// None: all are cut.
+    names: BTreeSet<&'a str>,
+}
+
+impl CutObjects<'_> {
+    /// Whether the object of this name is one of them; within an instance that is `instance 1 / sphere 2`, and
+    /// the name of the instance is enough.
+    pub fn has(&self, name: &str) -> bool {
+        let mut ends = name.match_indices(" / ").map(|(end, _)| end).chain([name.len()]);
+        self.names.is_empty() || ends.any(|end| self.names.contains(&name[..end]))
     }
 }
 

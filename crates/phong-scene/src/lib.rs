@@ -45,7 +45,7 @@ pub use camera::{Camera, CameraKind};
 pub use camera_path::{CameraKey, CameraPath, CameraPathReading};
 pub use change::Change;
 pub use check::SoundArrays;
-pub use clip::{Cap, Clip, ClipKind, Keep};
+pub use clip::{Cap, Clip, ClipKind, CutObjects, Keep};
 pub use color::{ColorError, Rgb, srgb_decode, srgb_encode};
 pub use diagnostic::{Diagnostic, Label, Place, SceneError, Severity, Span};
 pub use fog::{Fog, FogDistance, FogKind};

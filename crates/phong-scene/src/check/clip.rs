@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::at;
 use crate::bounds::Bounds;
-use crate::clip::{Cap, Clip, ClipKind, Keep};
+use crate::clip::{Cap, Clip, ClipKind, CutObjects, Keep};
 use crate::diagnostic::Diagnostic;
 use crate::scene::{Object, Scene};
 use crate::shape::Shape;
@@ -51,11 +51,14 @@ pub(super) fn names(scene: &Scene, say: &mut dyn FnMut(Diagnostic)) {
 /// Says which meshes a clip with a cap cuts through that enclose nothing. `bounds` are the boxes of the
 /// objects.
 pub(super) fn open(scene: &Scene, bounds: &[Bounds], say: &mut dyn FnMut(Diagnostic)) {
+    let capped = scene.clips.iter().filter(|clip| clip.cap != Cap::Open);
+    let capped: Vec<_> = capped.map(|clip| (&clip.kind, clip.cut_objects())).collect();
     for (object, bounds) in scene.objects.iter().zip(bounds) {
-        let cuts = |clip: &&Clip| {
-            clip.cap != Cap::Open && clip.cuts(&object.name) && passes_through(&clip.kind, bounds)
+        let is_cut = |(kind, cut): &(&ClipKind, CutObjects<'_>)| {
+            cut.has(&object.name) && passes_through(kind, bounds)
         };
-        if is_open(object) && scene.clips.iter().any(|clip| cuts(&clip)) {
+        // Whether a mesh is open takes a sort of its edges.
+        if capped.iter().any(is_cut) && is_open(object) {
             let message = format!("{} is open: where it is cut one looks into it", object.name);
             let help = "a cap needs a mesh of which every edge is shared by two faces; `cap = false` \
                         says that none is wanted";

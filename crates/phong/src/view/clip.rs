@@ -93,8 +93,9 @@ impl Clipping {
         let clips = &clips[..clips.len().min(Clip::MOST)];
         let cuts: Vec<_> =
             clips.iter().map(|clip| Cut { along: Along::of(&clip.kind), cap: clip.cap }).collect();
+        let cut_objects: Vec<_> = clips.iter().map(Clip::cut_objects).collect();
         let known = |name: &str| {
-            let cut_by = clips.iter().enumerate().filter(|(_, clip)| clip.cuts(name));
+            let cut_by = cut_objects.iter().enumerate().filter(|(_, cut)| cut.has(name));
             cut_by.fold(0, |all, (number, _)| all | 1 << number)
         };
         let of_object: Vec<u32> =

@@ -117,8 +117,9 @@ fn by_hand(view: &View, scene: &Scene, ray: &Ray) -> Option<f64> {
             inside == (keep == Keep::Outside)
         }
     };
-    let cut_away =
-        |p: DVec3, name: &str| scene.clips.iter().any(|clip| clip.cuts(name) && takes(clip, p));
+    let cut_away = |p: DVec3, name: &str| {
+        scene.clips.iter().any(|clip| clip.cut_objects().has(name) && takes(clip, p))
+    };
     let mut kept: Option<f64> = None;
     let mut from = *ray;
     loop {
