@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use phong_scene::{
-    Caps, Cylinders, Export, ExportOptions, Format, Framing, Limits, Memory, Mesh, Object, Points,
-    Scene, Shape, Shared, Side, TexelValues, Texels, Texture, TextureKind, read,
+    Caps, Cylinders, ExportOptions, Format, Framing, Limits, Memory, Mesh, Object, Points, Scene,
+    Shape, Shared, Side, TexelValues, Texels, Texture, TextureKind, read,
 };
 use pyo3::PyResult;
 use serde_json::{Value, json};
@@ -161,11 +161,8 @@ pub(crate) fn pack(state: &State) -> PyResult<Packed> {
     let in_groups: Vec<_> = in_groups.map(&mut take).collect();
     let export =
         scene.export(&ExportOptions { images: false, ..ExportOptions::default() }, "scene.toml");
-    let Export { files, .. } = export.map_err(|error| value_error(error.to_string()))?;
-    let mut text = Vec::new();
-    if let Some(file) = files.first() {
-        file.write(&mut text).map_err(|error| runtime_error(error.to_string()))?;
-    }
+    let export = export.map_err(|error| value_error(error.to_string()))?;
+    let text = export.text().map_err(|error| runtime_error(error.to_string()))?;
     let framing = state.framing.as_ref().map(|framing| {
         let Framing { side, up, eye, look_at, fov, color } = framing;
         let bits = |v: &DVec3| v.to_array().map(f64::to_bits);
@@ -180,7 +177,7 @@ pub(crate) fn pack(state: &State) -> PyResult<Packed> {
     });
     let text = json!({
         "version": 2,
-        "text": String::from_utf8_lossy(&text),
+        "text": text,
         "materials": materials,
         "objects": objects,
         "in_groups": in_groups,

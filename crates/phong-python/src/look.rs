@@ -1,7 +1,7 @@
 //! What a scene looks like as its text says it, and from where it is looked at.
 
 use glam::DVec3;
-use phong_scene::{Diagnostic, Export, ExportOptions, Folder, Image, Scene, Side, closest};
+use phong_scene::{Diagnostic, ExportOptions, Folder, Image, Scene, Side, closest};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString};
 use toml::Table;
@@ -14,12 +14,8 @@ use crate::keys::Text;
 pub(crate) fn tables(scene: Scene) -> PyResult<Table> {
     let export =
         scene.export(&ExportOptions { images: false, ..ExportOptions::default() }, "scene.toml");
-    let Export { files, .. } = export.map_err(|error| value_error(error.to_string()))?;
-    let mut text = Vec::new();
-    if let Some(file) = files.first() {
-        file.write(&mut text).map_err(|error| os_error(error.to_string()))?;
-    }
-    let text = String::from_utf8_lossy(&text);
+    let export = export.map_err(|error| value_error(error.to_string()))?;
+    let text = export.text().map_err(|error| os_error(error.to_string()))?;
     text.parse().map_err(|error| value_error(format!("the scene has no text: {error}")))
 }
 

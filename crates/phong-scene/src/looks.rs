@@ -217,14 +217,9 @@ impl Scene {
         let mut bare = Self { objects: Vec::new(), groups: Vec::new(), ..self.clone() };
         // A clip of objects that are not there would cut everything.
         bare.clips.retain(|clip| clip.objects.is_empty());
-        let export = bare
-            .export(&ExportOptions { images: false, ..ExportOptions::default() }, "scene.toml")?;
-        let mut text = Vec::new();
-        if let Some(file) = export.files.first() {
-            let written = file.write(&mut text);
-            written.map_err(|error| Diagnostic::error(error.to_string(), None))?;
-        }
-        Ok(String::from_utf8_lossy(&text).into_owned())
+        let options = ExportOptions { images: false, ..ExportOptions::default() };
+        let text = bare.export(&options, "scene.toml")?.text();
+        text.map_err(|error| Box::new(Diagnostic::error(error.to_string(), None)))
     }
 
     fn apply(&mut self, recipe: &Recipe) {

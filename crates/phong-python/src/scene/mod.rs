@@ -7,8 +7,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use glam::{DAffine3, DVec3};
 use phong_scene::{
-    Export, ExportOptions, Folder, Format, Framing, Limits, MaterialId, NamedLook, Object, Points,
-    Reading, Scene as SceneText, Shape, closest, read,
+    ExportOptions, Folder, Format, Framing, Limits, MaterialId, NamedLook, Object, Points, Reading,
+    Scene as SceneText, Shape, closest, read,
 };
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyList, PyTuple, PyType};
@@ -363,12 +363,8 @@ impl Scene {
     fn to_toml(&self) -> PyResult<String> {
         let framed = self.state().framed();
         let export = framed.export(&ExportOptions::default(), "scene.toml");
-        let Export { files, .. } = export.map_err(|error| value_error(error.to_string()))?;
-        let mut text = Vec::new();
-        if let Some(file) = files.first() {
-            file.write(&mut text).map_err(|error| os_error(error.to_string()))?;
-        }
-        Ok(String::from_utf8_lossy(&text).into_owned())
+        let export = export.map_err(|error| value_error(error.to_string()))?;
+        export.text().map_err(|error| os_error(error.to_string()))
     }
 
     /// A look by its name: `lecture`, `publication`, `clay`, `flat`, `ink`, `tachyon`, `vmd`, `pymol` or

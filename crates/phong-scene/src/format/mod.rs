@@ -25,6 +25,8 @@ pub(crate) mod toml;
 mod triangles;
 mod xyz;
 
+use std::io;
+
 use self::export::{Account, File, PlyEncoding, Writing};
 use self::input::Input;
 use self::table::{Format, MODELS, Read, endings};
@@ -182,6 +184,20 @@ pub struct Export {
     pub files: Vec<File>,
     /// What became of the scene.
     pub account: Account,
+}
+
+impl Export {
+    /// What the file that was asked for holds, as text.
+    ///
+    /// # Errors
+    /// It is no text, as of binary formats.
+    pub fn text(&self) -> io::Result<String> {
+        let mut text = Vec::new();
+        if let Some(file) = self.files.first() {
+            file.write(&mut text)?;
+        }
+        String::from_utf8(text).map_err(io::Error::other)
+    }
 }
 
 impl Scene {

@@ -1,6 +1,6 @@
 //! The keys of a batch: which pictures are to be made, and how they are called.
 
-use super::{Default, Key, Kind, Table};
+use super::{Default, Key, Kind, Table, VERSION};
 
 /// A batch file as a whole.
 pub(crate) static BATCH: Table = Table {
@@ -8,12 +8,7 @@ pub(crate) static BATCH: Table = Table {
     doc: "A batch file.",
     select: None,
     keys: &[&[
-        Key::new(
-            "version",
-            Kind::Integer(1, 1),
-            Default::Said("1, with a warning"),
-            "Version of this format; 1 is the only one so far.",
-        ),
+        VERSION,
         Key::new(
             "inputs",
             Kind::Files,

@@ -1,6 +1,6 @@
 //! The keys of a camera's way.
 
-use super::{Default, Key, Kind, Table};
+use super::{Default, Key, Kind, Table, VERSION};
 use crate::camera::CameraKind;
 use crate::limits::Range;
 
@@ -10,12 +10,7 @@ pub(crate) static CAMERA_PATH: Table = Table {
     doc: "A way that the camera goes.",
     select: None,
     keys: &[&[
-        Key::new(
-            "version",
-            Kind::Integer(1, 1),
-            Default::Said("1, with a warning"),
-            "Version of this format; 1 is the only one so far.",
-        ),
+        VERSION,
         Key::new(
             "pictures",
             Kind::Integer(1, 1_000_000),

@@ -72,6 +72,14 @@ pub(crate) struct Key {
     pub(crate) field: Field,
 }
 
+/// The first key of every file of ours.
+const VERSION: Key = Key::new(
+    "version",
+    Kind::Integer(1, 1),
+    Default::Said("1, with a warning"),
+    "Version of this format; 1 is the only one so far.",
+);
+
 impl Key {
     /// A key for all kinds of its table.
     const fn new(name: &'static str, kind: Kind, default: Default, doc: &'static str) -> Self {

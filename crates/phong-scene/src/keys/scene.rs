@@ -7,7 +7,7 @@ use super::material::MATERIAL;
 use super::shape::{GROUP, SHAPES};
 use super::sky::SKY;
 use super::texture::TEXTURE;
-use super::{Default, Key, Kind, Table};
+use super::{Default, Key, Kind, Table, VERSION};
 use crate::ambient_occlusion::AmbientOcclusion;
 use crate::clip::{Clip, ClipKind, Keep};
 use crate::fog::{Fog, FogDistance, FogKind};
@@ -23,12 +23,7 @@ pub(crate) static SCENE: Table = Table {
     select: None,
     keys: &[
         &[
-            Key::new(
-                "version",
-                Kind::Integer(1, 1),
-                Default::Said("1, with a warning"),
-                "Version of this format; 1 is the only one so far.",
-            ),
+            VERSION,
             Key::new(
                 "image",
                 Kind::Table(&IMAGE),

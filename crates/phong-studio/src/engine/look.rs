@@ -100,10 +100,7 @@ pub(super) fn text(scene: &Scene) -> Result<String, String> {
     let options = ExportOptions { images: false, ..ExportOptions::default() };
     let export = bare.export(&options, NAME);
     let export = export.map_err(|diagnostic| diagnostic.message.clone())?;
-    let mut text = Vec::new();
-    let file = export.files.first().ok_or("the scene has no text")?;
-    file.write(&mut text).map_err(|error| error.to_string())?;
-    String::from_utf8(text).map_err(|error| error.to_string())
+    export.text().map_err(|error| error.to_string())
 }
 
 /// A small file for each image of a scene, by the name that its text has: nothing is encoded anew at each

@@ -10,10 +10,10 @@ use super::change::Target;
 use super::notes::Notes;
 use super::syntax;
 use super::table::{Values, read_value};
-use super::text::{self, Spot, Text};
+use super::text::{self, Spot};
 use crate::batch::{Batch, BatchReading, ChangeSource, Parameter, ParameterValues, Written};
 use crate::change::Change;
-use crate::diagnostic::{Diagnostic, Place, Span};
+use crate::diagnostic::Diagnostic;
 use crate::keys::{BATCH, FILES, Kind, RANGE};
 use crate::limits::Limits;
 use crate::source::Source;
@@ -36,14 +36,9 @@ const SET_BY_THE_SCRIPT: &[&str] =
 /// );
 /// ```
 pub fn read_batch(path: &str, source: &dyn Source, limits: &Limits) -> BatchReading {
-    let text = match text::load(path, source, limits) {
-        Ok(text) => Arc::new(Text::new(path.into(), text, Vec::new())),
-        Err(message) => {
-            let place = Place { file: path.into(), ..Place::default() };
-            let span = Span { place, ..Span::default() };
-            let error = Diagnostic::error(format!("cannot be read: {message}"), span);
-            return BatchReading { batch: None, diagnostics: vec![error] };
-        }
+    let text = match text::open(path, source, limits) {
+        Ok(text) => text,
+        Err(error) => return BatchReading { batch: None, diagnostics: vec![error] },
     };
     let mut notes = Notes::default();
     let file = notes.add(Arc::clone(&text));
@@ -75,10 +70,7 @@ impl Reader {
     fn batch(&mut self, document: &DeTable<'_>) -> Option<Batch> {
         let head = self.spot(0..0);
         let values = Values::read(&BATCH, document, head, &mut self.notes);
-        if !document.contains_key("version") && !self.notes.lost_something(head) {
-            self.notes.warning(head, "no `version` is given; read as version 1").help =
-                Some("begin the file with `version = 1`".to_owned());
-        }
+        self.notes.miss_version(document, head);
         let table = |name| document.get(name);
         let parameters = table("parameters").map(|value| self.parameters(value));
         let slurm = table("slurm").map(|value| self.slurm(value));

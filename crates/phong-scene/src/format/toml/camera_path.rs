@@ -7,11 +7,10 @@ use toml::de::DeTable;
 use super::notes::Notes;
 use super::syntax;
 use super::table::Values;
-use super::text::{self, Spot, Text};
+use super::text::{self, Spot};
 use crate::camera::{Camera, CameraKind};
 use crate::camera_path::{CameraKey, CameraPath, CameraPathReading};
 use crate::check::settings as judge;
-use crate::diagnostic::{Diagnostic, Place, Span};
 use crate::keys::{CAMERA_KEY, CAMERA_PATH};
 use crate::limits::Limits;
 use crate::source::Source;
@@ -29,14 +28,9 @@ use crate::source::Source;
 /// );
 /// ```
 pub fn read_camera_path(path: &str, source: &dyn Source, limits: &Limits) -> CameraPathReading {
-    let text = match text::load(path, source, limits) {
-        Ok(text) => Arc::new(Text::new(path.into(), text, Vec::new())),
-        Err(message) => {
-            let place = Place { file: path.into(), ..Place::default() };
-            let span = Span { place, ..Span::default() };
-            let error = Diagnostic::error(format!("cannot be read: {message}"), span);
-            return CameraPathReading { path: None, diagnostics: vec![error] };
-        }
+    let text = match text::open(path, source, limits) {
+        Ok(text) => text,
+        Err(error) => return CameraPathReading { path: None, diagnostics: vec![error] },
     };
     let mut notes = Notes::default();
     let file = notes.add(Arc::clone(&text));
@@ -50,10 +44,7 @@ pub fn read_camera_path(path: &str, source: &dyn Source, limits: &Limits) -> Cam
 fn whole(document: &DeTable<'_>, file: u32, notes: &mut Notes) -> Option<CameraPath> {
     let head = Spot::new(file, 0..0);
     let values = Values::read(&CAMERA_PATH, document, head, notes);
-    if !document.contains_key("version") && !notes.lost_something(head) {
-        notes.warning(head, "no `version` is given; read as version 1").help =
-            Some("begin the file with `version = 1`".to_owned());
-    }
+    notes.miss_version(document, head);
     let list = document.get("key")?;
     let at = Spot::new(file, list.span());
     let Some(tables) = list.get_ref().as_array() else {

@@ -30,7 +30,6 @@ mod value;
 pub(crate) mod write;
 
 use crate::change::Change;
-use crate::diagnostic::{Diagnostic, Place, Span};
 use crate::format::input::{Input, Models};
 use crate::scene::Reading;
 
@@ -46,10 +45,7 @@ pub(crate) fn read(input: &Input<'_>, models: &'static Models) -> Reading {
             Reading { scene, bare: false, diagnostics }
         }
         Err(message) => {
-            let place = Place { file: path.into(), ..Place::default() };
-            let span = Span { place, ..Span::default() };
-            let message = format!("cannot be read: {message}");
-            Reading { diagnostics: vec![Diagnostic::error(message, span)], ..Reading::default() }
+            Reading { diagnostics: vec![text::unreadable(path, &message)], ..Reading::default() }
         }
     }
 }

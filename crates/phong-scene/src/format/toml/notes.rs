@@ -3,6 +3,8 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use toml::de::DeTable;
+
 use super::text::{Spot, Text};
 use crate::check::fault::{Fault, Faults};
 use crate::diagnostic::{Diagnostic, Place, Severity, Span};
@@ -62,6 +64,14 @@ impl Notes {
         }
         let diagnostic = Diagnostic::warning(message, self.span(spot));
         self.say(spot, diagnostic)
+    }
+
+    /// Says so where a file does not tell its version, unless something of its head was lost.
+    pub(super) fn miss_version(&mut self, document: &DeTable<'_>, head: Spot) {
+        if !document.contains_key("version") && !self.lost_something(head) {
+            self.warning(head, "no `version` is given; read as version 1").help =
+                Some("begin the file with `version = 1`".to_owned());
+        }
     }
 
     /// Says this where `spot` is in the order of the text.

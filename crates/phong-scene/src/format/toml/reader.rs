@@ -226,14 +226,8 @@ impl<'a> Reader<'a> {
     }
 
     fn say_missing(&mut self, document: &DeTable<'_>, head: Spot) {
-        if self.notes.lost_something(head) {
-            return;
-        }
-        if !document.contains_key("version") {
-            self.notes.warning(head, "no `version` is given; read as version 1").help =
-                Some("begin the file with `version = 1`".to_owned());
-        }
-        if !document.contains_key("camera") {
+        self.notes.miss_version(document, head);
+        if !document.contains_key("camera") && !self.notes.lost_something(head) {
             self.notes.error(head, "the scene has no `[camera]`").help =
                 Some("`[camera]` needs at least `eye` and `look_at`".to_owned());
         }

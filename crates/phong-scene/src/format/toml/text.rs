@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::diagnostic::{Place, Span};
+use crate::diagnostic::{Diagnostic, Place, Span};
 use crate::limits::Limits;
 use crate::source::{Source, trouble};
 
@@ -115,6 +115,22 @@ fn cut_around(line: &str, at: usize) -> (usize, &str) {
     let rest = &line[before..];
     let end = rest.char_indices().nth(EXCERPT).map_or(rest.len(), |(i, _)| i);
     (before, &rest[..end])
+}
+
+/// Reads a file that is read by itself; else what is to be said.
+pub(super) fn open(
+    path: &str,
+    source: &dyn Source,
+    limits: &Limits,
+) -> Result<Arc<Text>, Diagnostic> {
+    let text = load(path, source, limits).map_err(|message| unreadable(path, &message))?;
+    Ok(Arc::new(Text::new(path.into(), text, Vec::new())))
+}
+
+/// What is said of a file that cannot be read, for this reason.
+pub(super) fn unreadable(path: &str, why: &str) -> Diagnostic {
+    let place = Place { file: path.into(), ..Place::default() };
+    Diagnostic::error(format!("cannot be read: {why}"), Span { place, ..Span::default() })
 }
 
 /// Reads a whole text file.
