@@ -129,6 +129,20 @@ pub trait Blob: Send + Sync {
         }
         Ok(done)
     }
+
+    /// Reads all of it, or its first `most` bytes.
+    ///
+    /// # Errors
+    /// Whatever the system says; [`OutOfMemory`](io::ErrorKind::OutOfMemory).
+    fn read_whole(&self, most: u64) -> io::Result<Vec<u8>> {
+        let len = self.len().min(most) as usize;
+        let mut bytes = Vec::new();
+        bytes.try_reserve_exact(len)?;
+        bytes.resize(len, 0);
+        let read = self.read_full(&mut bytes, 0)?;
+        bytes.truncate(read);
+        Ok(bytes)
+    }
 }
 
 /// The file system, with paths as written. Only files are opened: a pipe may wait for its writer

@@ -20,9 +20,7 @@ pub(crate) fn load(
     if blob.len() > most {
         return Err(format!("it is larger than {most} bytes"));
     }
-    let mut bytes = vec![0; blob.len() as usize];
-    let read = blob.read_full(&mut bytes, 0).map_err(|error| trouble(&error))?;
-    bytes.truncate(read);
+    let bytes = blob.read_whole(most).map_err(|error| trouble(&error))?;
     parse(&bytes, limits).map(Arc::new)
 }
 

@@ -315,10 +315,7 @@ pub(super) fn load(uri: &At<'_>, path: &str, source: &dyn Source, length: u64) -
     let file = if name.starts_with('/') { name.into_owned() } else { format!("{folder}{name}") };
     let cannot = |error| uri.fault(format!("`{file}` cannot be read: {}", trouble(&error)));
     let blob = source.open(&file).map_err(cannot)?;
-    let mut bytes = vec![0; blob.len().min(length) as usize];
-    let read = blob.read_full(&mut bytes, 0).map_err(cannot)?;
-    bytes.truncate(read);
-    Ok(bytes)
+    blob.read_whole(length).map_err(cannot)
 }
 
 /// Text with `%20` and the like as what they stand for.

@@ -108,10 +108,7 @@ fn read_whole(blob: &dyn Blob, limits: &Limits) -> io::Result<Vec<u8>> {
     if blob.len() > limits.text_bytes {
         return Err(too_long(limits.text_bytes));
     }
-    let mut bytes = vec![0; blob.len() as usize];
-    let count = blob.read_full(&mut bytes, 0)?;
-    bytes.truncate(count);
-    Ok(bytes)
+    blob.read_whole(limits.text_bytes)
 }
 
 /// The rest of a blob.

@@ -1,5 +1,6 @@
 //! A text file with its lines, and places in it.
 
+use std::io::ErrorKind;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -154,11 +155,10 @@ pub(super) fn load(path: &str, source: &dyn Source, limits: &Limits) -> Result<S
     if needed > limits.bytes {
         return Err(too_large());
     }
-    let mut bytes = Vec::new();
-    bytes.try_reserve_exact(len as usize).map_err(|_| too_large())?;
-    bytes.resize(len as usize, 0);
-    let read = blob.read_full(&mut bytes, 0).map_err(|e| trouble(&e))?;
-    bytes.truncate(read);
+    let bytes = blob.read_whole(most).map_err(|error| match error.kind() {
+        ErrorKind::OutOfMemory => too_large(),
+        _ => trouble(&error),
+    })?;
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
         return Err("it is UTF-16; save it as UTF-8".to_owned());
     }
