@@ -38,7 +38,7 @@ const SET_BY_THE_SCRIPT: &[&str] =
 pub fn read_batch(path: &str, source: &dyn Source, limits: &Limits) -> BatchReading {
     let text = match text::open(path, source, limits) {
         Ok(text) => text,
-        Err(error) => return BatchReading { batch: None, diagnostics: vec![error] },
+        Err(error) => return BatchReading { batch: None, diagnostics: vec![*error] },
     };
     let mut notes = Notes::default();
     let file = notes.add(Arc::clone(&text));

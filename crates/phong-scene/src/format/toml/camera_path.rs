@@ -30,7 +30,7 @@ use crate::source::Source;
 pub fn read_camera_path(path: &str, source: &dyn Source, limits: &Limits) -> CameraPathReading {
     let text = match text::open(path, source, limits) {
         Ok(text) => text,
-        Err(error) => return CameraPathReading { path: None, diagnostics: vec![error] },
+        Err(error) => return CameraPathReading { path: None, diagnostics: vec![*error] },
     };
     let mut notes = Notes::default();
     let file = notes.add(Arc::clone(&text));

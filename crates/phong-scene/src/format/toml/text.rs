@@ -123,8 +123,8 @@ pub(super) fn open(
     path: &str,
     source: &dyn Source,
     limits: &Limits,
-) -> Result<Arc<Text>, Diagnostic> {
-    let text = load(path, source, limits).map_err(|message| unreadable(path, &message))?;
+) -> Result<Arc<Text>, Box<Diagnostic>> {
+    let text = load(path, source, limits).map_err(|why| Box::new(unreadable(path, &why)))?;
     Ok(Arc::new(Text::new(path.into(), text, Vec::new())))
 }
 
