@@ -2,9 +2,8 @@
 """Holds the renderer as WebAssembly against the program: `python3 .ci/wasm.py PHONG FOLDER [BROWSER...]`.
 
 PHONG is the program, with `wasm` beside it as `bash .ci/wasm` makes it; into FOLDER go pictures and
-screenshots. Every scene of the gallery but those with outlines is drawn at 320 × 180 in Node, with
-vector instructions and without, and by two workers of the page of static files in Debian's Chromium. The EXR and PNG files
-have to be those of the program, byte for byte, and a pixel explained the same. The page is served
+screenshots. Every scene of the gallery is drawn at 320 × 180 in Node, with vector instructions and without,
+and by two workers of the page of static files in Debian's Chromium. The EXR and PNG files have to be those of the program, byte for byte, and a pixel explained the same. The page is served
 from a folder below the root with the strictest policy it can work under.
 """
 
@@ -24,8 +23,7 @@ from playwright.sync_api import sync_playwright
 PHONG, FOLDER = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 CHROMIUM = "/usr/bin/chromium"
 ROOT = Path(__file__).resolve().parent.parent
-# The studio does not draw outlines yet, and says so when a picture with some is saved.
-SCENES = [scene for scene in sorted((ROOT / "scenes").glob("*.toml")) if "\n[outline]" not in scene.read_text()]
+SCENES = sorted((ROOT / "scenes").glob("*.toml"))
 SETS = ["--set", "image.size=[320, 180]", "--set", "image.samples=4"]
 LARGEST = 1_750_000  # bytes of a module, gzipped; 1,683,639 were measured, and 1,300,000 are the aim
 POLICY = (

@@ -7,9 +7,9 @@ use phong::film::{Film, LayerKind, Window};
 use phong::finish::{Finishing, finish};
 use phong::image::{self, Bits, Content, Encoding, Format};
 use phong::part::{self, Settings};
-use phong::render::{Lines, Passes, RenderOptions};
+use phong::render::{Passes, RenderOptions};
 use phong::terms::TermSet;
-use phong_scene::{Diagnostic, Image, Scene};
+use phong_scene::{Diagnostic, Image};
 
 use crate::args::{self, EncodingArgs, ImageArgs, OutputFormat, RenderArgs, ViewArgs};
 use crate::failure::Failure;
@@ -189,9 +189,7 @@ impl Plan {
         let options = options.with_terms(terms).with_aovs(&self.aovs).with_passes(passes);
         let lights = if self.lights { input.scene.lights.len() } else { 0 };
         let options = options.with_lights(u32::try_from(lights).unwrap_or(u32::MAX));
-        let Scene { outline, image, .. } = &input.scene;
-        let lines = outline.as_ref().map(|outline| Lines::of(outline, image));
-        let options = options.with_lines(lines);
+        let options = options.with_finishing_of(&input.scene);
         Ok(match self.share {
             Some((index, count)) => options.with_share(index, count)?,
             None => options,

@@ -7,7 +7,7 @@ use phong::aov::Aov;
 use phong::film::{Film, Window};
 use phong::image::Encoding;
 use phong::part::Settings;
-use phong::render::{Cancel, Event, Lines, Progress, RenderOptions, render as render_film};
+use phong::render::{Cancel, Event, Progress, RenderOptions, render as render_film};
 use phong::terms::{Term, TermSet};
 use phong::view::ViewError;
 use phong_scene::{Diagnostic, closest};
@@ -218,8 +218,7 @@ fn work_on(
     if strict && !warnings.iter().all(Diagnostic::is_note) {
         return Err(ViewError::Look(warnings));
     }
-    let outline = ready.scene.outline.as_ref();
-    let options = options.with_lines(outline.map(|outline| Lines::of(outline, &ready.scene.image)));
+    let options = options.with_finishing_of(&ready.scene);
     let built = began.elapsed().as_secs_f64();
     let listen = |event: Event<'_>| {
         if let Event::Progress(now) = event {

@@ -28,8 +28,10 @@ globalThis.hear = (reply) => {
   else postMessage(reply);
 };
 globalThis.take = (bytes) => {
-  const { buffer } = bytes.slice();
-  postMessage(buffer, [buffer]);
+  if (bytes.length > 0) {
+    const { buffer } = bytes.slice();
+    postMessage(buffer, [buffer]);
+  }
   return performance.now() < deadline;
 };
 globalThis.failed = (why) => (trouble = why);

@@ -44,6 +44,7 @@ class Team {
     this.open = null; // the newest scene that was asked for
     this.parts = null; // who waits for shares
     this.exports = Promise.resolve(); // one export after another
+    this.changes = 0; // how often something was asked for that changes the picture
     this.ready = prepare().then(
       (kit) => {
         this.kit = kit;
@@ -71,6 +72,7 @@ class Team {
     this.ready.then(() => {
       if (!this.kit) return;
       if (request.do === "open") this.open = request;
+      if (!ASKED.has(request.do)) this.changes += 1;
       if (request.do === "export") this.exports = this.exports.then(() => this.exported(request));
       else this.tell(request, ASKED.has(request.do) ? 1 : this.count);
     });
@@ -85,12 +87,15 @@ class Team {
     for (const worker of this.workers.slice(0, many)) worker.postMessage(JSON.stringify(request));
   }
 
-  // The first engine is given the shares of the others, and then asked.
+  // The first engine is given the shares of the others, and then asked; unless another picture is under
+  // way by then, if it is asked of one picture alone.
   async exported(request) {
     const others = this.workers.slice(1);
+    const before = this.changes;
     const parts = new Promise((resolve) => (this.parts = { all: [], resolve }));
     others.forEach((worker) => worker.postMessage({ part: true }));
     const all = others.length > 0 ? await parts : [];
+    if (request.do === "finish" && before !== this.changes) return;
     this.workers[0].postMessage({ join: all.filter((part) => part) });
     this.tell(request, 1);
   }
@@ -110,6 +115,7 @@ class Team {
     if (reply.is === "look") {
       this.again = false;
       this.picture = reply.picture;
+      this.finished = reply.finished;
       this.begun = false;
       this.passed.clear();
       this.early = this.early.filter((one) => one.picture >= reply.picture);
@@ -140,13 +146,22 @@ class Team {
     const passed = 1 + (this.passed.get(one.pass) ?? 0);
     this.passed.set(one.pass, passed);
     if (passed < this.count) return;
+    const last = one.pass + 1 === one.passes;
+    if (last && this.finished && passed === this.count && this.count > 1) {
+      // What is drawn onto the whole is drawn by the first engine, which then says this pass once more.
+      const request = { do: "finish", picture: one.picture };
+      this.exports = this.exports.then(() => this.exported(request));
+      return;
+    }
     this.hear(one);
-    if (one.pass + 1 === one.passes) keep();
+    if (last) keep();
   }
 
   // An engine has come to a bad end: all begin anew with the scene that was opened last.
   restart(why) {
     this.workers.forEach((worker) => worker.terminate());
+    this.changes += 1;
+    this.parts?.resolve([]); // nobody gives a share any more
     this.hear({ is: "error", message: words.failed + why });
     if (this.again) return; // twice in a row: it is the scene
     this.again = true;

@@ -18,5 +18,6 @@ pub(crate) fn say(message: Message) -> bool {
             true
         }
         Message::Frame(bytes) => take(&bytes),
+        Message::Nothing => take(&[]),
     }
 }

@@ -10,7 +10,7 @@ use phong::film::{Film, LayerKind, Window};
 use phong::finish::{Finishing, finish};
 use phong::image::{self, Bits, Content, Encoding, Format, Picture};
 use phong::part::Settings;
-use phong::render::{Cancel, Lines, RenderOptions, render};
+use phong::render::{Cancel, RenderOptions, render};
 use phong::view::View;
 use phong_scene::{Folder, Limits};
 
@@ -75,8 +75,7 @@ fn drawn(path: &Path) -> Vec<u8> {
     // Warnings are welcome: a lamp within a ball is what one of the scenes is about.
     let scene = reading.scene.unwrap_or_else(|| panic!("{:#?}", reading.diagnostics));
     let options = RenderOptions::of(&scene.image).expect("the scene has been checked");
-    let outline = scene.outline.as_ref();
-    let options = options.with_lines(outline.map(|outline| Lines::of(outline, &scene.image)));
+    let options = options.with_finishing_of(&scene);
     let compiled = View::of(&scene).expect("compiles");
     let film = render(&compiled, &options, &|_| {}, &Cancel::new()).film;
     let settings = Settings::of(&scene, &options, Encoding::default());

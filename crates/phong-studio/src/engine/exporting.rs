@@ -5,7 +5,7 @@ use std::io::Cursor;
 use phong::film::LayerKind;
 use phong::finish::{Finishing, finish};
 use phong::image::{Content, Encoding, Format, write};
-use phong::part::fingerprint;
+use phong::part::Settings;
 use phong::render::{Cancel, render};
 use phong::terms::TermSet;
 use phong_lab::tell::html;
@@ -37,7 +37,8 @@ fn explained(title: &str, painting: &Painting) -> Result<String, String> {
     }
     let samples = u64::from(painting.options().samples()).min(MOST_RAYS / pixels).max(1) as u32;
     let options = painting.options().clone().with_samples(samples);
-    let options = options.map_err(|error| error.to_string())?.with_terms(TermSet::NONE);
+    let options =
+        options.map_err(|error| error.to_string())?.with_terms(TermSet::NONE).with_lines(None);
     let cancel = Cancel::new();
     let film = render(painting.view(), &options, &|_| {}, &cancel).film;
     let mut png = Cursor::new(Vec::new());
@@ -74,14 +75,13 @@ pub(super) fn file(
         FileKind::Png => (Format::Png, Content::Layer(LayerKind::Picture), "png"),
         FileKind::Exr => (Format::Exr, Content::Film, "exr"),
     };
-    let film = painting.and_then(Painting::finished).ok_or("the picture is not finished yet")?;
+    let whole = painting.and_then(|painting| Some((painting, painting.finished()?)));
+    let (painting, film) = whole.ok_or("the picture is not finished yet")?;
     let scene = opened.scene()?;
-    if scene.outline.is_some() && matches!(format, Format::Png) {
-        return Err("the studio does not draw outlines yet: `phong render` does".to_owned());
-    }
-    let finishing = Finishing::default().of_scene(fingerprint(&scene));
+    let encoding = Encoding::default();
+    let finishing = Settings::of(&scene, painting.options(), encoding).finishing();
     let mut out = Cursor::new(Vec::new());
-    write(&finish(film, &finishing), content, format, &Encoding::default(), &mut out)
+    write(&finish(film, &finishing), content, format, &encoding, &mut out)
         .map_err(|error| error.to_string())?;
     Ok(Exported { name: format!("{stem}.{ending}"), bytes: out.into_inner() })
 }

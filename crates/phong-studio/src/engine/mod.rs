@@ -5,6 +5,7 @@
 //! changes the picture takes the place of the one under way.
 
 mod exporting;
+mod finishing;
 mod handles;
 mod hands;
 mod lines;
@@ -159,6 +160,10 @@ impl Engine {
             Request::Resume => {
                 self.stopped = false;
                 self.planted = None;
+                Ok(())
+            }
+            Request::Finish { picture } => {
+                self.finish(picture, emit);
                 Ok(())
             }
             Request::Export { format } => self.export(format, emit),
@@ -337,7 +342,7 @@ impl Engine {
         let shown = self.opened.as_ref().ok_or(NOTHING)?.shown()?;
         let picture = self.picture.wrapping_add(1);
         let (bytes, share, view) = (self.bounds.bytes, self.share, shown.view.clone());
-        let painting = Painting::new(picture, view, &shown.image, self.off, bytes, share)?;
+        let painting = Painting::new(picture, view, &shown.scene, self.off, bytes, share)?;
         Ok((picture, painting, shown))
     }
 
@@ -348,13 +353,14 @@ impl Engine {
         self.picture = picture;
         self.stopped = false;
         self.planted = None;
+        let finished = painting.draws();
         self.painting = Some(painting);
         say(
             emit,
             &Reply::Look {
                 picture,
-                size: shown.image.size,
-                samples: shown.image.samples,
+                size: shown.scene.image.size,
+                samples: shown.scene.image.samples,
                 values: shown.values,
                 wells: shown.wells,
                 set: opened.set().clone(),
@@ -362,6 +368,7 @@ impl Engine {
                 handles: shown.handles,
                 terms: shown.terms.iter().map(Term::name).collect(),
                 off: self.off.iter().map(Term::name).collect(),
+                finished,
             },
         );
         Ok(())
@@ -418,6 +425,13 @@ impl Engine {
         let told = phong::explain::explain(&view, &options, pixel);
         let told = told.map_err(|outside| outside.to_string())?;
         Ok((told, view, painting.number()))
+    }
+
+    fn finish(&self, picture: u32, emit: Emit<'_>) {
+        let asked = self.painting.as_ref().filter(|painting| painting.number() == picture);
+        if let Some(painting) = asked {
+            painting.say_finished(self.pixels, emit);
+        }
     }
 
     fn export(&self, format: crate::protocol::FileKind, emit: Emit<'_>) -> Result<(), String> {

@@ -6,8 +6,7 @@ use std::sync::Arc;
 use phong::geometry::{Geometry, GeometryOptions};
 use phong::look::Look;
 use phong::scene::{
-    Blob, Change, Diagnostic, Format, Image, Memory, Reading, Scene, Shape, Source, read_changed,
-    trouble,
+    Blob, Change, Diagnostic, Format, Memory, Reading, Scene, Shape, Source, read_changed, trouble,
 };
 use phong::terms::TermSet;
 use phong::view::View;
@@ -56,7 +55,8 @@ pub(super) struct Before {
 #[derive(Debug)]
 pub(super) struct Shown {
     pub(super) view: View,
-    pub(super) image: Image,
+    /// The scene, with all that is laid over it.
+    pub(super) scene: Scene,
     /// All but the objects, by the keys of the text.
     pub(super) values: Value,
     /// Its colours, as `#rrggbb`.
@@ -163,7 +163,7 @@ impl Opened {
             let spot = self.spots(&self.scene()?)?.into_iter().find(|spot| spot.path == path);
             let spot = spot.ok_or_else(|| format!("there is no handle `{path}`"))?;
             let camera = shown.view.camera().clone();
-            self.grab = Some(Grab::new(spot, from, camera, shown.image.size));
+            self.grab = Some(Grab::new(spot, from, camera, shown.scene.image.size));
         }
         let values = self.grab.as_ref().map(|grab| grab.dragged(to)).transpose()?;
         self.lay(values.unwrap_or_default(), files)
@@ -247,7 +247,7 @@ impl Opened {
         let size = whole.image.size;
         let handles = spots.iter().filter_map(|spot| spot.seen(view.camera(), size)).collect();
         let terms = TermSet::of_scene(&whole);
-        Ok(Shown { view, image: whole.image, values, wells, handles, terms })
+        Ok(Shown { view, scene: whole, values, wells, handles, terms })
     }
 
     /// What a picture of it would show with more laid over it.

@@ -1,13 +1,13 @@
 //! A picture under way: first at an eighth of its size, then all of it in 1, 2, 4, … samples a pixel.
 
-use std::borrow::Cow;
-
-use phong::film::Film;
+use phong::film::{Film, Window};
+use phong::finish::Finishing;
 use phong::render::{Cancel, Event, Passes, RenderOptions, Rendering, render};
-use phong::scene::Image;
-use phong::terms::{Term, TermSet};
+use phong::scene::Scene;
+use phong::terms::TermSet;
 use phong::view::View;
 
+use super::finishing::{self, Sent};
 use super::{Emit, say};
 use crate::protocol::{Message, PixelKind, Reply, TileFrame};
 
@@ -24,6 +24,8 @@ pub(super) struct Painting {
     preview: Option<RenderOptions>,
     /// The terms that are left out of what is shown.
     off: TermSet,
+    /// Whether something is drawn onto the picture when a pass is whole.
+    draws: bool,
     /// What there is so far; `None`: nothing.
     film: Option<Film>,
     done: bool,
@@ -34,7 +36,7 @@ impl Painting {
     pub(super) fn new(
         number: u32,
         view: View,
-        image: &Image,
+        scene: &Scene,
         off: TermSet,
         most: u64,
         share: Option<(u32, u32)>,
@@ -42,8 +44,11 @@ impl Painting {
         let said = |error: phong::render::OptionsError| error.to_string();
         // Terms are kept apart only where one of them is left out.
         let terms = if off == TermSet::NONE { TermSet::NONE } else { TermSet::ALL };
-        let whole = RenderOptions::of(image).map_err(said)?.with_terms(terms);
-        let mut options = whole.clone().with_passes(Passes::Doubling);
+        let image = &scene.image;
+        let bare = RenderOptions::of(image).map_err(said)?.with_terms(terms);
+        let whole = bare.clone().with_finishing_of(scene);
+        let draws = Finishing::of(&whole).draws();
+        let mut options = whole.with_passes(Passes::Doubling);
         if options.film_bytes() > most {
             options = options.with_passes(Passes::One);
         }
@@ -56,13 +61,13 @@ impl Painting {
             ));
         }
         let small = image.size.map(|side| side.div_ceil(u32::from(STEP)));
-        let preview = whole.with_size(small).map_err(said)?;
-        let mut preview = Some(preview.with_samples(1).map_err(said)?);
+        let preview = bare.with_size(small).map_err(said)?.with_samples(1).map_err(said)?;
+        let mut preview = Some(finishing::of_first_pass(preview, scene, STEP));
         if let Some((index, count)) = share {
             options = options.with_share(index, count).map_err(said)?;
             preview = preview.filter(|_| index == 0);
         }
-        Ok(Self { number, view, options, preview, off, film: None, done: false })
+        Ok(Self { number, view, options, preview, off, draws, film: None, done: false })
     }
 
     pub(super) fn number(&self) -> u32 {
@@ -75,6 +80,11 @@ impl Painting {
 
     pub(super) fn options(&self) -> &RenderOptions {
         &self.options
+    }
+
+    /// Whether something is drawn onto the picture when a pass is whole.
+    pub(super) fn draws(&self) -> bool {
+        self.draws
     }
 
     pub(super) fn is_done(&self) -> bool {
@@ -95,6 +105,21 @@ impl Painting {
         self.film.as_ref().filter(|film| self.done && film.is_complete())
     }
 
+    /// The finished picture as one tile, and its last pass; nothing if it is not all there.
+    pub(super) fn say_finished(&self, pixels: PixelKind, emit: Emit<'_>) {
+        let Some(film) = self.finished() else { return };
+        let (picture, samples) = (self.number, self.options.samples());
+        let passes = self.passes();
+        let sent = Sent { picture, pass: passes as u16 - 1, step: 1, pixels };
+        emit(Message::Frame(finishing::whole(film, &self.options, self.off, sent)));
+        say(emit, &Reply::Pass { picture, pass: passes - 1, passes, samples });
+    }
+
+    /// How many passes there are, with the first.
+    fn passes(&self) -> u32 {
+        1 + self.options.passes().of(self.options.samples()).len() as u32
+    }
+
     /// Draws on.
     pub(super) fn advance(
         &mut self,
@@ -102,42 +127,42 @@ impl Painting {
         cancel: &Cancel,
         emit: Emit<'_>,
     ) -> Result<(), String> {
+        let passes = self.passes();
         let Self { number, view, options, off, .. } = self;
         let (picture, off) = (*number, *off);
-        let passes = 1 + options.passes().of(options.samples()).len() as u32;
-        let tile = |event: Event<'_>, step, first: u32| match event {
-            Event::Tile { pass, window, values, .. } => {
-                let [colors, alphas, terms @ ..] = values else { return true };
-                let colors = &*without(colors, terms, off);
-                let frame = TileFrame {
-                    picture,
-                    pass: (pass + first) as u16,
-                    step,
-                    x: window.x0,
-                    y: window.y0,
-                    width: window.width(),
-                    height: window.height(),
-                    colors,
-                    alphas,
-                };
-                emit(Message::Frame(frame.bytes(pixels)))
-            }
-            Event::Pass { pass, samples, .. } => {
-                let samples = if first == 0 { 0 } else { samples };
-                say(emit, &Reply::Pass { picture, pass: pass + first, passes, samples });
-                true
-            }
-            Event::Progress(_) => true,
+        // What is drawn onto a picture needs all of it. Of a share, who puts it to the others has that.
+        let draws = self.draws && options.share().is_none();
+        let whole = |film: &Film, options: &RenderOptions, pass: u32, step| {
+            let sent = Sent { picture, pass: pass as u16, step, pixels };
+            emit(Message::Frame(finishing::whole(film, options, off, sent)));
+        };
+        let tile = |pass: u32, window: Window, values: &[Vec<f32>]| {
+            let [colors, alphas, terms @ ..] = values else { return true };
+            let sum = (off != TermSet::NONE).then(|| {
+                let terms: Vec<&[f32]> = terms.iter().map(|values| &**values).collect();
+                finishing::without(&terms, off, colors.len())
+            });
+            let frame = TileFrame {
+                picture,
+                pass: pass as u16 + 1,
+                step: 1,
+                x: window.x0,
+                y: window.y0,
+                width: window.width(),
+                height: window.height(),
+                colors: sum.as_deref().unwrap_or(colors),
+                alphas,
+            };
+            emit(Message::Frame(frame.bytes(pixels)))
         };
         if let Some(preview) = &self.preview {
             // Small, and whole or not at all: it is what is seen while something is dragged.
-            let listen = |event: Event<'_>| {
-                tile(event, STEP, 0);
-            };
-            if !render(view, preview, &listen, cancel).complete {
-                return Ok(());
+            let drawn = render(view, preview, &|_| {}, cancel);
+            if drawn.complete {
+                whole(&drawn.film, preview, 0, STEP);
+                say(emit, &Reply::Pass { picture, pass: 0, passes, samples: 0 });
+                self.preview = None;
             }
-            self.preview = None;
             return Ok(());
         }
         let rendering = match self.film.take() {
@@ -152,7 +177,20 @@ impl Painting {
             }
         }
         let listen = |event: Event<'_>| {
-            if !tile(event, 1, 1) {
+            let goes_on = match event {
+                // Nothing that was drawn onto the pass before goes away until this one is whole.
+                Event::Tile { pass, .. } if draws && pass > 0 => emit(Message::Nothing),
+                Event::Tile { pass, window, values, .. } => tile(pass, window, values),
+                Event::Pass { pass, samples, .. } => {
+                    if draws {
+                        whole(&rendering.film(), options, pass + 1, 1);
+                    }
+                    say(emit, &Reply::Pass { picture, pass: pass + 1, passes, samples });
+                    true
+                }
+                Event::Progress(_) => true,
+            };
+            if !goes_on {
                 cancel.cancel();
             }
         };
@@ -162,16 +200,4 @@ impl Painting {
         self.film = Some(outcome.film);
         Ok(())
     }
-}
-
-/// The sum of the terms but for those that are left out; `terms` are all, or none are kept apart.
-fn without<'a>(colors: &'a [f32], terms: &[Vec<f32>], off: TermSet) -> Cow<'a, [f32]> {
-    if off == TermSet::NONE {
-        return Cow::Borrowed(colors);
-    }
-    let mut sum = vec![0.0; colors.len()];
-    for (_, values) in Term::ALL.iter().zip(terms).filter(|(term, _)| !off.has(**term)) {
-        sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
-    }
-    Cow::Owned(sum)
 }

@@ -21,9 +21,9 @@ impl Engine {
     /// Draws the picture with a mistake in it, small enough that all of them can be tried.
     pub(super) fn mistake(&mut self, seed: u64, emit: Emit<'_>) -> Result<(), String> {
         let shown = self.opened.as_ref().ok_or(NOTHING)?.shown()?;
-        let size = small(shown.image.size);
+        let size = small(shown.scene.image.size);
         self.changed(emit, |opened, files| {
-            if size == shown.image.size {
+            if size == shown.scene.image.size {
                 return Ok(());
             }
             opened.lay([("image.size".to_owned(), json!(size))].into_iter().collect(), files)

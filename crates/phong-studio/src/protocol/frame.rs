@@ -2,6 +2,38 @@
 
 use super::PixelKind;
 
+/// What stands before the pixels of a part of a picture.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Head {
+    pub(crate) picture: u32,
+    pub(crate) pass: u16,
+    pub(crate) step: u8,
+    pub(crate) x: u32,
+    pub(crate) y: u32,
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+}
+
+impl Head {
+    /// As it is sent: one byte for the kind (1 sRGB, 2 linear), one for the step, two for the pass, then
+    /// the picture, x, y, width and height in four bytes each, least significant byte first. There is room
+    /// for the pixels behind it.
+    pub(crate) fn bytes(&self, kind: PixelKind) -> Vec<u8> {
+        let (code, each) = match kind {
+            PixelKind::Srgb8 => (1, 4),
+            PixelKind::Linear => (2, 16),
+        };
+        let pixels = self.width as usize * self.height as usize;
+        let mut out = Vec::with_capacity(HEADER + each * pixels);
+        out.extend([code, self.step]);
+        out.extend(self.pass.to_le_bytes());
+        for number in [self.picture, self.x, self.y, self.width, self.height] {
+            out.extend(number.to_le_bytes());
+        }
+        out
+    }
+}
+
 /// Pixels of a part of a picture.
 #[derive(Clone, Copy, Debug)]
 pub struct TileFrame<'a> {
@@ -29,22 +61,12 @@ pub struct TileFrame<'a> {
 pub const HEADER: usize = 24;
 
 impl TileFrame<'_> {
-    /// As it is sent: one byte for the kind (1 sRGB, 2 linear), one for the step, two for the pass, then
-    /// the picture, x, y, width and height in four bytes each, and the pixels; least significant byte
-    /// first.
+    /// As it is sent: [`HEADER`] bytes, and the pixels.
     #[must_use]
     pub fn bytes(&self, kind: PixelKind) -> Vec<u8> {
         let pixels = self.colors.chunks_exact(3).zip(self.alphas);
-        let (code, each) = match kind {
-            PixelKind::Srgb8 => (1, 4),
-            PixelKind::Linear => (2, 16),
-        };
-        let mut out = Vec::with_capacity(HEADER + each * self.alphas.len());
-        out.extend([code, self.step]);
-        out.extend(self.pass.to_le_bytes());
-        for number in [self.picture, self.x, self.y, self.width, self.height] {
-            out.extend(number.to_le_bytes());
-        }
+        let &Self { picture, pass, step, x, y, width, height, .. } = self;
+        let mut out = Head { picture, pass, step, x, y, width, height }.bytes(kind);
         match kind {
             PixelKind::Srgb8 => pixels.for_each(|(color, &alpha)| {
                 let straight = |v: f32| if alpha > 0.0 { v / alpha } else { v };

@@ -3,7 +3,7 @@
 //! Messages are JSON, a text each: the page sends [`Request`]s, the engine answers [`Reply`]s. What
 //! is large comes as a frame of bytes: [`TileFrame`]s and files.
 
-mod frame;
+pub(crate) mod frame;
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -129,6 +129,12 @@ pub enum Request {
     Cancel,
     /// Goes on with what was stopped.
     Resume,
+    /// Sends the finished picture as one tile, and says its last pass, if all of it is there: for who has
+    /// given an engine the shares of others. Else nothing is said.
+    Finish {
+        /// The picture's number.
+        picture: u32,
+    },
     /// Sends the picture or the scene as a file.
     Export {
         /// As what.
@@ -243,6 +249,8 @@ pub enum Reply {
         terms: Vec<&'static str>,
         /// Those that are left out of what is drawn.
         off: Vec<&'static str>,
+        /// Whether something is drawn onto the picture when a pass is whole, such as lines.
+        finished: bool,
     },
     /// A pass of a picture is done.
     Pass {
@@ -421,6 +429,8 @@ pub enum Message {
     Text(String),
     /// Bytes: a tile or a file.
     Frame(Vec<u8>),
+    /// Nothing is sent: it asks whether to go on drawing.
+    Nothing,
 }
 
 impl From<&Reply> for Message {

@@ -89,6 +89,7 @@ fn can_wait(request: &Request) -> bool {
             | Request::Guess { .. }
             | Request::Grade { .. }
             | Request::Pixels { .. }
+            | Request::Finish { .. }
             | Request::Export { .. }
             | Request::Keys
     )
@@ -107,6 +108,7 @@ async fn write(
             next = queue.recv() => match next {
                 Some(Message::Text(text)) => { let n = text.len(); (Sent::Text(text.into()), n) }
                 Some(Message::Frame(frame)) => { let n = frame.len(); (Sent::Binary(frame.into()), n) }
+                Some(Message::Nothing) => continue,
                 None => break,
             },
             _ = ping.tick() => (Sent::Ping(Vec::new().into()), 0),
@@ -199,6 +201,7 @@ impl Shared {
         let bytes = match &message {
             Message::Text(text) => text.len(),
             Message::Frame(frame) => frame.len(),
+            Message::Nothing => 0,
         };
         let queued = {
             let mut queued = held(&self.queued);
@@ -210,7 +213,7 @@ impl Shared {
             self.end();
             return false;
         }
-        let sent = self.out.send(message).is_ok();
+        let sent = matches!(message, Message::Nothing) || self.out.send(message).is_ok();
         sent && queued < MOST_QUEUED && !self.soon.load(Ordering::SeqCst)
     }
 

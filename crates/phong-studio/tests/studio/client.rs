@@ -29,6 +29,7 @@ impl Page {
                 self.replies.push(reply);
             }
             Message::Frame(bytes) => self.take(bytes),
+            Message::Nothing => {}
         }
     }
 

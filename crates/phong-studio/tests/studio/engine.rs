@@ -33,7 +33,7 @@ impl Talk {
         Self::sharing(text, 0, 1)
     }
 
-    fn sharing(text: &str, index: u32, count: u32) -> Self {
+    pub(crate) fn sharing(text: &str, index: u32, count: u32) -> Self {
         let engine = Engine::new(Memory::new().with("a.toml", text.as_bytes()), Bounds::default());
         let engine = engine.with_share(index, count);
         let mut talk = Self { engine, page: Page::default(), stops: false };

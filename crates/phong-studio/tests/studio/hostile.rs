@@ -202,6 +202,7 @@ impl Dice {
             14 if self.below(2) == 0 => {
                 json!({ "do": "facets", "id": id, "theta": self.number(), "count": self.pick(&[0, 1, 50, u32::MAX]) })
             }
+            14 if self.below(2) == 0 => json!({ "do": "finish", "picture": self.below(400) }),
             14 => json!({ "do": "guess", "cause": self.pick(&["exponent-half", "", "x"]) }),
             15 => {
                 json!({ "do": "grade", "name": "a\u{0}.png", "bytes": self.pick(&["", "AAAA", "iVBORw0KGgo=", "%%%"]) })

@@ -4,6 +4,7 @@
 mod changing;
 mod client;
 mod engine;
+mod finishing;
 #[cfg(feature = "server")]
 mod hostile;
 #[cfg(feature = "server")]

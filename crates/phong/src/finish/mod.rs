@@ -8,7 +8,7 @@ mod outline;
 use std::borrow::Cow;
 
 use crate::film::{Film, LayerKind, Window};
-use crate::render::Lines;
+use crate::render::{Lines, RenderOptions};
 
 /// How a picture is to be finished. The default leaves it as its film has it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -31,6 +31,19 @@ pub struct Finishing {
 }
 
 impl Finishing {
+    /// How a picture with these options is finished, of whatever scene it is; its file says nothing of
+    /// that scene.
+    pub fn of(options: &RenderOptions) -> Self {
+        let lines = options.lines();
+        let shown = lines.map(|_| (options.shown(), options.shown_layers()));
+        Self { lines, shown, ..Self::default() }
+    }
+
+    /// Whether the finished picture is another than that of the film.
+    pub fn draws(&self) -> bool {
+        self.lines.is_some()
+    }
+
     /// The same, of the scene with this [`fingerprint`](crate::part::fingerprint()).
     #[must_use]
     pub fn of_scene(self, fingerprint: u32) -> Self {

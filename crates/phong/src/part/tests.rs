@@ -3,6 +3,7 @@ use phong_scene::{Image, Scene};
 use super::*;
 use crate::aov::Aov;
 use crate::film::{LayerKind, Window};
+use crate::finish::Finishing;
 use crate::image::{Bits, Encoding};
 use crate::render::RenderOptions;
 use crate::terms::{Term, TermSet};
@@ -59,6 +60,17 @@ fn join(parts: &[(&str, Part)]) -> Result<(Film, Settings), JoinError> {
     let whole = join.finish();
     assert_eq!(reading.finish(), whole);
     whole
+}
+
+#[test]
+fn a_picture_is_finished_alike_by_its_options_and_by_what_a_part_says_of_it() {
+    let outline = Some(phong_scene::Outline::default());
+    let scene = Scene { outline, ..Scene::default() };
+    let options = RenderOptions::of(&scene.image).unwrap().with_finishing_of(&scene);
+    let said = Settings::of(&scene, &options, Encoding::default()).finishing();
+    let by_options = Finishing::of(&options).of_scene(fingerprint(&scene));
+    assert!(by_options.draws());
+    assert_eq!(said, by_options);
 }
 
 #[test]

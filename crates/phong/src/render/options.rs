@@ -1,6 +1,6 @@
 //! What to render: options that are valid from the moment they exist.
 
-use phong_scene::{FilterKind, Image};
+use phong_scene::{FilterKind, Image, Scene};
 use thiserror::Error;
 
 use super::{Lines, Passes};
@@ -269,6 +269,13 @@ impl RenderOptions {
     #[must_use]
     pub fn with_lines(self, lines: Option<Lines>) -> Self {
         Self { lines, ..self }
+    }
+
+    /// Keeps what the picture of this scene is finished by ([`finish`](crate::finish::finish)).
+    #[must_use]
+    pub fn with_finishing_of(self, scene: &Scene) -> Self {
+        let Scene { outline, image, .. } = scene;
+        self.with_lines(outline.as_ref().map(|outline| Lines::of(outline, image)))
     }
 
     /// Lines that are drawn when the film is done; `None`: there are none.

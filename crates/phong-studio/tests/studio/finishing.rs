@@ -1,0 +1,94 @@
+//! What is drawn onto a picture that is whole.
+
+use phong::film::Film;
+use phong::finish::finish;
+use phong::image::{Content, Encoding, Format, write};
+use phong::part::Settings;
+use phong::render::{Cancel, RenderOptions, render};
+use phong::scene::{Limits, Memory, Scene, read};
+use phong::view::View;
+use serde_json::json;
+
+use crate::SCENE;
+use crate::engine::{Talk, bits, seen};
+
+fn text() -> String {
+    format!("{SCENE}[outline]\nwidth = 1.5\n")
+}
+
+fn scene() -> Scene {
+    let files = Memory::new().with("a.toml", text());
+    read("a.toml", None, &files, &Limits::default()).scene.unwrap()
+}
+
+/// What `phong render` makes of the scene: the film, the finished picture, and its file.
+fn rendered() -> (Film, Film, Vec<u8>) {
+    let scene = scene();
+    let options = RenderOptions::of(&scene.image).unwrap().with_finishing_of(&scene);
+    let film = render(&View::of(&scene).unwrap(), &options, &|_| {}, &Cancel::new()).film;
+    let finishing = Settings::of(&scene, &options, Encoding::default()).finishing();
+    let finished = finish(&film, &finishing);
+    let mut exr = std::io::Cursor::new(Vec::new());
+    write(&finished, Content::Film, Format::Exr, &Encoding::default(), &mut exr).unwrap();
+    let picture = finished.into_film();
+    (film, picture, exr.into_inner())
+}
+
+#[test]
+fn lines_are_seen_and_saved_as_a_render_draws_them() {
+    let (bare, finished, exr) = rendered();
+    let mut talk = Talk::of(&text());
+    assert_eq!(talk.page.last("look")["finished"], true);
+    while talk.engine.has_work() {
+        talk.some();
+    }
+    assert!(talk.page.is_done());
+    assert_eq!(seen(&talk.page), bits(&finished));
+    assert_ne!(seen(&talk.page), bits(&bare));
+    talk.ask(&json!({ "do": "export", "format": "exr" }));
+    assert!(talk.page.file == exr);
+    talk.ask(&json!({ "do": "look", "set": { "outline.color": "red" } }));
+    talk.draw();
+    assert_ne!(seen(&talk.page), bits(&finished));
+    assert_eq!(Talk::of(SCENE).page.last("look")["finished"], false);
+}
+
+#[test]
+fn lines_stay_where_a_term_is_left_out() {
+    let mut talk = Talk::of(&text());
+    talk.draw();
+    let whole = talk.page.pixels.clone();
+    let is_line = |pixel: &&[f32]| pixel[..3] == [0.0; 3];
+    let lines = whole.chunks_exact(4).filter(is_line).count();
+    assert!(lines > 20, "{lines}");
+    talk.ask(&json!({ "do": "terms", "off": ["diffuse"] }));
+    talk.draw();
+    let pairs = whole.chunks_exact(4).zip(talk.page.pixels.chunks_exact(4));
+    for (before, now) in pairs.filter(|(before, _)| is_line(before)) {
+        assert_eq!(before, now);
+    }
+    assert_ne!(whole, talk.page.pixels);
+}
+
+#[test]
+fn who_has_all_shares_finishes_the_picture_and_nobody_else_does() {
+    let mut talks: Vec<Talk> = (0..3).map(|index| Talk::sharing(&text(), index, 3)).collect();
+    let mut parts = Vec::new();
+    for talk in &mut talks {
+        talk.draw();
+        parts.extend(talk.engine.part());
+    }
+    let mut first = talks.swap_remove(0);
+    let picture = first.page.last("look")["picture"].as_u64().unwrap();
+    let said = first.page.replies.len();
+    first.ask(&json!({ "do": "finish", "picture": picture }));
+    assert_eq!(first.page.replies.len(), said, "it has its own share alone");
+    for part in &parts[1..] {
+        first.with(|engine, emit| engine.join(part, emit));
+    }
+    first.ask(&json!({ "do": "finish", "picture": picture - 1 }));
+    assert_eq!(first.page.replies.len(), said, "that picture is gone");
+    first.ask(&json!({ "do": "finish", "picture": picture }));
+    assert_eq!(first.page.replies.len(), said + 1);
+    assert_eq!(seen(&first.page), bits(&rendered().1));
+}
