@@ -4,6 +4,7 @@
 
 use std::borrow::Cow;
 use std::io::{Cursor, Write};
+use std::ops::Range;
 
 use phong_bvh::Level;
 use png::{
@@ -18,6 +19,9 @@ use super::{Bits, Encoding, WriteError, layer};
 use crate::aov::Aov;
 use crate::film::LayerKind;
 use crate::finish::Finished;
+
+/// Bytes of levels that are encoded at a time, and of a chunk of the file, at most.
+const BAND: usize = 1 << 18;
 
 /// How the values of a layer become levels.
 struct Tone<'a> {
@@ -79,7 +83,6 @@ pub(super) fn write(
         }
     };
     let grey = kind.channels() == 1;
-    let bytes = levels(&values, if grey { 1 } else { 3 }, film.width() as usize, &tone);
     let color = match (grey, tone.alpha) {
         (true, _) => ColorType::Grayscale,
         (false, None) => ColorType::Rgb,
@@ -109,7 +112,15 @@ pub(super) fn write(
         }));
     }
     let mut writer = encoder.write_header().map_err(encoding_error)?;
-    writer.write_image_data(&bytes).map_err(encoding_error)?;
+    // Rows are encoded as they are needed, so that beside the film there is never a second picture.
+    let mut rows = writer.stream_writer_with_size(BAND).map_err(encoding_error)?;
+    let (width, height) = (film.width() as usize, film.height() as usize);
+    let step = (BAND / (8 * width)).max(1);
+    for first in (0..height).step_by(step) {
+        let band = first..height.min(first + step);
+        rows.write_all(&levels(&values, if grey { 1 } else { 3 }, width, band, &tone))?;
+    }
+    rows.finish().map_err(encoding_error)?;
     writer.finish().map_err(encoding_error)
 }
 
@@ -123,21 +134,25 @@ pub fn srgb8(picture: &Finished<'_>, encoding: &Encoding) -> Vec<u8> {
     let curve = (!encoding.linear).then(Curve::eight);
     let gain = libm::exp2(encoding.exposure) as f32;
     let tone = Tone { gain, bits: Bits::Eight, curve, alpha: Some(&alpha) };
-    levels(values, 3, film.width() as usize, &tone)
+    levels(values, 3, film.width() as usize, 0..film.height() as usize, &tone)
 }
 
-/// The levels of all pixels, as the bytes a PNG holds.
-fn levels(values: &[f32], channels: usize, width: usize, tone: &Tone<'_>) -> Vec<u8> {
+/// The levels of some rows of pixels, as the bytes a PNG holds.
+fn levels(
+    values: &[f32],
+    channels: usize,
+    width: usize,
+    rows: Range<usize>,
+    tone: &Tone<'_>,
+) -> Vec<u8> {
     let bytes = match tone.bits {
         Bits::Eight => 1,
         Bits::Sixteen => 2,
     };
     let pixel_bytes = (channels + usize::from(tone.alpha.is_some())) * bytes;
-    let pixels = values.len() / channels;
-    let mut out = vec![0_u8; pixels * pixel_bytes];
-    let rows = out.par_chunks_exact_mut(width * pixel_bytes).enumerate();
-    rows.for_each(|(y, row)| {
-        let first = y * width;
+    let mut out = vec![0_u8; rows.len() * width * pixel_bytes];
+    out.par_chunks_exact_mut(width * pixel_bytes).enumerate().for_each(|(y, row)| {
+        let first = (rows.start + y) * width;
         if tone.alpha.is_none() && bytes == 1 {
             // The usual picture: nothing to divide, and a byte a value.
             let values = &values[first * channels..][..row.len()];
