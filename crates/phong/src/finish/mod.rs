@@ -110,7 +110,6 @@ impl Finished<'_> {
     }
 
     /// Red, green and blue of the finished picture, and its alpha; `None`: nothing is drawn onto it.
-    #[cfg(feature = "exr")]
     pub(crate) fn drawn(&self) -> Option<[&[f32]; 2]> {
         self.drawn.as_ref().map(|[picture, alpha]| [&**picture, &**alpha])
     }

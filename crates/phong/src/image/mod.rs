@@ -11,7 +11,6 @@
 
 mod animation;
 mod curve;
-#[cfg(feature = "exr")]
 mod exr;
 mod jpeg;
 mod origin;
@@ -64,7 +63,9 @@ impl Picture {
             Some(Kind::Jpeg) => jpeg::read(bytes, max_bytes),
             #[cfg(feature = "exr")]
             Some(Kind::Exr) => exr::read(bytes, max_bytes),
-            _ => Err(ReadError::Unknown),
+            #[cfg(not(feature = "exr"))]
+            Some(Kind::Exr) => Err(ReadError::Broken("OpenEXR files are not read here".to_owned())),
+            None => Err(ReadError::Unknown),
         }
     }
 }
@@ -217,8 +218,8 @@ pub enum WriteError {
 /// Writes one file of a picture. The writer is left where the file ends, not flushed.
 ///
 /// # Errors
-/// [`WriteError::Io`] as `out` says; [`WriteError::Unsuitable`] where the film lacks the layer, the
-/// format cannot hold the content or the size, or this build is without EXR.
+/// [`WriteError::Io`] as `out` says; [`WriteError::Unsuitable`] where the film lacks the layer, or the
+/// format cannot hold the content or the size.
 pub fn write(
     picture: &Finished<'_>,
     content: Content,
@@ -229,12 +230,7 @@ pub fn write(
     match (format, content) {
         (Format::Png, Content::Layer(kind)) => png::write(picture, kind, encoding, out),
         (Format::Pfm, Content::Layer(kind)) => pfm::write(picture, kind, out),
-        #[cfg(feature = "exr")]
         (Format::Exr, Content::Film) => exr::write(picture, out),
-        #[cfg(not(feature = "exr"))]
-        (Format::Exr, Content::Film) => {
-            Err(WriteError::Unsuitable("this build is without OpenEXR".to_owned()))
-        }
         (format, content) => {
             Err(WriteError::Unsuitable(format!("{content:?} is nothing for a {format:?} file")))
         }

@@ -105,6 +105,27 @@ fn a_png_of_16_bits_is_big_endian() {
     assert_eq!(data, [[188, 64], [118, 27], [255, 255]].concat());
 }
 
+/// So wide that a few rows are all that is encoded at a time.
+#[test]
+fn a_wide_png_has_every_row_with_and_without_alpha() {
+    let (width, height) = (5000, 21);
+    let picture: Vec<f32> = (0..3 * width * height).map(|i| (i % 1009) as f32 / 1008.0).collect();
+    let size = [width as u32, height as u32];
+    let levels = |scale: f32| -> Vec<u8> {
+        picture.iter().map(|value| super::srgb_level(value * scale)).collect()
+    };
+    let (info, data) = png_of(&film(size, &[(PICTURE, &picture)]), PICTURE, &Encoding::default());
+    assert_eq!(info.color_type, ::png::ColorType::Rgb);
+    assert_eq!(data, levels(1.0));
+    let alpha = vec![0.5; width * height];
+    let film = film(size, &[(PICTURE, &picture), (LayerKind::Alpha, &alpha)]);
+    let (info, data) = png_of(&film, PICTURE, &Encoding::default());
+    assert_eq!(info.color_type, ::png::ColorType::Rgba);
+    let colors = levels(2.0);
+    let rgba = colors.as_chunks::<3>().0.iter().flat_map(|&[r, g, b]| [r, g, b, 128]);
+    assert_eq!(data, rgba.collect::<Vec<u8>>());
+}
+
 #[test]
 fn a_linear_png_says_so() {
     let film = film([1, 1], &[(PICTURE, &[0.5, 0.25, 1.0])]);
@@ -219,6 +240,30 @@ fn an_exr_holds_every_layer_to_the_bit() {
     }
 }
 
+/// Noise is not made smaller, and blocks of it stand as they are beside one that is.
+#[cfg(feature = "exr")]
+#[test]
+fn an_exr_holds_noise_in_many_blocks_to_the_bit() {
+    let (width, height) = (23, 16 * 9 + 5);
+    let mut state = 1_u32;
+    let picture: Vec<f32> = (0..3 * width * height)
+        .map(|i| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            let bits = state ^ (state >> 15);
+            if i < 3 * 16 * width { 1.0 } else { f32::from_bits(bits & 0xbfff_ffff) }
+        })
+        .collect();
+    let film = film([width as u32, height as u32], &[(PICTURE, &picture)]);
+    let file = bytes(&film, Content::Film, Format::Exr, &Encoding::default());
+    let back = Picture::read(&file).unwrap();
+    let bits = |values: &mut dyn Iterator<Item = f32>| values.map(f32::to_bits).collect::<Vec<_>>();
+    for (c, name) in ["R", "G", "B"].into_iter().enumerate() {
+        let expected = bits(&mut picture.iter().skip(c).step_by(3).copied());
+        assert_eq!(bits(&mut back.plane(name).unwrap().iter().copied()), expected, "{name}");
+    }
+    assert_eq!(back.plane("A").unwrap(), vec![1.0; width * height]);
+}
+
 #[cfg(feature = "exr")]
 #[test]
 fn an_exr_says_which_red_green_and_blue_it_means_and_how_it_is_packed() {
@@ -235,7 +280,7 @@ fn an_exr_says_which_red_green_and_blue_it_means_and_how_it_is_packed() {
 fn bytes_do_not_depend_on_the_number_of_threads() {
     let picture: Vec<f32> = (0..3 * 64 * 64).map(|i| (i % 97) as f32 / 96.0).collect();
     let film = film([64, 64], &[(PICTURE, &picture)]);
-    for format in Format::ALL.into_iter().filter(|f| cfg!(feature = "exr") || !f.holds_layers()) {
+    for format in Format::ALL {
         let content = Content::of(&[PICTURE], format)[0];
         let with = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
