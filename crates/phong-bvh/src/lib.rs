@@ -3,9 +3,13 @@
 //! The door is [`World`]: build it from [`Part`]s, which are [`Primitives`] written one by one or
 //! instances of a [`Tree`], then ask [`World::intersect`] (the closest hit) or [`World::occluded`] (any
 //! hit), for one ray or a bundle. This crate knows no colours, no scene and no files, and never imports
-//! another crate of the project.
+//! another crate of the project (but the stand-in for rayon where there are no threads).
 //!
 //! Results are the same bits on every SIMD level, for every build preset and thread count.
+
+// It has no threads; everything else in this crate says `rayon`.
+#[cfg(target_arch = "wasm32")]
+extern crate serial as rayon;
 
 mod aabb;
 mod build;

@@ -4,6 +4,10 @@
 //! Everything here is made from the public items of [`phong`]. A program that only draws pictures
 //! does not need this crate.
 
+// It has no threads; everything else in this crate says `rayon`.
+#[cfg(target_arch = "wasm32")]
+extern crate serial as rayon;
+
 pub mod compare;
 pub mod eval;
 pub mod figures;

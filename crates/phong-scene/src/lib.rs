@@ -4,6 +4,10 @@
 //! in. This crate knows no rays and no pixels, and never imports another crate of the project.
 //! It never prints, exits or panics on input: reading gives *all* [`Diagnostic`]s as data.
 
+// It has no threads; everything else in this crate says `rayon`.
+#[cfg(target_arch = "wasm32")]
+extern crate serial as rayon;
+
 mod ambient_occlusion;
 mod batch;
 mod bounds;

@@ -24,6 +24,10 @@
 //!
 //! `ARCHITECTURE.md` shows the rooms and their order.
 
+// It has no threads; everything else in this crate says `rayon`.
+#[cfg(target_arch = "wasm32")]
+extern crate serial as rayon;
+
 pub mod aov;
 pub mod camera;
 pub mod explain;
