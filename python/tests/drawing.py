@@ -38,3 +38,27 @@ def draw(scene: phong.Scene, name: str) -> Pixels:
 def covered(pixels: Pixels) -> float:
     """Which share of the picture something is seen in."""
     return float((np.abs(pixels[..., :3] - pixels[0, 0, :3]) > 0.01).any(axis=-1).mean())
+
+
+def dressed(folder: Path) -> phong.Scene:
+    """A scene with a sky, a lamp that has a surface, an image, an outline and a cut, all said in
+    Python; the image's file is in the folder."""
+    pixels = phong.Scene(background="tomato")
+    pixels.add(phong.Sphere(center=(0, 0, 0), radius=1))
+    phong.render(pixels, size=(8, 8), samples=1).save(folder / "photo.png")
+    lamp = phong.Light(
+        kind="rectangle", position=(0, 4, 2), direction=(0, -1, 0), width=2, height=1, color=0.8
+    )
+    scene = phong.Scene(
+        camera=phong.Camera(eye=(0, 2, 7), look_at=(0, 0, 0)),
+        lights=[lamp],
+        sky={"kind": "gradient", "horizon": "white", "zenith": "#88aaff", "samples": 2},
+        outline={"width": 2, "color": "navy"},
+    )
+    photo = phong.Texture("photo", kind="image", file=str(folder / "photo.png"))
+    skin = phong.Material("skin", color={"texture": photo})
+    scene.add(phong.Sphere(name="ball", center=(0, 0, 0), radius=1.5, material=skin))
+    scene.add_spheres([(2.5, 0, 0), (-2.5, 0, 0)], 0.7, colors=[(0.9, 0.2, 0.1), (0.1, 0.3, 0.8)])
+    cut = {"point": (0, 0, 0.8), "normal": (0, 0, 1), "objects": ["ball"], "cap": "skin"}
+    scene.set_settings(clip=[cut])
+    return scene

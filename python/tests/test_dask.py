@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from drawing import need
+from drawing import dressed, need
 
 import phong
 
@@ -62,6 +62,17 @@ def test_the_picture_has_the_bits_of_one_machine(name: str, client: Any) -> None
     assert np.asarray(alone).any()
     for layer in ("depth", "diffuse"):
         assert np.array_equal(alone.layers[layer], shared.layers[layer])
+
+
+def test_images_travel_with_their_scene(client: Any, tmp_path: Path) -> None:
+    scene = dressed(tmp_path)
+    (tmp_path / "photo.png").unlink()
+    for _ in range(2):
+        alone = phong.render(scene, layers=("diffuse",), **SMALL)
+        shared = phong.dask.render(scene, client, shares=5, layers=("diffuse",), **SMALL)
+        assert np.array_equal(np.asarray(alone), np.asarray(shared))
+        assert np.array_equal(alone.layers["diffuse"], shared.layers["diffuse"])
+        scene.look("technical")
 
 
 def test_a_scene_of_arrays_is_sent_once_and_its_changes_are_seen(client: Any) -> None:

@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from drawing import dressed
 
 import phong
 
@@ -240,3 +241,26 @@ def test_clips_and_images_are_pickled(tmp_path: Path) -> None:
     assert phong.render(there, **options) == picture
     assert there.digest() == digest
     assert there.to_toml() == scene.to_toml()
+
+
+def test_what_makes_up_a_look_is_said_in_python_and_each_part_is_seen(tmp_path: Path) -> None:
+    options: dict[str, Any] = {"size": (64, 36), "samples": 4}
+    scene = dressed(tmp_path)
+    assert set(scene.settings) == {"sky", "outline", "clip"}
+    whole = phong.render(scene, **options)
+    for name in scene.settings:
+        without = copy.copy(scene)
+        without.set_settings(**{name: None})
+        assert phong.render(without, **options) != whole, name
+    small = phong.Light(kind="point", position=(0, 4, 2), color=0.8)
+    plain = phong.Material("skin", color=0.5)
+    for change in (
+        lambda other: setattr(other, "lights", [small]),
+        lambda other: other.set_material("skin", plain),
+        lambda other: other.look("ink"),
+    ):
+        other = copy.copy(scene)
+        change(other)
+        assert phong.render(other, **options) != whole
+    phong.convert(scene, tmp_path / "scene.toml")
+    assert phong.render(phong.Scene.read(tmp_path / "scene.toml"), **options) == whole
