@@ -74,6 +74,7 @@ fn what_it_cannot_open_is_refused_before_it_answers() {
     folder.when("studio nowhere.toml --no-open").is_refused(&["nowhere.toml"]);
     folder.when("studio notes.txt --no-open").is_refused(&["notes.txt", "scenes"]);
     folder.when("studio - --no-open").is_refused(&["file"]);
+    folder.when("studio --look inc --no-open").is_refused(&["--look", "ink"]);
     folder.when("studio --port 0 --no-open").is_refused(&["--port"]);
 }
 
@@ -100,8 +101,10 @@ fn as_static_files_it_has_the_page_the_scenes_and_the_modules_and_nothing_else()
             assert!(folder.path("web").join(name).is_file(), "{input}: {name}");
         }
         assert!(!folder.path("web/scenes/notes.txt").exists());
-        // Over its own earlier files it writes again.
-        folder.done(&format!("studio {input} --static web --wasm wasm"));
+        // Over its own earlier files it writes again, here with a look to begin with.
+        folder.done(&format!("studio {input} --static web --wasm wasm --look ink"));
+        let list = std::fs::read_to_string(folder.path("web/files.json")).unwrap();
+        assert!(list.contains("\"look\":\"ink\""), "{list}");
     }
 }
 

@@ -70,5 +70,5 @@ export class History {
 }
 
 function same(a, b) {
-  return a.text === b.text && JSON.stringify(a.set) === JSON.stringify(b.set);
+  return a.text === b.text && a.dressed === b.dressed && JSON.stringify(a.set) === JSON.stringify(b.set);
 }

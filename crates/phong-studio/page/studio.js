@@ -5,6 +5,7 @@ import { compare } from "./compare.js";
 import { Controls } from "./controls.js";
 import { Curtain } from "./curtain.js";
 import { Editor } from "./editor.js";
+import { OpenFile } from "./file.js";
 import { check } from "./elements.js";
 import { show } from "./explained.js";
 import { Handles } from "./handles.js";
@@ -17,7 +18,7 @@ import { drops, Teaching } from "./teaching.js";
 import { WhatIf } from "./whatif.js";
 import { fill, words } from "./words.js";
 
-const PROTOCOL = 2;
+const PROTOCOL = 3;
 const at = (id) => document.getElementById(id);
 
 fill(document);
@@ -50,6 +51,16 @@ const handles = new Handles(at("frame"), at("canvas"), {
 });
 const controls = new Controls(at("sliders"), { set: (set) => hands.look(set), keep: write });
 const editor = new Editor(at("text"), at("diagnostics"), at("offers"), (text) => send({ do: "edit", text }));
+const file = new OpenFile({
+  send: (request) => {
+    if (request.do !== "check-file") editor.flush();
+    send(request);
+  },
+  text: () => (state.bare ? null : editor.text),
+  said: say,
+  download: () => saving.download("toml"),
+});
+at("text").addEventListener("input", () => file.show());
 const curtain = new Curtain(at("frame"), at("curtain"));
 const whatIf = new WhatIf(at("supposed"), (set) => {
   if (state.told) send({ do: "explain", id: SUPPOSED, pixel: state.told.pixel, set });
@@ -63,8 +74,9 @@ const teaching = new Teaching(at("teaching"), {
 });
 drops(teaching);
 const history = new History({
-  restore: ({ text, set }) => {
+  restore: ({ text, set, dressed }) => {
     if (text === null) {
+      if (dressed !== state.look.dressed) send({ do: "put-on", look: dressed });
       const gone = Object.keys(state.look.set).map((path) => [path, null]);
       send({ do: "look", set: { ...Object.fromEntries(gone), ...set } });
     } else {
@@ -91,6 +103,13 @@ function write(set) {
   hands.forget("look");
   editor.flush();
   send(state.bare ? { do: "look", set } : { do: "write", set });
+}
+
+// Puts a look on; what was typed is sent before.
+function putOn(name) {
+  hands.forget("look");
+  editor.flush();
+  send({ do: "put-on", look: name || null });
 }
 
 // One question at a time; of those that come meanwhile the newest is asked next.
@@ -125,7 +144,9 @@ function keepOther() {
 
 function note() {
   const text = state.bare ? null : editor.text;
-  history.note({ text, set: state.look?.set ?? {} }, picture.held || handles.held !== null);
+  const { set = {}, dressed = null } = state.look ?? {};
+  history.note({ text, set, dressed }, picture.held || handles.held !== null);
+  file.show();
 }
 
 function terms({ terms: all, off }) {
@@ -142,10 +163,13 @@ function terms({ terms: all, off }) {
 }
 
 const hearing = {
-  hello({ protocol, open, files }) {
+  hello({ protocol, open, files, look, looks, saves }) {
     if (protocol !== PROTOCOL) return say(words.old);
     const names = files.includes(open) ? files : [open, ...files];
     at("file").replaceChildren(...names.map((name) => new Option(name, name, name === open, name === open)));
+    at("look").replaceChildren(...["", ...looks].map((name) => new Option(name || words.chooseLook, name)));
+    file.begin(saves);
+    state.lookFirst = look;
     send({ do: "keys" });
     send({ do: "open", path: open });
   },
@@ -155,17 +179,31 @@ const hearing = {
     state.fresh = true;
     state.path = path;
     editor.show(text);
+    file.start(path, text);
+    if (state.lookFirst) putOn(state.lookFirst);
+    state.lookFirst = null;
     state.pinned = null;
     if (state.other) keepOther();
     if (curtain.engine) keepA();
     picture.clear();
   },
-  text({ text }) {
+  text({ text, note: left, from_file: fromFile }) {
     editor.show(text);
-    say(words.written);
+    state.left = left;
+    if (fromFile) file.taken(text);
+    say(fromFile ? words.taken : words.written);
+  },
+  saved() {
+    file.saved();
+  },
+  "file-changed"(changed) {
+    file.changed(changed);
   },
   checked({ ok, diagnostics }) {
-    editor.say(diagnostics);
+    // What was left to say of the text stands below it, until it changes again.
+    const left = state.left ? [{ severity: "note", message: state.left }] : [];
+    state.left = null;
+    editor.say([...diagnostics, ...left]);
     at("frame").classList.toggle("stale", !ok);
     if (ok) return;
     say(words.broken);
@@ -175,6 +213,7 @@ const hearing = {
   look(look) {
     state.look = look;
     state.stopped = false;
+    at("look").value = look.dressed ?? "";
     at("stop").textContent = words.stop;
     picture.begin(look.picture, look.size);
     teaching.end();
@@ -187,7 +226,7 @@ const hearing = {
     at("reset").disabled = Object.keys(look.set).length === 0;
     at("x").max = look.size[0] - 1;
     at("y").max = look.size[1] - 1;
-    if (state.fresh) history.start({ text: state.bare ? null : editor.text, set: look.set });
+    if (state.fresh) history.start({ text: state.bare ? null : editor.text, set: look.set, dressed: look.dressed });
     else note();
     state.fresh = false;
     if (state.pinned) explain(state.pinned);
@@ -251,6 +290,7 @@ const hearing = {
     state.answered = state.asked;
     saving.refused();
     teaching.refused();
+    at("look").value = state.look?.dressed ?? "";
     hands.seen();
     say(message);
   },
@@ -273,7 +313,14 @@ function keepA() {
   at("keep-a").textContent = on ? words.leaveA : words.keepA;
 }
 
-at("file").onchange = ({ target }) => send({ do: "open", path: target.value });
+at("file").onchange = ({ target }) => {
+  if (file.mayLeave()) send({ do: "open", path: target.value });
+  else target.value = state.path;
+};
+at("look").onchange = ({ target }) => {
+  // Of a text there is no look to take off: undo does that.
+  if (target.value || state.bare) putOn(target.value);
+};
 at("undo").onclick = () => history.undo();
 at("redo").onclick = () => history.redo();
 at("reset").onclick = () => send({ do: "reset" });
@@ -306,7 +353,7 @@ addEventListener("keydown", (event) => {
   const key = command ? event.key.toLowerCase() : "";
   if (key === "z") event.shiftKey ? history.redo() : history.undo();
   else if (key === "y") history.redo();
-  else if (key === "s") saving.download("toml");
+  else if (key === "s") file.save();
   else return;
   event.preventDefault();
 });

@@ -74,12 +74,12 @@ async function meet(message) {
   if (message.part) postMessage({ part: studio.part() ?? null });
 }
 
-async function begin({ module, script, share, open, scenes }) {
+async function begin({ module, script, share, open, scenes, look }) {
   const { default: load, Studio } = await import(script);
   await load({ module_or_path: module });
   studio = new Studio(...share);
   shelf = scenes;
-  if (share[0] === 0) studio.hello(open, Object.keys(scenes).filter((name) => !scenes[name].hidden));
+  if (share[0] === 0) studio.hello(open, Object.keys(scenes).filter((name) => !scenes[name].hidden), look);
 }
 
 // Gives the engine a request; if that asks for files of the folder, it is given again with them.

@@ -8,7 +8,7 @@ import { words } from "./words.js";
 const MOST = 8;
 
 // Requests that leave the picture as it is: the first engine alone is asked.
-const ASKED = new Set(["explain", "export", "keys", "facets", "lobe", "guess", "grade"]);
+const ASKED = new Set(["explain", "export", "keys", "facets", "cosine-power", "lobe", "guess", "grade", "save", "check-file"]);
 
 // A module that gives a vector: whether it is one at all tells whether vectors are known here.
 const VECTOR = [
@@ -24,11 +24,11 @@ async function prepare() {
     if (!answer.ok) throw new Error(`${file}: ${answer.status}`);
     return answer;
   };
-  const [module, { open, scenes }] = await Promise.all([
+  const [module, { open, scenes, look }] = await Promise.all([
     get(`${name}_bg.wasm`).then(async (answer) => WebAssembly.compile(await answer.arrayBuffer())),
     get("files.json").then((answer) => answer.json()),
   ]);
-  return { module, script: address(`${name}.js`).href, open, scenes };
+  return { module, script: address(`${name}.js`).href, open, scenes, look };
 }
 
 export function work({ hear, take }) {

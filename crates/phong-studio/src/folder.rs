@@ -1,10 +1,17 @@
-//! The folder that scenes are read from.
+//! The folder that scenes are read from, and saved in.
 
 use std::io;
 use std::path::{Path, PathBuf};
 
 use phong::scene::{Blob, Format, Jail, Memory, Source, path_of, path_text};
+#[cfg(feature = "server")]
+use phong::{
+    image::{Draft, SaveError, place},
+    scene::trouble,
+};
 
+#[cfg(feature = "server")]
+use crate::engine::Keep;
 use crate::engine::{EXAMPLE, EXAMPLE_NAME};
 
 /// The most names that are told of a folder.
@@ -67,5 +74,34 @@ impl Source for Shelf {
             (Some(own), Err(_)) if path == EXAMPLE_NAME => own.open(path),
             (_, found) => found,
         }
+    }
+}
+
+#[cfg(feature = "server")]
+impl Keep for Shelf {
+    fn keep(&self, path: &str, text: &str) -> Result<(), String> {
+        let cannot = |why: &str| format!("cannot write {path}: {why}");
+        let system = |error: io::Error| cannot(&trouble(&error));
+        let named = self.folder.join(path_of(path));
+        let file = match self.jail.resolve(&named) {
+            Ok(file) if file.is_file() => file,
+            Ok(_) => return Err(cannot("it is no file")),
+            // What is not there may be made, but not where a link leads.
+            Err(error) if error.kind() == io::ErrorKind::NotFound && !named.is_symlink() => {
+                let name = named.file_name().ok_or_else(|| cannot("it names no file"))?;
+                let folder = named.parent().unwrap_or(&self.folder);
+                let folder = self.jail.resolve(folder).map_err(system)?;
+                folder.join(name)
+            }
+            Err(error) => return Err(system(error)),
+        };
+        let said = |error: SaveError| match error {
+            SaveError::Place { why, .. } => cannot(&why),
+            SaveError::Io { source, .. } => system(source),
+            error => error.to_string(),
+        };
+        let mut draft = Draft::create(&file).map_err(said)?;
+        draft.write(|out| out.write_all(text.as_bytes())).map_err(said)?;
+        place(vec![draft]).map_err(said)
     }
 }

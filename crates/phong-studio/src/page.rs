@@ -35,6 +35,7 @@ page_files! {
     "offline.js" "text/javascript; charset=utf-8",
     "picture.js" "text/javascript; charset=utf-8",
     "controls.js" "text/javascript; charset=utf-8",
+    "file.js" "text/javascript; charset=utf-8",
     "explained.js" "text/javascript; charset=utf-8",
     "editor.js" "text/javascript; charset=utf-8",
     "completion.js" "text/javascript; charset=utf-8",

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::io;
 use std::sync::{Mutex, PoisonError};
 
-use phong::scene::{Blob, Diagnostic, Limits, Memory, Source, read};
+use phong::scene::{Blob, Diagnostic, Limits, Memory, NamedLook, Source, read};
 use serde_json::{Value, json};
 use thiserror::Error;
 
@@ -47,7 +47,8 @@ pub enum SiteError {
 }
 
 /// Everything in the folder but the `modules`, of which the names are given: the page, these scenes and
-/// models, and what they read. The first scene is opened first; where there is none, one of the studio's.
+/// models, and what they read. The first scene is opened first; where there is none, one of the studio's. The look
+/// is put on it then.
 ///
 /// # Errors
 /// [`SiteError`].
@@ -56,6 +57,7 @@ pub fn files(
     source: &dyn Source,
     limits: &Limits,
     modules: &[&str],
+    look: Option<NamedLook>,
 ) -> Result<Vec<SiteFile>, SiteError> {
     let own = Memory::new().with(EXAMPLE_NAME, EXAMPLE.as_bytes());
     let example = [EXAMPLE_NAME.to_owned()];
@@ -83,7 +85,7 @@ pub fn files(
     let all = files.iter().map(|file| file.path.clone());
     let all = all.chain(modules.iter().map(|&name| name.to_owned()));
     let all: Vec<Value> = all.map(Value::from).collect();
-    let list = json!({ "open": scenes[0], "scenes": known, "files": all });
+    let list = json!({ "open": scenes[0], "scenes": known, "files": all, "look": look.map(NamedLook::name) });
     files.push(SiteFile { path: "files.json".to_owned(), bytes: list.to_string().into_bytes() });
     Ok(files)
 }
@@ -142,7 +144,8 @@ mod tests {
 
     #[test]
     fn a_scene_comes_with_the_files_that_it_reads_and_no_others() {
-        let files = files(&["a.toml".to_owned()], &shelf(), &Limits::default(), &MODULES).unwrap();
+        let files =
+            files(&["a.toml".to_owned()], &shelf(), &Limits::default(), &MODULES, None).unwrap();
         let paths: Vec<&str> = files.iter().map(|file| file.path.as_str()).collect();
         assert!(paths.contains(&"scenes/a.toml") && paths.contains(&"scenes/parts/one.off"));
         assert!(!paths.iter().any(|path| path.contains("secret")), "{paths:?}");
@@ -154,7 +157,7 @@ mod tests {
 
     #[test]
     fn the_page_is_told_of_its_worker_and_may_load_nothing_from_elsewhere() {
-        let files = files(&[], &Memory::new(), &Limits::default(), &MODULES).unwrap();
+        let files = files(&[], &Memory::new(), &Limits::default(), &MODULES, None).unwrap();
         assert_eq!(list(&files)["open"], EXAMPLE_NAME);
         let page = files.iter().find(|file| file.path == "index.html").unwrap();
         let page = String::from_utf8(page.bytes.clone()).unwrap();
@@ -171,11 +174,12 @@ mod tests {
     fn a_scene_that_cannot_be_drawn_or_leaves_its_folder_is_refused() {
         let broken = Memory::new().with("a.toml", "version = 1\n[[sphere]]\n");
         let said =
-            files(&["a.toml".to_owned()], &broken, &Limits::default(), &MODULES).unwrap_err();
+            files(&["a.toml".to_owned()], &broken, &Limits::default(), &MODULES, None).unwrap_err();
         assert!(matches!(said, SiteError::Scene(diagnostics) if !diagnostics.is_empty()));
         let scene = SCENE.replace("parts/one.off", "../one.off");
         let above = Memory::new().with("a.toml", scene).with("../one.off", MODEL);
-        let said = files(&["a.toml".to_owned()], &above, &Limits::default(), &MODULES).unwrap_err();
+        let said =
+            files(&["a.toml".to_owned()], &above, &Limits::default(), &MODULES, None).unwrap_err();
         assert!(matches!(said, SiteError::Outside(path) if path == "../one.off"));
     }
 }

@@ -1,6 +1,7 @@
 //! An engine, and what a worker asks of it.
 
 use phong::render::Cancel;
+use phong::scene::NamedLook;
 use phong_studio::engine::{Bounds, Engine};
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -32,9 +33,11 @@ impl Studio {
         Self { engine, shelf }
     }
 
-    /// Says the first message of the protocol: what to open first, and what else there is.
-    pub fn hello(&self, open: &str, names: Vec<String>) {
-        say(Engine::hello(open, names));
+    /// Says the first message of the protocol: what to open first, what else there is, and the name of a
+    /// look to put on.
+    pub fn hello(&self, open: &str, names: Vec<String>, look: Option<String>) {
+        let look = look.and_then(|name| NamedLook::from_name(&name));
+        say(self.engine.hello(open, names, look));
     }
 
     /// Gives it a file.

@@ -13,7 +13,7 @@ use phong_scene::Change;
 
 pub(crate) use picture::{ImageArgs, RenderArgs};
 pub(crate) use values::{
-    Crop, PictureSize, ShareOf, Vec3Arg, color, output_help, path, size, studio_help, vector,
+    Crop, PictureSize, ShareOf, Vec3Arg, color, look, output_help, path, size, studio_help, vector,
     whole, written_endings, written_format, written_help,
 };
 

@@ -281,7 +281,7 @@ fn finite(text: &str) -> Option<f64> {
 }
 
 /// A look by its name.
-pub(super) fn look(text: &str) -> Result<phong_scene::NamedLook, String> {
+pub(crate) fn look(text: &str) -> Result<phong_scene::NamedLook, String> {
     use phong_scene::{NamedLook, closest};
     NamedLook::from_name(text).ok_or_else(|| {
         let names = NamedLook::ALL.map(NamedLook::name);

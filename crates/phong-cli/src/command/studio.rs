@@ -11,11 +11,12 @@ Examples:
   phong studio                       a first scene, in the browser
   phong studio scene.toml            that scene: turn it, change it, ask why a pixel has its colour
   phong studio dragon.ply            a model
+  phong studio dragon.ply --look clay
   phong studio scene.toml --no-open  print the address alone
   phong studio scenes --static web   the page as files for any web server, with all scenes of a folder
 
 It answers on 127.0.0.1, to who has the address, until Ctrl-C. It reads files beside INPUT and below,
-no others, and writes none.
+no others, and writes one when you save: the scene that is open.
 
 With --static nothing is served: DIR gets the page, the scenes with all that they read, and the renderer
 as WebAssembly, which has to be built first: `bash .ci/wasm` does it.";
@@ -31,6 +32,10 @@ pub(crate) struct Args {
     /// Port to answer on [default: any that is free]
     #[arg(long, value_name = "N", value_parser = args::whole(1_u16, u16::MAX))]
     port: Option<u16>,
+
+    /// Put this look on what is opened first; what it changes of a scene's text is taken back by undo
+    #[arg(long, value_name = "NAME", value_parser = args::look)]
+    look: Option<phong_scene::NamedLook>,
 
     /// Print the address, and open no browser
     #[arg(long)]
@@ -59,7 +64,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     use crate::{input, memory, report};
 
     if let Some(site) = &args.r#static {
-        return write_site(args.input.as_deref(), Path::new(site), args.wasm.as_deref());
+        return write_site(args, Path::new(site));
     }
     let (folder, open) = input::folder_of(args.input.as_deref())?;
     // Several pages may be open, each with a scene and a picture.
@@ -67,7 +72,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut bounds = Bounds { bytes, ..Bounds::default() };
     bounds.limits.bytes = bytes;
     let port = args.port.unwrap_or(0);
-    let server = Server::bind(ServerOptions { folder, open, port, bounds }).map_err(|error| {
+    let options = ServerOptions { folder, open, look: args.look, port, bounds };
+    let server = Server::bind(options).map_err(|error| {
         let trouble = phong_scene::trouble(&error);
         match args.port {
             Some(port) => Failure::usage(format!("--port {port}: {trouble}"))
@@ -85,14 +91,15 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 
 /// Writes the page as a folder of static files.
 #[cfg(feature = "studio")]
-fn write_site(input: Option<&str>, site: &Path, wasm: Option<&str>) -> Result<(), Failure> {
+fn write_site(args: &Args, site: &Path) -> Result<(), Failure> {
     use phong_studio::engine::Bounds;
     use phong_studio::folder::Shelf;
     use phong_studio::site::{self, SiteError};
 
     use crate::{input, output::Output, report};
 
-    let modules = modules(wasm)?;
+    let input = args.input.as_deref();
+    let modules = modules(args.wasm.as_deref())?;
     if holds_something_else(site) {
         let message = format!("{} holds something else", site.display());
         return Err(Failure::usage(message).with_help("name a folder of its own for the page"));
@@ -110,7 +117,7 @@ fn write_site(input: Option<&str>, site: &Path, wasm: Option<&str>) -> Result<()
         (None, None) => Vec::new(),
     };
     let names: Vec<&str> = modules.iter().map(|(name, _)| *name).collect();
-    let files = site::files(&scenes, &shelf, &Bounds::default().limits, &names);
+    let files = site::files(&scenes, &shelf, &Bounds::default().limits, &names, args.look);
     let files = files.map_err(|error| match error {
         SiteError::Scene(diagnostics) => Failure::Input(diagnostics),
         SiteError::Outside(_) => Failure::usage(error.to_string()),

@@ -47,6 +47,7 @@ use phong_scene::Rgb;
 pub use index::page;
 pub use microfacets::{Facets, facets};
 pub(crate) use raster::{Lettering, lettering};
+pub use shininess::{Falloff, cosine_power};
 
 /// A figure that can be drawn.
 #[derive(Clone, Copy, Debug)]

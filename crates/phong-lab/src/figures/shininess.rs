@@ -14,7 +14,7 @@ const EQUATION: &str = "cos(*x*)^{*i*}";
 const EXPONENTS: [u32; 6] = [1, 2, 4, 8, 16, 32];
 
 pub(super) fn draw(_: Setting) -> Plate {
-    let half_widths = EXPONENTS.map(|i| half_width(|degrees| falloff(degrees, i)));
+    let half_widths = EXPONENTS.map(|i| cosine_power(i.into()).half_width);
     let numbers = EXPONENTS
         .iter()
         .zip(half_widths)
@@ -30,9 +30,29 @@ pub(super) fn draw(_: Setting) -> Plate {
 }
 
 /// `cos(x)^i` as the renderer has it.
-fn falloff(degrees: f64, i: u32) -> f64 {
+fn falloff(degrees: f64, i: f64) -> f64 {
     let cosine = wide::cos(degrees.to_radians()) as f32;
     f64::from(lobe(cosine, i as f32))
+}
+
+/// The share of a highlight's peak by the angle from it, for one exponent.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Falloff {
+    /// The first and the last angle, degrees.
+    pub range: [f64; 2],
+    /// `cos(x)^i` from the first angle to the last, at equal distances.
+    pub curve: Vec<f64>,
+    /// The angle at which one half of the peak is left, degrees.
+    pub half_width: f64,
+}
+
+/// `cos(x)^exponent` from one horizon to the other.
+#[must_use]
+pub fn cosine_power(exponent: f64) -> Falloff {
+    let range = [-90.0, 90.0];
+    let curve = (-90..=90).map(|degrees| falloff(f64::from(degrees), exponent)).collect();
+    let half_width = half_width(|degrees| falloff(degrees, exponent));
+    Falloff { range, curve, half_width }
 }
 
 /// The angle in degrees at which a falloff from 1 at 0° is down to one half, by bisection.
@@ -69,7 +89,7 @@ fn drawing(half_widths: &[f64; 6]) -> Drawing {
     let shades = style::FAMILY;
     for (&i, &shade) in EXPONENTS.iter().zip(&shades) {
         let stroke = Stroke::new(shade, style::CURVE);
-        plot.curve(&mut drawing, [-90.0, 90.0], 180, |x| falloff(x, i), stroke);
+        plot.curve(&mut drawing, [-90.0, 90.0], 180, |x| falloff(x, i.into()), stroke);
     }
     for &degrees in half_widths {
         plot.dot(&mut drawing, degrees, 0.5, style::MIRROR);

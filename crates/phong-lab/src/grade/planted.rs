@@ -57,10 +57,28 @@ impl Planted {
     /// # Errors
     /// [`GradeError::Options`], [`GradeError::View`].
     pub fn new(scene: &Scene, seed: u64) -> Result<Option<Self>, GradeError> {
+        Self::among(scene, seed, |_| true)
+    }
+
+    /// Plants the mistake of this name, which is then the only choice. `None`: the scene does not show it,
+    /// or there is none of that name.
+    ///
+    /// # Errors
+    /// As of [`new`](Self::new).
+    pub fn of(scene: &Scene, cause: &str) -> Result<Option<Self>, GradeError> {
+        Self::among(scene, 0, |mistake| mistake.cause == cause)
+    }
+
+    fn among(
+        scene: &Scene,
+        seed: u64,
+        is_wanted: impl Fn(&Mistake) -> bool,
+    ) -> Result<Option<Self>, GradeError> {
         let right = Prepared::new(View::of(scene)?, scene)?;
         let mut hypotheses = at_points(scene, &right);
         // Any background explains any background: as a riddle it says nothing.
-        hypotheses.retain(|one| !matches!(one.change, Change::AnyBackground));
+        hypotheses
+            .retain(|one| !matches!(one.change, Change::AnyBackground) && is_wanted(one.mistake));
         let some = &right.some[..right.some.len().min(LOOKED_AT)];
         let least = (LEAST_SEEN * some.len() as f64) as usize;
         let is_seen = |one: &Hypothesis| {

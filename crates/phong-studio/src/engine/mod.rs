@@ -4,6 +4,7 @@
 //! [`Engine::advance`], so that whoever runs it may hear the next request in between. A request that
 //! changes the picture takes the place of the one under way.
 
+mod dressing;
 mod exporting;
 mod finishing;
 mod handles;
@@ -14,22 +15,26 @@ mod look;
 mod opened;
 mod painting;
 mod recipe;
+mod saving;
 mod sharing;
 mod teaching;
 mod writing;
 
 use phong::explain::Explanation;
 use phong::render::Cancel;
-use phong::scene::{Format, Limits, Source, closest, schema_json};
+use phong::scene::{Format, Limits, NamedLook, Source, closest, schema_json};
 use phong::terms::{Term, TermSet};
 use phong::view::View;
-use phong_lab::figures::{self, Facets};
+use phong_lab::figures::{self, Facets, Falloff};
 use phong_lab::grade::Planted;
 use serde_json::{Map, Value};
 
-use crate::protocol::{MOST_EXPLAINED, MOST_FACETS, Message, PixelKind, Reply, Request, VERSION};
+use crate::protocol::{
+    MOST_EXPLAINED, MOST_EXPONENT, MOST_FACETS, Message, PixelKind, Reply, Request, VERSION,
+};
 use opened::{Files, Opened, Shown};
 use painting::Painting;
+pub use saving::Keep;
 
 /// A scene to begin with.
 pub const EXAMPLE: &str = include_str!("two-balls.toml");
@@ -70,6 +75,8 @@ pub type Emit<'a> = &'a (dyn Fn(Message) -> bool + Sync);
 pub struct Engine {
     source: Box<dyn Source>,
     bounds: Bounds,
+    /// Where texts are saved; `None`: nowhere.
+    keeper: Option<Box<dyn Keep>>,
     /// Which share of each picture is drawn, of how many; `None`: all of it.
     share: Option<(u32, u32)>,
     opened: Option<Opened>,
@@ -92,6 +99,7 @@ impl Engine {
         Self {
             source,
             bounds,
+            keeper: None,
             share: None,
             opened: None,
             pixels: PixelKind::default(),
@@ -110,10 +118,19 @@ impl Engine {
         Self { share: (index < count && count > 1).then_some((index, count)), ..self }
     }
 
-    /// The first message to a page: what there is to open.
-    pub fn hello(open: &str, files: Vec<String>) -> Message {
+    /// The first message to a page: what there is to open, and the look that is then put on; `None`: none.
+    pub fn hello(&self, open: &str, files: Vec<String>, look: Option<NamedLook>) -> Message {
         let version = env!("CARGO_PKG_VERSION").to_owned();
-        (&Reply::Hello { protocol: VERSION, version, open: open.to_owned(), files }).into()
+        let reply = Reply::Hello {
+            protocol: VERSION,
+            version,
+            open: open.to_owned(),
+            files,
+            look: look.map(NamedLook::name),
+            looks: NamedLook::ALL.map(NamedLook::name).to_vec(),
+            saves: self.keeper.is_some(),
+        };
+        (&reply).into()
     }
 
     /// Does what a message asks for. What is no request is answered with an error.
@@ -140,6 +157,13 @@ impl Engine {
             Request::Turn { by } => self.changed(emit, |opened, files| opened.turn(by, files)),
             Request::Move { by } => self.changed(emit, |opened, files| opened.shift(by, files)),
             Request::Zoom { by } => self.changed(emit, |opened, files| opened.zoom(by, files)),
+            Request::PutOn { look } => self.put_on(look.as_deref(), emit),
+            Request::Save { over } => self.save(over, emit),
+            Request::CheckFile => {
+                self.check_file(emit);
+                Ok(())
+            }
+            Request::TakeFile => self.take_file(emit),
             Request::Drag { path, from, to, keep } => self.drag(&path, [from, to], keep, emit),
             Request::Terms { off } => self.leave_out(&off, emit),
             Request::Pixels { kind } => {
@@ -150,7 +174,7 @@ impl Engine {
                 self.explain(id, pixel, samples, &set, emit)
             }
             Request::Lobe { id, pixel, light, set } => self.lobe(id, pixel, light, &set, emit),
-            Request::Mistake { seed } => self.mistake(seed, emit),
+            Request::Mistake { seed, cause } => self.mistake(seed, cause.as_deref(), emit),
             Request::Guess { cause } => self.guess(cause, emit),
             Request::Grade { name, bytes } => self.grade(name, &bytes, emit),
             Request::Cancel => {
@@ -173,6 +197,7 @@ impl Engine {
                 Ok(())
             }
             Request::Facets { id, theta, count } => facets(id, theta, count, emit),
+            Request::CosinePower { id, exponent } => cosine_power(id, exponent, emit),
         };
         if let Err(message) = done {
             say(emit, &error_reply(message));
@@ -272,7 +297,29 @@ impl Engine {
         }
         let opened = self.opened.as_ref().ok_or(NOTHING)?;
         let text = opened.text().unwrap_or_default().to_owned();
-        say(emit, &Reply::Text { text });
+        say(emit, &Reply::Text { text, note: None, from_file: false });
+        self.begin(emit)
+    }
+
+    /// Puts a look on: into the text, or on a bare model, from which `None` takes it off.
+    fn put_on(&mut self, name: Option<&str>, emit: Emit<'_>) -> Result<(), String> {
+        let look = name.map(dressing::look_of).transpose()?;
+        let files = Files { source: &*self.source, bounds: &self.bounds };
+        let opened = self.opened.as_mut().ok_or(NOTHING)?;
+        let before = opened.clone();
+        let is_bare = opened.text().is_none();
+        let done = match look {
+            look if is_bare => opened.dress(look, files).map(|()| None),
+            None => Err("a look that stands in a text is taken back by undo".to_owned()),
+            Some(look) => opened.put_on(look, files),
+        };
+        let done = done.and_then(|note| self.ready().map(|_| note));
+        let note = done.inspect_err(|_| self.opened = Some(before))?;
+        let text = self.opened.as_ref().and_then(|opened| opened.text().map(str::to_owned));
+        if let Some(text) = text {
+            let note = note.map(str::to_owned);
+            say(emit, &Reply::Text { text, note, from_file: false });
+        }
         self.begin(emit)
     }
 
@@ -365,6 +412,7 @@ impl Engine {
                 wells: shown.wells,
                 set: opened.set().clone(),
                 command: opened.command(),
+                dressed: opened.dressed.map(NamedLook::name),
                 handles: shown.handles,
                 terms: shown.terms.iter().map(Term::name).collect(),
                 off: self.off.iter().map(Term::name).collect(),
@@ -450,6 +498,16 @@ fn facets(id: u64, theta: f64, count: u32, emit: Emit<'_>) -> Result<(), String>
     }
     let Facets { range, counted, alike, lobe, error } = figures::facets(theta, count);
     say(emit, &Reply::Facets { id, count, range, counted, alike, lobe, error });
+    Ok(())
+}
+
+/// Says how a highlight falls off with this exponent.
+fn cosine_power(id: u64, exponent: f64, emit: Emit<'_>) -> Result<(), String> {
+    if !(0.0..=MOST_EXPONENT).contains(&exponent) {
+        return Err(format!("an exponent is from 0 to {MOST_EXPONENT}"));
+    }
+    let Falloff { range, curve, half_width } = figures::cosine_power(exponent);
+    say(emit, &Reply::CosinePower { id, exponent, range, curve, half_width });
     Ok(())
 }
 

@@ -6,7 +6,8 @@ use std::sync::Arc;
 use phong::geometry::{Geometry, GeometryOptions};
 use phong::look::Look;
 use phong::scene::{
-    Blob, Change, Diagnostic, Format, Memory, Reading, Scene, Shape, Source, read_changed, trouble,
+    Blob, Change, Diagnostic, Format, Memory, NamedLook, Reading, Scene, Shape, Source,
+    read_changed, trouble,
 };
 use phong::terms::TermSet;
 use phong::view::View;
@@ -36,6 +37,8 @@ pub(super) struct Opened {
     pub(super) set: Map<String, Value>,
     /// The handle that is held.
     grab: Option<Grab>,
+    /// The look that a bare model has on.
+    pub(super) dressed: Option<NamedLook>,
 }
 
 /// What reading needs besides a text.
@@ -75,10 +78,10 @@ impl Opened {
         };
         let (diagnostics, is_sound) = (Vec::new(), false);
         let (path, set) = (path.to_owned(), Map::new());
-        let (base, grab) = (None, None);
-        let as_read = text.clone();
+        let (base, grab, dressed) = (None, None, None);
+        let (text_now, as_read) = (text.clone(), text.clone());
         let mut opened =
-            Self { path, text: text.clone(), as_read, diagnostics, is_sound, base, set, grab };
+            Self { path, text: text_now, as_read, diagnostics, is_sound, base, set, grab, dressed };
         opened.read(files)?;
         match opened.diagnostics.iter().find(|diagnostic| diagnostic.is_error()) {
             // A text can be mended in the page; a model cannot.
@@ -126,16 +129,7 @@ impl Opened {
         if new.len() as u64 > Bounds::TEXT {
             return Err(format!("a text of more than {} bytes", Bounds::TEXT));
         }
-        let mut next = Self {
-            path: self.path.clone(),
-            text: Some(new),
-            as_read: self.as_read.clone(),
-            diagnostics: Vec::new(),
-            is_sound: false,
-            base: self.base.clone(),
-            set: Map::new(),
-            grab: None,
-        };
+        let mut next = self.with_text(new);
         next.read(files)?;
         if let Some(error) = next.diagnostics.iter().find(|diagnostic| diagnostic.is_error()) {
             return Err(look::in_short(error));
@@ -146,6 +140,21 @@ impl Opened {
         next.shown()?;
         *self = next;
         Ok(())
+    }
+
+    /// The same with another text, which is still to be read, and nothing laid over it.
+    pub(super) fn with_text(&self, text: String) -> Self {
+        Self {
+            path: self.path.clone(),
+            text: Some(text),
+            as_read: self.as_read.clone(),
+            diagnostics: Vec::new(),
+            is_sound: false,
+            base: self.base.clone(),
+            set: Map::new(),
+            grab: None,
+            dressed: None,
+        }
     }
 
     /// Drags a handle.
@@ -184,7 +193,7 @@ impl Opened {
         Ok(handles::spots(scene, self.text.as_deref(), &self.base()?.middles))
     }
 
-    fn read(&mut self, files: Files<'_>) -> Result<(), String> {
+    pub(super) fn read(&mut self, files: Files<'_>) -> Result<(), String> {
         let reading = self.reading(&[], files);
         self.diagnostics = reading.diagnostics;
         self.is_sound = false;
@@ -194,7 +203,15 @@ impl Opened {
         Ok(())
     }
 
-    fn reading(&self, changes: &[Change], Files { source, bounds }: Files<'_>) -> Reading {
+    fn reading(&self, changes: &[Change], files: Files<'_>) -> Reading {
+        let mut reading = self.reading_bare(changes, files);
+        if let (Some(scene), Some(look)) = (&mut reading.scene, self.dressed) {
+            scene.put_on(look);
+        }
+        reading
+    }
+
+    fn reading_bare(&self, changes: &[Change], Files { source, bounds }: Files<'_>) -> Reading {
         match &self.text {
             Some(text) => {
                 let edited = Edited { path: &self.path, text, source };
@@ -274,6 +291,11 @@ impl Opened {
 
     pub(super) fn base(&self) -> Result<&Base, String> {
         self.base.as_deref().ok_or_else(|| "there is no picture of this scene yet".to_owned())
+    }
+
+    /// Whether the text as it is now could be read.
+    pub(super) fn is_sound(&self) -> bool {
+        self.is_sound
     }
 
     pub(super) fn path(&self) -> &str {

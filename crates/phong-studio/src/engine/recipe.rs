@@ -13,6 +13,10 @@ impl Opened {
             return None;
         }
         let mut command = format!("phong render {}", quoted(&self.path));
+        if let Some(look) = self.dressed {
+            command.push_str(" --look ");
+            command.push_str(look.name());
+        }
         for change in look::changes(&self.set) {
             command.push_str(" --set ");
             command.push_str(&quoted(&change));
@@ -36,7 +40,11 @@ impl Opened {
                 format!("phong.Scene.parse(\"\"\"\\\n{text}\"\"\")")
             }
         };
-        Ok(format!("import phong\n\nscene = {read}\nphong.render(scene).save(\"picture.png\")\n"))
+        let look = self.dressed.map(|look| format!("scene.look(\"{}\")\n", look.name()));
+        let look = look.unwrap_or_default();
+        Ok(format!(
+            "import phong\n\nscene = {read}\n{look}phong.render(scene).save(\"picture.png\")\n"
+        ))
     }
 }
 

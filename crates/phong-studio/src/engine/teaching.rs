@@ -19,7 +19,12 @@ const MOST_GRADED: u64 = 1 << 21;
 
 impl Engine {
     /// Draws the picture with a mistake in it, small enough that all of them can be tried.
-    pub(super) fn mistake(&mut self, seed: u64, emit: Emit<'_>) -> Result<(), String> {
+    pub(super) fn mistake(
+        &mut self,
+        seed: u64,
+        cause: Option<&str>,
+        emit: Emit<'_>,
+    ) -> Result<(), String> {
         let shown = self.opened.as_ref().ok_or(NOTHING)?.shown()?;
         let size = small(shown.scene.image.size);
         self.changed(emit, |opened, files| {
@@ -30,7 +35,7 @@ impl Engine {
         })?;
         // The right picture is what is explained, and is not drawn.
         self.stopped = true;
-        let planted = plant(&self.opened.as_ref().ok_or(NOTHING)?.scene()?, seed);
+        let planted = plant(&self.opened.as_ref().ok_or(NOTHING)?.scene()?, seed, cause);
         let planted = planted.inspect_err(|_| self.stopped = false)?;
         let picture = self.picture;
         say(emit, &choices(&planted, picture));
@@ -64,9 +69,16 @@ fn small(size: [u32; 2]) -> [u32; 2] {
 }
 
 /// A picture with a mistake in it, and what it may be.
-fn plant(scene: &Scene, seed: u64) -> Result<Planted, String> {
-    let planted = Planted::new(scene, seed).map_err(|error| error.to_string())?;
-    planted.ok_or_else(|| "no mistake can be seen in this scene".to_owned())
+fn plant(scene: &Scene, seed: u64, cause: Option<&str>) -> Result<Planted, String> {
+    let planted = match cause {
+        Some(cause) => Planted::of(scene, cause),
+        None => Planted::new(scene, seed),
+    };
+    let planted = planted.map_err(|error| error.to_string())?;
+    planted.ok_or_else(|| match cause {
+        Some(cause) => format!("the mistake `{cause}` cannot be seen in this scene"),
+        None => "no mistake can be seen in this scene".to_owned(),
+    })
 }
 
 /// What is said of it.

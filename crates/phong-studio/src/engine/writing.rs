@@ -20,6 +20,19 @@ pub(super) fn written(text: &str, set: &Map<String, Json>) -> Result<String, Str
     Ok(if text.contains("\r\n") { out.replace("\r\n", "\n").replace('\n', "\r\n") } else { out })
 }
 
+/// Makes a table in another one where the text lacks it.
+pub(super) fn make_table(document: &mut DocumentMut, of: &str, name: &str) {
+    let outer = document.entry(of).or_insert_with(|| {
+        let mut outer = Table::new();
+        outer.set_implicit(true);
+        Item::Table(outer)
+    });
+    let has_it = outer.as_table_like().is_none_or(|outer| outer.contains_key(name));
+    if let (false, Item::Table(outer)) = (has_it, outer) {
+        outer.insert(name, Item::Table(Table::new()));
+    }
+}
+
 /// How many tables a text has in the list of this name.
 pub(super) fn count(text: &str, list: &str) -> usize {
     let Ok(document) = text.parse::<DocumentMut>() else { return 0 };

@@ -11,7 +11,7 @@ use serde_json::{Map, Value};
 pub use frame::{HEADER, TileFrame, file_frame};
 
 /// The version of the protocol. A page and an engine of different versions do not talk.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 
 /// What the page asks for.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -37,6 +37,24 @@ pub enum Request {
         /// The values by the paths of their keys; `null` takes a key out of the text.
         set: Map<String, Value>,
     },
+    /// Puts a look on, by its name: written into the text, lit as the picture is seen now. A bare model has
+    /// it on itself.
+    PutOn {
+        /// Its name, as of `phong render --look`; `None` takes it off a bare model.
+        look: Option<String>,
+    },
+    /// Writes the text into the file that it was opened from. Where somebody else has changed that
+    /// meanwhile, nothing is written, and that is said.
+    Save {
+        /// Whether it is written over such a change.
+        #[serde(default)]
+        over: bool,
+    },
+    /// Says whether somebody else has changed the file since it was read or saved; if not, nothing.
+    CheckFile,
+    /// Takes the text that the file has now. What was laid over the scene stays, as far as it still
+    /// applies.
+    TakeFile,
     /// Drags a handle in the plane through it that faces the camera, and lays the keys that follow it
     /// over the scene.
     Drag {
@@ -111,7 +129,11 @@ pub enum Request {
     /// Draws the picture with one mistake in it, for somebody to find.
     Mistake {
         /// Which of those that the scene can show.
+        #[serde(default)]
         seed: u64,
+        /// The name of the one that is wanted; `None`: the seed decides.
+        #[serde(default)]
+        cause: Option<String>,
     },
     /// Says what the mistake is.
     Guess {
@@ -151,7 +173,17 @@ pub enum Request {
         /// How many, 1 to [`MOST_FACETS`]; more begin with the same ones.
         count: u32,
     },
+    /// How cos^i falls off from the peak of a highlight.
+    CosinePower {
+        /// Comes back with the answer.
+        id: u64,
+        /// The exponent i, from 0 to [`MOST_EXPONENT`].
+        exponent: f64,
+    },
 }
+
+/// The largest exponent of which a curve is told.
+pub const MOST_EXPONENT: f64 = 1e6;
 
 /// The most facets that are drawn at once.
 pub const MOST_FACETS: u32 = 1_000_000;
@@ -205,6 +237,12 @@ pub enum Reply {
         open: String,
         /// Scenes and models beside it, by name.
         files: Vec<String>,
+        /// The look to put on what is opened first; `None`: none.
+        look: Option<&'static str>,
+        /// Every look by its name.
+        looks: Vec<&'static str>,
+        /// Whether a text can be saved in its file.
+        saves: bool,
     },
     /// What was opened.
     Scene {
@@ -217,6 +255,22 @@ pub enum Reply {
     Text {
         /// All of it.
         text: String,
+        /// What is left to say of it; `None`: nothing.
+        note: Option<String>,
+        /// Whether it is what the file holds.
+        from_file: bool,
+    },
+    /// The text is in its file.
+    Saved {
+        /// The file.
+        path: String,
+    },
+    /// Somebody else has changed the file since it was read or saved.
+    FileChanged {
+        /// The file.
+        path: String,
+        /// Whether it cannot be read any more.
+        gone: bool,
     },
     /// All there is to say about the text, as `phong check --json` says it.
     Checked {
@@ -243,6 +297,8 @@ pub enum Reply {
         set: Map<String, Value>,
         /// The command line that draws this very picture; `None` for a bare model that was turned.
         command: Option<String>,
+        /// The look that a bare model has on; `None`: none.
+        dressed: Option<&'static str>,
         /// Points of the scene that can be dragged, where they are seen.
         handles: Vec<Handle>,
         /// The terms that a picture of the scene can have, in the order of the sum.
@@ -353,6 +409,19 @@ pub enum Reply {
         lobe: Vec<f64>,
         /// How far `counted` is from it: root mean square, in units of its peak.
         error: f64,
+    },
+    /// How cos^i falls off from the peak of a highlight.
+    CosinePower {
+        /// As asked.
+        id: u64,
+        /// As asked.
+        exponent: f64,
+        /// The first and the last angle from the peak, degrees.
+        range: [f64; 2],
+        /// The share of the peak from the first to the last, at equal distances.
+        curve: Vec<f64>,
+        /// The angle at which half of the peak is left, degrees.
+        half_width: f64,
     },
     /// A request could not be met. The engine goes on.
     Error {

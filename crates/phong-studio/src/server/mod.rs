@@ -19,6 +19,7 @@ use std::time::Duration;
 use hyper::server::conn::http1;
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
+use phong::scene::NamedLook;
 use tokio::sync::Semaphore;
 use tokio::time::timeout;
 
@@ -45,6 +46,8 @@ pub struct ServerOptions {
     pub folder: PathBuf,
     /// The file in it to open first; `None`: a scene of the studio's own.
     pub open: Option<String>,
+    /// The look to put on it; `None`: none.
+    pub look: Option<NamedLook>,
     /// The port; 0: any that is free.
     pub port: u16,
     /// What each session may use.
@@ -64,7 +67,7 @@ impl Server {
     /// # Errors
     /// What the system says of the folder, the port, or its source of randomness.
     pub fn bind(options: ServerOptions) -> io::Result<Self> {
-        let ServerOptions { folder, open, port, bounds } = options;
+        let ServerOptions { folder, open, look, port, bounds } = options;
         let shelf = Shelf::new(&folder, open)?;
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port))?;
         listener.set_nonblocking(true)?;
@@ -77,7 +80,7 @@ impl Server {
         }
         let address = listener.local_addr()?;
         let sessions = Arc::new(Semaphore::new(SESSIONS));
-        let studio = Studio { token, address, shelf, bounds, sessions };
+        let studio = Studio { token, address, shelf, bounds, look, sessions };
         Ok(Self { listener, studio: Arc::new(studio) })
     }
 

@@ -85,12 +85,15 @@ fn can_wait(request: &Request) -> bool {
         request,
         Request::Explain { .. }
             | Request::Facets { .. }
+            | Request::CosinePower { .. }
             | Request::Lobe { .. }
             | Request::Guess { .. }
             | Request::Grade { .. }
             | Request::Pixels { .. }
             | Request::Finish { .. }
             | Request::Export { .. }
+            | Request::Save { .. }
+            | Request::CheckFile
             | Request::Keys
     )
 }
@@ -123,9 +126,10 @@ async fn write(
 
 /// The engine's side, on a thread of its own.
 fn work(studio: &Studio, heard: &Receiver<Heard>, shared: &Shared) {
-    let mut engine = Engine::new(studio.shelf.clone(), studio.bounds.clone());
+    let engine = Engine::new(studio.shelf.clone(), studio.bounds.clone());
+    let mut engine = engine.with_keeper(studio.shelf.clone());
     let emit: Emit<'_> = &|message| shared.queue(message);
-    shared.queue(Engine::hello(studio.shelf.first(), studio.shelf.names()));
+    shared.queue(engine.hello(studio.shelf.first(), studio.shelf.names(), studio.look));
     loop {
         let cancel = shared.begin();
         let next = if engine.has_work() {

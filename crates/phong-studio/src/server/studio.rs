@@ -3,6 +3,7 @@
 use std::net::SocketAddr;
 use std::sync::Arc;
 
+use phong::scene::NamedLook;
 use tokio::sync::Semaphore;
 
 use crate::engine::Bounds;
@@ -15,6 +16,8 @@ pub(super) struct Studio {
     pub(super) address: SocketAddr,
     pub(super) shelf: Shelf,
     pub(super) bounds: Bounds,
+    /// The look that is put on what is opened first.
+    pub(super) look: Option<NamedLook>,
     /// How many more sessions there may be.
     pub(super) sessions: Arc<Semaphore>,
 }

@@ -21,7 +21,7 @@ pub(crate) struct Talk {
     pub(crate) engine: Engine,
     pub(crate) page: Page,
     /// Whether the engine is stopped after every tile.
-    stops: bool,
+    pub(crate) stops: bool,
 }
 
 impl Talk {
@@ -352,4 +352,20 @@ fn facets_are_drawn_and_counted_or_refused() {
         talk.ask(&json!({ "do": "facets", "id": 3, "theta": theta, "count": count }));
         assert!(talk.page.last("error")["message"].as_str().unwrap().contains("80 degrees"));
     }
+}
+
+#[test]
+fn a_power_of_the_cosine_is_told_with_its_half_width_or_refused() {
+    let mut talk = Talk::new();
+    talk.ask(&json!({ "do": "cosine-power", "id": 4, "exponent": 2 }));
+    let told = talk.page.last("cosine-power");
+    let curve: Vec<f64> =
+        told["curve"].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect();
+    assert_eq!((curve.len(), curve[90], told["id"].as_u64()), (181, 1.0, Some(4)));
+    assert!((curve[45] - 0.5).abs() < 1e-5 && curve[0] < 1e-9, "{curve:?}");
+    assert!((told["half_width"].as_f64().unwrap() - 45.0).abs() < 1e-4);
+    for exponent in [-1.0, 1e7] {
+        talk.ask(&json!({ "do": "cosine-power", "id": 5, "exponent": exponent }));
+    }
+    assert_eq!(talk.page.all("error").len(), 2);
 }

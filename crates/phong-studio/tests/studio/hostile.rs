@@ -203,9 +203,18 @@ impl Dice {
                 json!({ "do": "facets", "id": id, "theta": self.number(), "count": self.pick(&[0, 1, 50, u32::MAX]) })
             }
             14 if self.below(2) == 0 => json!({ "do": "finish", "picture": self.below(400) }),
+            14 if self.below(3) == 0 => {
+                json!({ "do": "cosine-power", "id": id, "exponent": self.number() })
+            }
             14 => json!({ "do": "guess", "cause": self.pick(&["exponent-half", "", "x"]) }),
             15 => {
                 json!({ "do": "grade", "name": "a\u{0}.png", "bytes": self.pick(&["", "AAAA", "iVBORw0KGgo=", "%%%"]) })
+            }
+            16 if self.below(3) == 0 => {
+                json!({ "do": self.pick(&["save", "check-file", "take-file"]), "over": true })
+            }
+            16 if self.below(2) == 0 => {
+                json!({ "do": "put-on", "look": self.pick(&[Some("ink"), Some("clay"), Some(""), Some("vmd"), None]) })
             }
             16 => {
                 json!({ "do": "export", "format": self.pick(&["png", "exr", "toml", "python", "pdf"]) })

@@ -3,10 +3,13 @@
 
 mod changing;
 mod client;
+mod dressing;
 mod engine;
 mod finishing;
 #[cfg(feature = "server")]
 mod hostile;
+#[cfg(feature = "server")]
+mod saving;
 #[cfg(feature = "server")]
 mod server;
 mod teaching;

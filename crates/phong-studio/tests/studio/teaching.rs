@@ -86,6 +86,22 @@ fn a_class_sheet_is_told_in_place_of_a_scene() {
     assert!(talk.page.last("error")["message"].as_str().unwrap().contains("week.toml:5"));
 }
 
+#[test]
+fn a_mistake_is_planted_by_its_name_where_it_can_be_seen() {
+    let mut talk = Talk::of(SCENE);
+    talk.ask(&json!({ "do": "mistake", "cause": "reflection-sign" }));
+    let choices = &talk.page.last("mistake")["choices"];
+    assert_eq!(
+        (choices.as_array().unwrap().len(), &choices[0]["cause"]),
+        (1, &json!("reflection-sign"))
+    );
+    for cause in ["gamma-thrice", "attenuation-missing"] {
+        talk.ask(&json!({ "do": "mistake", "cause": cause }));
+        let said = talk.page.last("error")["message"].as_str().unwrap();
+        assert!(said.contains(cause), "{said}");
+    }
+}
+
 /// Bytes in base 64, with no package for it.
 fn base64(bytes: &[u8]) -> String {
     const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
