@@ -22,8 +22,8 @@ CHROMIUM = "/usr/bin/chromium"
 TASKS = {
     "vectors": [{}],
     "diffuse": [{"materials.ball.k_a": 0.725}, {}, {}],
-    "reflection": [{}],
-    "specular": [{}, {"materials.ball.shininess": 41}, {"materials.ball.k_s": 0.4, "materials.ball.shininess": 200}],
+    "reflection": [{"wrong": True}, {}],
+    "specular": [{}, {"exponent i": 1.204}, {"materials.ball.shininess": 41}, {}, {"materials.ball.k_s": 0.4, "materials.ball.shininess": 200}],
     "halfway": [{}, {"materials.ball.shininess": 41}],
     "sum": [{"materials.ball.k_s": 0.9}],
     "microfacets": [{"facets": 6}],
@@ -87,6 +87,12 @@ def task(page, index, sets):
     wait(page, f"{root}.dataset.done")
     good, said = verdict(page, index)
     assert not good, f"{page.url}, task {index + 1} is done from the start: {said}"
+    if sets.get("wrong"):
+        before = live.get_attribute("data-done")
+        live.locator(".live-box input").check()
+        wait(page, f"{root}.querySelector('.live-box input').checked && {root}.dataset.done !== '{before}'")
+        live.screenshot(path=SHOTS / "wrong-sign.png")
+        sets = {}
     for key, value in sets.items():
         slider = live.locator(f'input[aria-label="{key}"]')
         slider.evaluate("(input, value) => { input.value = value; input.dispatchEvent(new Event('input')); }", value)

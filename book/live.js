@@ -7,8 +7,10 @@
 // data-pixel    the pixel that is explained at first
 // data-check    what the task asks for: `at PATH VALUE TOLERANCE` of the explained pixel,
 //               `width TERM RATIO TOLERANCE` of the width at half the peak, against the scene as it is, or
-//               `error MOST` of the counted facets
+//               `error MOST` of the counted facets, or `half DEGREES TOLERANCE` of the half width of a curve
+// data-mistake  a known mistake, and after it what its box is called: the picture is drawn with it
 // data-facets   instead of a scene: the most facets that are drawn
+// data-power    instead of a scene: the largest exponent of a curve of cos^i
 
 (() => {
   const figures = [...document.querySelectorAll("div.live")];
@@ -24,6 +26,8 @@
     nothing: "the ray through this pixel has no such number: click a point of the ball",
     width: (now, before) => `it is ${now} pixels wide at half its peak, and was ${before}`,
     facets: (count, error) => `with ${count} facets the error is ${error} of the peak`,
+    power: (exponent, half) => `cos to the power ${exponent} is down to half its peak at ${half}°`,
+    exponent: "exponent i",
     count: "facets",
     again: "Draw as many facets",
   };
@@ -93,6 +97,7 @@
       const sliders = (root.dataset.sliders ?? "").split(",").filter((one) => one.trim());
       this.refresh = [];
       const rows = sliders.map((one) => this.slider(...one.trim().split(" ")));
+      if (root.dataset.mistake) rows.push(this.mistake(...root.dataset.mistake.split(/ (.*)/)));
       root.prepend(this.frame, make("p", { class: "live-help" }, words.help), ...rows, this.numbers);
       checked(this);
       const send = (request) => this.hold() && stage.engine.send(request);
@@ -112,6 +117,17 @@
       this.fresh = Object.keys(this.set).length > 0;
       if (this.fresh) stage.engine.send({ do: "look", set: this.set });
       return true;
+    }
+
+    // A box that draws the picture with a known mistake; what changes the picture takes it out.
+    mistake(cause, name) {
+      const box = make("input", { type: "checkbox", "aria-label": name });
+      box.onchange = () => {
+        this.hold();
+        stage.engine.send(box.checked ? { do: "mistake", cause } : { do: "look", set: {} });
+      };
+      this.wrong = (on) => (box.checked = on);
+      return make("label", { class: "live-box" }, box, ` ${name}`);
     }
 
     // `start` is the key's default: of what is as by default nothing is told.
@@ -146,11 +162,14 @@
         this.look = reply;
         this.set = reply.set;
         this.picture.begin(reply.picture, reply.size);
+        this.wrong?.(false);
         this.refresh.forEach((refresh) => refresh(reply.values));
         if (this.pixel.length === 2) this.explain(this.pixel);
       }
+      if (reply.is === "mistake") this.wrong?.(true);
       if (reply.is === "pass" && reply.pass === 0) {
-        this.picture.first();
+        // Where there is one pass alone, its tiles are of full size.
+        if (reply.passes > 1) this.picture.first();
         this.hands.seen();
       }
       if (reply.is === "pass" && reply.pass + 1 === reply.passes) this.root.dataset.done = reply.picture;
@@ -224,10 +243,7 @@
   class Facets {
     constructor(root) {
       this.root = root;
-      this.plot = document.createElementNS("http://www.w3.org/2000/svg", "svg");
-      this.plot.setAttribute("viewBox", "0 0 480 200");
-      this.plot.setAttribute("class", "live-plot");
-      this.plot.setAttribute("role", "img");
+      this.plot = plot();
       const most = Math.log10(Number(root.dataset.facets));
       const input = make("input", { type: "range", min: 0, max: most, step: 0.02, value: 0, "aria-label": words.count });
       const output = make("output");
@@ -263,11 +279,6 @@
     show({ counted, lobe, count, error }) {
       const [width, height, top] = [480, 190, 1.3 * Math.max(...lobe)];
       const y = (value) => height - (height * Math.min(value, top)) / top;
-      const part = (name, attributes) => {
-        const made = document.createElementNS("http://www.w3.org/2000/svg", name);
-        for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-        return made;
-      };
       const each = width / counted.length;
       const bars = counted.map((value, i) =>
         part("rect", { class: "bar", x: i * each + 1, y: y(value), width: each - 2, height: height - y(value) }),
@@ -283,6 +294,70 @@
       return [this.told.error <= Number(most), words.facets(this.told.count, short(this.told.error))];
     }
   }
+
+  // How a highlight falls off, by its exponent.
+  class Power {
+    constructor(root) {
+      this.root = root;
+      this.plot = plot();
+      const most = Math.log10(Number(root.dataset.power));
+      const input = make("input", { type: "range", min: 0, max: most, step: 0.005, value: 0, "aria-label": words.exponent });
+      const output = make("output");
+      this.exponent = 1;
+      input.oninput = () => {
+        this.exponent = Number((10 ** Number(input.value)).toPrecision(3));
+        output.textContent = this.exponent;
+        this.draw();
+      };
+      output.textContent = this.exponent;
+      root.prepend(this.plot, make("label", { class: "live-slider" }, words.exponent, input, output));
+      checked(this);
+    }
+
+    hold() {
+      if (!this.told) this.draw();
+    }
+
+    draw() {
+      this.drawing ??= this.drawn().finally(() => (this.drawing = null));
+      return this.drawing;
+    }
+
+    async drawn() {
+      do {
+        this.told = await stage.ask({ do: "cosine-power", exponent: this.exponent });
+        this.show(this.told);
+      } while (this.told.exponent !== this.exponent);
+    }
+
+    // The curve, and where half of its peak is left.
+    show({ curve, range, exponent, half_width: half }) {
+      const [width, height] = [480, 190];
+      const x = (degrees) => ((degrees - range[0]) / (range[1] - range[0])) * width;
+      const y = (share) => height * (1 - share) + 5;
+      const points = curve.map((share, i) => `${(i * width) / (curve.length - 1)},${y(share)}`).join(" ");
+      const marks = [-half, half].map((at) => part("line", { class: "half", x1: x(at), y1: y(0.5), x2: x(at), y2: y(0) }));
+      const across = part("line", { class: "half", x1: x(-half), y1: y(0.5), x2: x(half), y2: y(0.5) });
+      this.plot.replaceChildren(part("polyline", { class: "lobe", points }), across, ...marks);
+      this.plot.setAttribute("aria-label", words.power(short(exponent), short(half)));
+      this.root.dataset.done = exponent;
+    }
+
+    async check(_, degrees, tolerance) {
+      await this.draw();
+      const { exponent, half_width: half } = this.told;
+      return [Math.abs(half - Number(degrees)) <= Number(tolerance), words.power(short(exponent), short(half))];
+    }
+  }
+
+  const part = (name, attributes) => {
+    const made = document.createElementNS("http://www.w3.org/2000/svg", name);
+    for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+    return made;
+  };
+
+  // An empty plot.
+  const plot = () => part("svg", { viewBox: "0 0 480 200", class: "live-plot", role: "img" });
 
   // What a path of an explanation leads to.
   function read(told, path) {
@@ -321,7 +396,8 @@
     for (const { target, isIntersecting } of entries) {
       if (!isIntersecting) continue;
       seen.unobserve(target);
-      const live = target.dataset.facets ? new Facets(target) : new Live(target);
+      const { facets, power } = target.dataset;
+      const live = facets ? new Facets(target) : power ? new Power(target) : new Live(target);
       lives.set(target, live);
       begin(live);
     }
