@@ -249,11 +249,11 @@ mod tests {
             all.par_sort_unstable();
             (sums, cut, all)
         };
-        two_things_are_done: (crate::join(|| 1, || 2), rayon::join(|| 1, || 2)).0;
     }
 
     #[test]
-    fn there_is_one_thread() {
+    fn one_thread_does_one_thing_after_the_other() {
         assert_eq!(crate::current_num_threads(), 1);
+        assert_eq!(crate::join(|| 1, || 2), rayon::join(|| 1, || 2));
     }
 }

@@ -72,6 +72,12 @@ struct Entry {
     write: Option<WriteScene>,
 }
 
+/// What only programs write: a browser's page keeps its scene as TOML, and goes without 100 KB of
+/// code for others.
+const fn elsewhere(write: WriteScene) -> Option<WriteScene> {
+    if cfg!(target_arch = "wasm32") { None } else { Some(write) }
+}
+
 /// How a format is read.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Read {
@@ -99,7 +105,7 @@ static TABLE: [Entry; 15] = [
         tells: None,
         bare: true,
         read: Some(Read::Model(obj::read)),
-        write: Some(obj::export::write_obj),
+        write: elsewhere(obj::export::write_obj),
     },
     Entry {
         format: Format::Ply,
@@ -108,7 +114,7 @@ static TABLE: [Entry; 15] = [
         tells: Some(ply::is_ply),
         bare: true,
         read: Some(Read::Model(ply::read)),
-        write: Some(ply::export::write_ply),
+        write: elsewhere(ply::export::write_ply),
     },
     Entry {
         format: Format::Stl,
@@ -117,7 +123,7 @@ static TABLE: [Entry; 15] = [
         tells: Some(stl::is_stl),
         bare: true,
         read: Some(Read::Model(stl::read)),
-        write: Some(stl::export::write_stl),
+        write: elsewhere(stl::export::write_stl),
     },
     Entry {
         format: Format::Off,
@@ -135,7 +141,7 @@ static TABLE: [Entry; 15] = [
         tells: Some(gltf::is_gltf),
         bare: true,
         read: Some(Read::Model(gltf::read)),
-        write: Some(gltf::export::write_gltf),
+        write: elsewhere(gltf::export::write_gltf),
     },
     Entry {
         format: Format::Pdb,
@@ -189,7 +195,7 @@ static TABLE: [Entry; 15] = [
         tells: Some(tachyon::is_tachyon),
         bare: false,
         read: Some(Read::Scene(tachyon::read)),
-        write: Some(tachyon::export::write_tachyon),
+        write: elsewhere(tachyon::export::write_tachyon),
     },
     Entry {
         format: Format::Nff,

@@ -76,16 +76,19 @@ pub(in crate::image) fn read(bytes: &[u8], max_bytes: u64) -> Result<Picture, Re
 /// The pixels of a picture of size `shown` of which `values` of `size` begin at `corner`; 0 where
 /// there are none.
 fn placed(values: &[f32], size: Vec2<usize>, corner: Vec2<i32>, shown: Vec2<usize>) -> Vec<f32> {
-    let within = |at: usize, corner: i32, size: usize| {
-        let inside = at as i64 - i64::from(corner);
-        usize::try_from(inside).ok().filter(|&inside| inside < size)
+    // What is in both, along one side: where it begins in the picture and in the file, and its length.
+    let both = |corner: i32, size: usize, shown: usize| {
+        let corner = i64::from(corner);
+        let (from, to) = (corner.max(0), (corner + size as i64).min(shown as i64));
+        (from as usize, (from - corner) as usize, (to - from).max(0) as usize)
     };
+    let (x, file_x, width) = both(corner.0, size.0, shown.0);
+    let (y, file_y, height) = both(corner.1, size.1, shown.1);
     let mut all = vec![0.0; shown.area()];
-    for (i, value) in all.iter_mut().enumerate() {
-        let x = within(i % shown.0, corner.0, size.0);
-        let y = within(i / shown.0, corner.1, size.1);
-        if let (Some(x), Some(y)) = (x, y) {
-            *value = values[y * size.0 + x];
+    if width > 0 {
+        for row in 0..height {
+            let from = &values[(file_y + row) * size.0 + file_x..][..width];
+            all[(y + row) * shown.0 + x..][..width].copy_from_slice(from);
         }
     }
     all
