@@ -16,7 +16,7 @@ const WORDS: &[&str] = &[
     "[[disc]]\n", "[[box]]\n", "[[cylinder]]\n", "[[cone]]\n", "[[torus]]\n", "[[mesh]]\n",
     "[[points]]\n", "kind", "name", "position", "direction", "target", "cone", "edge", "color",
     "specular_color", "attenuation", "radius", "angle", "model", "k_a", "k_s", "texture", "channel", "colors", "stops", "space", "kind = \"checker\"\n",
-    "kind = \"gradient\"\n", "[textures.a]\n", "{ texture = \"a\" }", "[[0, 1], [1, 0]]", "\"uv\"", "k_e", "shininess", "f0",
+    "kind = \"gradient\"\n", "kind = \"grid\"\n", "kind = \"noise\"\n", "kind = \"cells\"\n", "octaves", "seed", "width", "[textures.a]\n", "{ texture = \"a\" }", "[[0, 1], [1, 0]]", "\"uv\"", "k_e", "shininess", "f0",
     "eta", "k", "roughness", "distribution", "transmission", "dialect", "center", "point",
     "normal", "points", "normals", "uv", "min", "max", "from", "to", "radius_to", "axis", "tube",
     "file", "smooth", "material", "group", "scale", "rotate", "translate", "matrix", "background",

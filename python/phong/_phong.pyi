@@ -85,6 +85,8 @@ class Scene:
         colors: _Colors | None = None,
         material: Material | str | None = None,
         name: str | None = None,
+        *,
+        fields: dict[str, ArrayLike] | None = None,
     ) -> Part: ...
     def update_spheres(
         self,
@@ -92,6 +94,8 @@ class Scene:
         centers: ArrayLike | None = None,
         radii: ArrayLike | None = None,
         colors: _Colors | None = None,
+        *,
+        fields: dict[str, ArrayLike] | None = None,
     ) -> None: ...
     def add_mesh(
         self,
@@ -104,6 +108,7 @@ class Scene:
         *,
         smooth: bool | float | None = None,
         name: str | None = None,
+        fields: dict[str, ArrayLike] | None = None,
     ) -> Part: ...
     def add_cylinders(
         self,
@@ -115,6 +120,7 @@ class Scene:
         *,
         caps: Literal["round", "flat", "none"] = "round",
         name: str | None = None,
+        fields: dict[str, ArrayLike] | None = None,
     ) -> Part: ...
     def add(self, shape: Shape, transform: ArrayLike | None = None) -> Part: ...
     def instance(self, part: Part, transforms: ArrayLike, *, keep: bool = True) -> list[Part]: ...

@@ -1,8 +1,9 @@
 //! Spheres, triangles and cylinders in bulk, of arrays.
 
 use glam::{DVec3, Vec3};
-use phong_scene::{Caps, Cylinders, Mesh, Points, Rgb, Shared};
+use phong_scene::{Caps, Cylinders, Field, Mesh, Points, Rgb, Shared};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::arrays::{self, Column, Numbers, RADIUS, coordinates, directions, is_radius, points};
 use crate::errors::value_error;
@@ -12,10 +13,12 @@ pub(crate) fn spheres(
     centers: &Bound<'_, PyAny>,
     radii: &Bound<'_, PyAny>,
     colors: Option<&Bound<'_, PyAny>>,
+    fields: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Points> {
     let (origin, spheres) = balls(centers, radii)?;
     let colors = sphere_colors(colors, spheres.len())?;
-    Ok(Points { origin, spheres: spheres.into(), colors, guessed: None })
+    let fields = self::fields(fields, spheres.len(), 1)?;
+    Ok(Points { origin, spheres: spheres.into(), colors, fields, guessed: None })
 }
 
 /// The same spheres elsewhere, or of other sizes or colours; what is not given stays.
@@ -24,6 +27,7 @@ pub(crate) fn moved(
     centers: Option<&Bound<'_, PyAny>>,
     radii: Option<&Bound<'_, PyAny>>,
     colors: Option<&Bound<'_, PyAny>>,
+    fields: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Points> {
     let (origin, spheres) = match (centers, radii) {
         (None, None) => (old.origin, old.spheres),
@@ -65,7 +69,48 @@ pub(crate) fn moved(
             )));
         }
     };
-    Ok(Points { origin, spheres, colors, guessed: None })
+    let fields = match fields {
+        Some(_) => self::fields(fields, spheres.len(), 1)?,
+        None => match old.fields.iter().find(|field| field.values.len() != spheres.len()) {
+            None => old.fields,
+            Some(Field { name, values }) => {
+                return Err(value_error(format!(
+                    "fields must be given: there are {} spheres now, and {name:?} is of {}",
+                    spheres.len(),
+                    values.len()
+                )));
+            }
+        },
+    };
+    Ok(Points { origin, spheres, colors, fields, guessed: None })
+}
+
+/// Numbers of `count` things, of which each has so many points; what is not finite is unknown.
+fn fields(fields: Option<&Bound<'_, PyDict>>, count: usize, points: usize) -> PyResult<Vec<Field>> {
+    let Some(fields) = fields else { return Ok(Vec::new()) };
+    let mut all = Vec::with_capacity(fields.len());
+    for (name, numbers) in fields {
+        let name: String = name.extract()?;
+        if name.is_empty() {
+            return Err(value_error("fields: a name is empty"));
+        }
+        let named = |error: PyErr| {
+            let message = format!("fields[{name:?}]: {}", error.value(fields.py()));
+            value_error(message)
+        };
+        let numbers = Numbers::of("fields", &numbers).map_err(named)?;
+        let values: Vec<f32> = if points > 1 && numbers.shape() == [count, points] {
+            numbers.flat()?.into_iter().map(|v| v as f32).collect()
+        } else {
+            let mut values = vec![0.0; count * points];
+            let column = numbers.column(count).map_err(named)?;
+            let put = |i: usize, v: f32| values[i * points..(i + 1) * points].fill(v);
+            column.fill(count, |_| true, "a number", put)?;
+            values
+        };
+        all.push(Field { name: name.into(), values: values.into() });
+    }
+    Ok(all)
 }
 
 /// Triangles.
@@ -76,6 +121,7 @@ pub(crate) fn mesh(
     uv: Option<&Bound<'_, PyAny>>,
     colors: Option<&Bound<'_, PyAny>>,
     smooth: Option<&Bound<'_, PyAny>>,
+    fields: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Mesh> {
     let crease = crease(smooth)?;
     let (origin, positions) = points(&[&Numbers::of("vertices", vertices)?], "one vertex a row")?;
@@ -121,6 +167,7 @@ pub(crate) fn mesh(
         normals,
         uvs,
         colors,
+        fields: self::fields(fields, count, 1)?,
         ..Mesh::default()
     };
     if let (true, Some(degrees)) = (mesh.normals.is_empty(), crease) {
@@ -136,6 +183,7 @@ pub(crate) fn cylinders(
     radii: &Bound<'_, PyAny>,
     colors: Option<&Bound<'_, PyAny>>,
     caps: &str,
+    fields: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Cylinders> {
     let caps = caps_of(caps)?;
     let (starts, ends) = (Numbers::of("starts", starts)?, Numbers::of("ends", ends)?);
@@ -181,7 +229,8 @@ pub(crate) fn cylinders(
         None => Shared::default(),
         Some(colors) => cylinder_colors(colors, count)?,
     };
-    Ok(Cylinders { origin, segments: segments.into(), colors, caps })
+    let fields = self::fields(fields, count, 2)?;
+    Ok(Cylinders { origin, segments: segments.into(), colors, caps, fields })
 }
 
 /// Centres, with no radius yet.

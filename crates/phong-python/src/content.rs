@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use phong_scene::{
-    Caps, Cylinders, ExportOptions, Format, Framing, Limits, Memory, Mesh, Object, Points, Scene,
-    Shape, Shared, Side, TexelValues, Texels, Texture, TextureKind, read,
+    Caps, Cylinders, ExportOptions, Field, Format, Framing, Limits, Memory, Mesh, Object, Points,
+    Scene, Shape, Shared, Side, TexelValues, Texels, Texture, TextureKind, read,
 };
 use pyo3::PyResult;
 use serde_json::{Value, json};
@@ -73,6 +73,13 @@ impl Arrays {
         Some(told)
     }
 
+    /// Numbers of points, with their names.
+    fn fields(&mut self, fields: &[Field]) -> Vec<Value> {
+        let field =
+            |Field { name, values }: &Field| json!({ "name": &**name, "array": self.put(values) });
+        fields.iter().map(field).collect()
+    }
+
     /// The arrays of a shape; `None`: it has none, and stands in the text.
     fn shape(&mut self, shape: &Shape) -> Option<Value> {
         // Taken apart without `..`: what a shape gains must be thought of here.
@@ -88,6 +95,7 @@ impl Arrays {
                     uv_indices,
                     colors,
                     face_materials,
+                    fields,
                 } = &**mesh;
                 json!({
                     "kind": "mesh",
@@ -102,19 +110,21 @@ impl Arrays {
                         self.put(colors),
                         self.put(face_materials),
                     ],
+                    "fields": self.fields(fields),
                 })
             }
             Shape::Points(points) => {
-                let Points { origin, spheres, colors, guessed } = &**points;
+                let Points { origin, spheres, colors, guessed, fields } = &**points;
                 json!({
                     "kind": "points",
                     "origin": origin.to_array().map(f64::to_bits),
                     "arrays": [self.put(spheres), self.put(colors)],
                     "guessed": guessed.map(f32::to_bits),
+                    "fields": self.fields(fields),
                 })
             }
             Shape::Cylinders(cylinders) => {
-                let Cylinders { origin, segments, colors, caps } = &**cylinders;
+                let Cylinders { origin, segments, colors, caps, fields } = &**cylinders;
                 let caps = match caps {
                     Caps::Round => "round",
                     Caps::Flat => "flat",
@@ -125,6 +135,7 @@ impl Arrays {
                     "origin": origin.to_array().map(f64::to_bits),
                     "arrays": [self.put(segments), self.put(colors)],
                     "caps": caps,
+                    "fields": self.fields(fields),
                 })
             }
             _ => return None,
@@ -376,6 +387,16 @@ impl Taken<'_> {
         Ok(())
     }
 
+    fn fields(&mut self, packed: &Value) -> PyResult<Vec<Field>> {
+        // What was packed before points had any has none.
+        let all = packed.as_array().map(Vec::as_slice).unwrap_or_default();
+        let field = |packed: &Value| {
+            let name = packed["name"].as_str().ok_or_else(broken)?.into();
+            Ok(Field { name, values: self.get(&packed["array"])? })
+        };
+        all.iter().map(field).collect()
+    }
+
     fn shape(&mut self, packed: &Value) -> PyResult<Shape> {
         let origin = vector(&packed["origin"])?;
         let array = |number: usize| packed["arrays"][number].clone();
@@ -390,6 +411,7 @@ impl Taken<'_> {
                 uv_indices: self.get(&array(5))?,
                 colors: self.get(&array(6))?,
                 face_materials: self.get(&array(7))?,
+                fields: self.fields(&packed["fields"])?,
             }
             .into(),
             Some("points") => {
@@ -398,7 +420,8 @@ impl Taken<'_> {
                     bits => Some(f32::from_bits(number(bits)?)),
                 };
                 let (spheres, colors) = (self.get(&array(0))?, self.get(&array(1))?);
-                Points { origin, spheres, colors, guessed }.into()
+                let fields = self.fields(&packed["fields"])?;
+                Points { origin, spheres, colors, guessed, fields }.into()
             }
             Some("cylinders") => {
                 let caps = match packed["caps"].as_str() {
@@ -408,7 +431,8 @@ impl Taken<'_> {
                     _ => return Err(broken()),
                 };
                 let (segments, colors) = (self.get(&array(0))?, self.get(&array(1))?);
-                Cylinders { origin, segments, colors, caps }.into()
+                let fields = self.fields(&packed["fields"])?;
+                Cylinders { origin, segments, colors, caps, fields }.into()
             }
             _ => return Err(broken()),
         })

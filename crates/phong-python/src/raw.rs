@@ -39,6 +39,7 @@ raw!(Rgb, f32, 3, v => v.to_array(), w => Rgb::from(w));
 raw!([f32; 4], f32, 4, v => v, w => w);
 raw!([u32; 3], u32, 3, v => v, w => w);
 raw!(u32, u32, 1, v => [v], w => w[0]);
+raw!(f32, f32, 1, v => [v], w => w[0]);
 raw!([Rgb; 2], f32, 6,
     v => { let [a, b] = v.map(Rgb::to_array); [a[0], a[1], a[2], b[0], b[1], b[2]] },
     w => [Rgb::new(w[0], w[1], w[2]), Rgb::new(w[3], w[4], w[5])]);

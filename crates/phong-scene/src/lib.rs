@@ -28,6 +28,7 @@ mod keys;
 mod light;
 mod limits;
 mod looks;
+mod maps;
 mod material;
 mod mesh;
 mod molecule;
@@ -66,11 +67,12 @@ pub use keys::{batch_reference_markdown, batch_schema_json, reference_markdown, 
 pub use light::{Light, LightKind};
 pub use limits::{LARGEST, Limits};
 pub use looks::NamedLook;
+pub use maps::ColorScale;
 pub use material::{
     AmbientRule, ConstantMaterial, Dialect, Distribution, Fresnel, Material, MaterialId, Model,
     NormalFormat, OpacityMode, ShadowRule, Shadowing, Tint, Viewer, WardForm,
 };
-pub use mesh::{Caps, Cylinders, Mesh, NO_INDEX, Points, Shared};
+pub use mesh::{Caps, Cylinders, Field, Mesh, NO_INDEX, Points, Shared};
 pub use outline::Outline;
 pub use scene::{Background, FilterKind, Group, Image, Object, Reading, Scene};
 pub use shape::{GroupId, Shape};
@@ -78,8 +80,8 @@ pub use sky::{Sky, SkyKind};
 pub use source::{Blob, Folder, Jail, Memory, Source, path_of, path_text, read_stream, trouble};
 pub use texels::{TexelValues, Texels, TexelsError};
 pub use texture::{
-    Channel, Encoding, GradientBy, Param, TexelFilter, Texture, TextureId, TextureKind, TextureRef,
-    TextureSpace, TextureUse, Textured, Wrap,
+    CellsBy, Channel, Encoding, GradientBy, GridAxes, MapRange, MapSource, Param, TexelFilter,
+    Texture, TextureId, TextureKind, TextureRef, TextureSpace, TextureUse, Textured, Wrap,
 };
 pub use transform::{cofactor, even_scale};
 pub use wording::closest;

@@ -26,23 +26,48 @@
 //!
 //! | key | value | default | meaning |
 //! |---|---|---|---|
-//! | `kind` | `checker`, `gradient` or `image` | required | What it is. |
+//! | `kind` | `checker`, `gradient`, `image`, `map`, `grid`, `stripes`, `noise`, `marble`, `wood` or `cells` | required | What it is. |
 //! | `colors` (checker) | two colours, `[A, B]` | required | A where ⌊x⌋ + ⌊y⌋ + ⌊z⌋ is even, B where it is odd; a coordinate less than 1e-4 below a border counts as above it. |
 //! | `scale` (checker) | a number above 0 | `1` | Squares a unit. |
+//! | `colors` (grid) | two colours, `[A, B]` | black lines on white | That of the lines, and that of what is between them. |
+//! | `colors` (stripes) | two colours, `[A, B]` | white and black | A where the stripes are counted even from 0, B where odd; what is less than 1e-4 of a stripe below a border counts as above it. |
+//! | `scale` (grid, stripes, noise, marble, wood, cells) | a number above 0 | `1` | How many cells, stripes, veins, rings or points a unit there are. |
+//! | `width` (grid) | a number above 0 | `0.05` | How wide the lines are, in units; their middles are where a coordinate is a whole number of cells. |
+//! | `axes` (grid) | `auto`, `x`, `y`, `z`, `xy`, `xz`, `yz` or `xyz` | `"auto"` | Along which axes cells are counted; `auto`: x and z, as on a floor, and in `uv` both. |
+//! | `by` (stripes) | `axis` or `radius` | `"axis"` | What stripes are counted by: the distance along `axis`, or that from the place where the texture is. |
+//! | `by` (cells) | `distance`, `border` or `cell` | `"distance"` | What t is: the distance to the nearest point in cells, how much farther away the next one is (0 where two cells meet), or a number of each cell's own. |
+//! | `axis` (stripes, marble) | three numbers, `[x, y, z]`, not all 0 | `[1, 0, 0]` | Across stripes and veins; any length. |
+//! | `axis` (wood) | three numbers, `[x, y, z]`, not all 0 | `[0, 1, 0]` | About which the rings lie; any length. |
+//! | `turbulence` (marble) | a number from 0 to 100 | `1` | How many veins they are moved by noise, about. |
+//! | `turbulence` (wood) | a number from 0 to 100 | `0.2` | How many rings they are moved by noise, about. |
+//! | `octaves` (noise, marble) | a whole number from 1 to 16 | `4` | How many noises are added up, each finer and weaker than the one before. |
+//! | `octaves` (wood) | a whole number from 1 to 16 | `2` | How many noises are added up, each finer and weaker than the one before. |
+//! | `lacunarity` (noise, marble, wood) | a number from 1 to 8 | `2` | How many times as fine each noise is as the one before. |
+//! | `gain` (noise, marble, wood) | a number from 0 to 1 | `0.5` | How many times as strong. |
+//! | `stops` (noise, marble, wood, cells) | a list of `[t, colour]`, t from 0 to 1 and never falling, or a colour map: `viridis`, `cividis`, `plasma`, `inferno`, `magma`, `turbo` or `coolwarm` | black to white | As a gradient's: the colours that t runs through from 0 to 1. |
+//! | `of` (map) | text | required | Which number is shown: `height` (along `axis`), `radius` (from the place where the texture is), `x`, `y`, `z`, `depth` (in front of the camera), `normal` (the cosine to `axis`), or the name of a property that the vertices of a PLY file have. |
+//! | `range` (map) | two numbers, `[low, high]`, or "auto" | `"auto"` | The numbers of the first colour and of the last; `auto`: the least and the largest of what the map is on. |
+//! | `stops` (map) | a list of `[t, colour]`, t from 0 to 1 and never falling, or a colour map: `viridis`, `cividis`, `plasma`, `inferno`, `magma`, `turbo` or `coolwarm` | required | The colours, a colour map by name or a list as a gradient's; beyond the range they stay. |
+//! | `nan` (map) | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name | `0.5` | The colour of what has no number. |
+//! | `axis` (map) | three numbers, `[x, y, z]`, not all 0 | the camera's `up` | Along which heights are, and to which normals are held; any length. |
+//! | `unit` (map) | text | none | The unit of the numbers, for legends. |
+//! | `seed` (noise, marble, wood, cells) | a whole number from 0 to 4294967295 | `0` | Which of many textures that are alike. |
 //! | `by` (gradient) | `axis` or `radius` | `"axis"` | What it runs by: the distance along `axis`, or that from the place where the texture is. |
 //! | `axis` (gradient) | three numbers, `[x, y, z]`, not all 0 | `[0, 1, 0]` | Along which it runs; any length. |
 //! | `from` (gradient) | a number | `0` | Where t is 0: a distance. |
 //! | `to` (gradient) | a number | `1` | Where t is 1. |
 //! | `stops` (gradient) | a list of `[t, colour]`, t from 0 to 1 and never falling, or a colour map: `viridis`, `cividis`, `plasma`, `inferno`, `magma`, `turbo` or `coolwarm` | required | Its colours; between two stops they run linearly, beyond the last they stay. A colour map has 33 of them. |
-//! | `scale` (gradient, image) | a number or `[x, y, z]`, none 0 | 1 | First of its place: a factor, or one along each axis. |
+//! | `scale` (gradient, image, map) | a number or `[x, y, z]`, none 0 | 1 | First of its place: a factor, or one along each axis. |
 //! | `file` (image) | the path of a file, in quotes | required | The image: PNG, JPEG, Radiance HDR or OpenEXR. Its left edge lies at 0 of the first coordinate and its right edge at 1, its lower edge at 0 of the second and its upper edge at 1. |
 //! | `wrap` (image) | `repeat`, `mirror`, `clamp` or `border` | `"repeat"` | What is beside it: the image again, the image mirrored, its edge, or `border`. |
+//! | `wrap_v` (image) | `repeat`, `mirror`, `clamp` or `border` | as `wrap` | What is above and below it. |
 //! | `border` (image) | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name | `0` | The colour beside it with `wrap = "border"`; its opacity is 0. |
 //! | `tint` (image) | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name | `1` | What its colours are multiplied by. |
 //! | `filter` (image) | `auto`, `nearest` or `linear` | `"auto"` | `nearest`: the pixel there; `linear`: between pixels; `auto`: that, and the mean of all that a sample of the picture covers. |
 //! | `encoding` (image) | `auto`, `srgb` or `linear` | `"auto"` | What its numbers mean; `auto`: colours of bytes and 16-bit numbers are sRGB, all else is linear. |
-//! | `space` (checker, gradient) | `object`, `world` or `uv` | `"object"` | The space it lies in. |
+//! | `space` (checker, gradient, grid, stripes, noise, marble, wood, cells) | `object`, `world` or `uv` | `"object"` | The space it lies in. |
 //! | `space` (image) | `object`, `world` or `uv` | `"uv"` | The space it lies in; `object` and `world`: along z. |
+//! | `space` (map) | `object`, `world` or `uv` | `"world"` | The space that heights, radii and coordinates are in. |
 //! | `rotate` | `[ax, ay, az, degrees]`, or a list of them | none | Turns it: right-handed about an axis; or a list of them, in order. |
 //! | `translate` | three numbers, `[x, y, z]` | `[0, 0, 0]` | Then: shifts it. |
 //! | `matrix` | four rows of four numbers | those above | Instead of all that place it: four rows of four, for column vectors. |
@@ -57,12 +82,14 @@
 //! | `channel` | `r`, `g`, `b` or `a` | all three; of a number `r` | The channel that is taken. |
 
 mod kind;
+mod map;
 
 use std::fmt;
 
 use glam::DAffine3;
 
-pub use kind::{Encoding, GradientBy, TexelFilter, TextureKind, Wrap};
+pub use kind::{CellsBy, Encoding, GradientBy, GridAxes, TexelFilter, TextureKind, Wrap};
+pub use map::{MapRange, MapSource};
 
 use crate::color::Rgb;
 use crate::diagnostic::Place;

@@ -41,7 +41,7 @@ impl Look {
             camera: scene.camera.clone(),
             lights: scene.lights.clone(),
             materials: scene.materials.clone(),
-            textures: scene.textures.clone(),
+            textures: scene.ranged_textures(),
             ambient: scene.ambient,
             ambient_occlusion: scene.ambient_occlusion,
             fog: scene.fog,

@@ -17,14 +17,16 @@ use phong_scene::{Background, Cap, Diagnostic, Rgb, Scene, ShadowRule};
 use thiserror::Error;
 
 use crate::camera::Camera;
-use crate::geometry::{Geometry, GeometryError, GeometryOptions, ObjectRecord, Tangents, summary};
+use crate::geometry::{
+    Geometry, GeometryError, GeometryOptions, ObjectRecord, Properties, Tangents, summary,
+};
 use crate::interaction::SurfaceInteraction;
 use crate::light::{Light, MOUNTED};
 use crate::look::Look;
 use crate::material::Material;
 use crate::math::Dir3;
 use crate::sky::Sky;
-use crate::texture::Texture;
+use crate::texture::{MapContext, Texture, properties_of};
 use clip::Clipping;
 pub(crate) use coincident::Coincidences;
 pub use far::StartedRay;
@@ -56,8 +58,12 @@ pub struct View {
     reliefs: Vec<Option<Relief>>,
     /// The tangents of meshes, by their parts; empty: no texture turns normals.
     tangents: Vec<Option<Arc<Tangents>>>,
-    /// Whether a texture that a material uses is an image.
-    has_images: bool,
+    /// Whether the values of any texture depend on how much of a surface a look-up stands for.
+    has_footprints: bool,
+    /// Whether those of any depend on the normal.
+    has_normal_maps: bool,
+    /// Of each part the properties of its points that maps show; empty: they show none.
+    properties: Vec<Properties>,
     /// Where rays need more than the closest hit; `None`: nowhere.
     coincidences: Option<Coincidences>,
     /// What takes ambient light away; `None`: nothing does.
@@ -155,7 +161,13 @@ impl View {
         if reliefs.is_empty() && varied.iter().all(|&varied| varied == Varied::Nothing) {
             varied = Vec::new();
         }
-        let textures: Vec<_> = look.textures.iter().map(Texture::new).collect();
+        let names = properties_of(&look.textures);
+        let context = MapContext { camera: &look.camera, properties: &names };
+        let new = |texture| Texture::new(texture, context);
+        let textures: Vec<_> = look.textures.iter().map(new).collect();
+        let parts = 0..geometry.world().parts() as u32;
+        let of_part = |part: u32| geometry.batch(part).properties(&names);
+        let properties = if names.is_empty() { Vec::new() } else { parts.map(of_part).collect() };
         let bounces =
             |m: &phong_scene::Material| !(m.reflection.is_black() && m.transmission.is_black());
         let filters = |m: &phong_scene::Material| match m.shadow {
@@ -183,7 +195,9 @@ impl View {
             has_lamps: lights.iter().any(|light| light.is_seen),
             has_ends: lights.iter().any(Light::has_end),
             has_ambient_per_light: materials.iter().any(Material::takes_ambient_per_light),
-            has_images: !varied.is_empty() && textures.iter().any(Texture::has_footprint),
+            has_footprints: !varied.is_empty() && textures.iter().any(Texture::has_footprint),
+            has_normal_maps: !varied.is_empty() && textures.iter().any(Texture::has_normals),
+            properties,
             textures,
             reliefs,
             tangents,
@@ -329,6 +343,11 @@ impl View {
     /// The materials as they were written, in the same order.
     pub fn written_materials(&self) -> &[phong_scene::Material] {
         &self.look.materials
+    }
+
+    /// The textures, ready to be looked up, in the order of the look's.
+    pub fn textures(&self) -> &[Texture] {
+        &self.textures
     }
 
     /// The objects, numbered from 0, instances unfolded.

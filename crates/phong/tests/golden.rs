@@ -43,7 +43,7 @@ golden! {
     terms: ambient ambient_color diffuse emission fog occlusion reflection reflection_depth shininess_0 shininess_1000
         shininess_3 sky specular specular_object sum total_internal total_internal_plain transmission
         transmission_dark transmission_plain transmission_thin trapped;
-    textures: checker_floor checker_spaces checker_uv color_maps gradient image numbers vertex_colors;
+    textures: checker_floor checker_spaces checker_uv color_maps gradient image maps numbers patterns vertex_colors;
     transforms: include instance instance_nested matrix mirrored order rotate rotate_list scale;
 }
 

@@ -3,6 +3,8 @@
 
 #[path = "textures/images.rs"]
 mod images;
+#[path = "textures/patterns.rs"]
+mod patterns;
 
 use phong::aov::Aov;
 use phong::explain::{End, explain};

@@ -152,6 +152,7 @@ fn texture(told: &TextureTold) -> Value {
         },
         "place": told.place.to_array(),
         "image": told.image.map(|ImageLookUp { level, taps }| json!({ "level": number(level), "taps": taps })),
+        "number": told.number.as_ref().map(|(of, number)| json!({ "of": of, "value": number.is_finite().then_some(number) })),
         "value": rgb(told.value),
     })
 }

@@ -173,12 +173,13 @@ impl Page {
             self.line(format_args!("glass    meets glass: the index beyond is {eta} of that here"));
         }
         for told in &s.textures {
-            let TextureTold { parameter, texture, space, place, image, value } = told;
+            let TextureTold { parameter, texture, space, place, image, number, value } = told;
             let space = spaced(*space);
             self.line(format_args!(
-                "texture  {parameter}: {texture} at {} in {space}{} is {}",
+                "texture  {parameter}: {texture} at {} in {space}{}{} is {}",
                 self.numbers.position(*place),
                 image.map_or(String::new(), looked_up),
+                number.as_ref().map_or(String::new(), |(of, number)| shown(of, *number)),
                 self.numbers.color(*value)
             ));
         }
@@ -435,6 +436,11 @@ fn looked_up(ImageLookUp { level, taps }: ImageLookUp) -> String {
         (level, 1) => format!(" (halved {level:.2} times)"),
         (level, taps) => format!(" (halved {level:.2} times, {taps} places)"),
     }
+}
+
+/// What a map shows.
+fn shown(of: &str, number: f64) -> String {
+    if number.is_finite() { format!(", {of} {number:.6}") } else { format!(", no {of}") }
 }
 
 /// The space that a texture lies in.

@@ -142,10 +142,11 @@ impl Scene {
     /// `centers`: shape (N, 3), any float or integer dtype, scene units. `radii`: one number, or shape
     /// (N,); above 0. `colors`: one for all, or shape (N, 3): floats are linear, `uint8` is sRGB, text is
     /// `"#rrggbb"` or a CSS name; they replace the material's. `material`: a `phong.Material`, or the name
-    /// of one of the scene's. `name`: what `explain` calls them.
+    /// of one of the scene's. `name`: what `explain` calls them. `fields`: numbers by name, one or shape
+    /// (N,), for textures of `kind="map"`; NaN is unknown.
     ///
     /// Raises `ValueError` or `TypeError` with the argument, the index, the value, and what is wanted.
-    #[pyo3(signature = (centers, radii, colors = None, material = None, name = None))]
+    #[pyo3(signature = (centers, radii, colors = None, material = None, name = None, *, fields = None))]
     fn add_spheres(
         &self,
         centers: &Bound<'_, PyAny>,
@@ -153,8 +154,9 @@ impl Scene {
         colors: Option<&Bound<'_, PyAny>>,
         material: Option<&Bound<'_, PyAny>>,
         name: Option<String>,
+        fields: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Part> {
-        let points = bulk::spheres(centers, radii, colors)?;
+        let points = bulk::spheres(centers, radii, colors, fields)?;
         let material = self.material(material)?;
         Ok(self.put(points.into(), material, name, DAffine3::IDENTITY))
     }
@@ -164,13 +166,14 @@ impl Scene {
     /// Arrays are as of `add_spheres`. Only this part is built again by the next picture, and new
     /// colours alone build nothing. Raises as `add_spheres`, and `ValueError` for a part of another
     /// kind.
-    #[pyo3(signature = (part, centers = None, radii = None, colors = None))]
+    #[pyo3(signature = (part, centers = None, radii = None, colors = None, *, fields = None))]
     fn update_spheres(
         &self,
         part: &Part,
         centers: Option<&Bound<'_, PyAny>>,
         radii: Option<&Bound<'_, PyAny>>,
         colors: Option<&Bound<'_, PyAny>>,
+        fields: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<()> {
         let place = self.place(part)?;
         let old = match &self.state().scene.objects[place].shape {
@@ -180,7 +183,7 @@ impl Scene {
                 return Err(value_error(format!("part: {:?} is a {kind}, no spheres", part.name)));
             }
         };
-        let points = bulk::moved(old, centers, radii, colors)?;
+        let points = bulk::moved(old, centers, radii, colors, fields)?;
         self.replace(part, points.into())
     }
 
@@ -189,11 +192,11 @@ impl Scene {
     /// `vertices`: shape (N, 3), any float or integer dtype. `faces`: shape (M, 3), whole numbers from 0,
     /// counter-clockwise seen from outside. `normals`: shape (N, 3), any length but 0; without, faces
     /// that meet under 60° are smoothed, or under `smooth` degrees; `smooth=False` leaves them flat.
-    /// `uv`: shape (N, 2). `colors`: one, or shape (N, 3), as of `add_spheres`.
+    /// `uv`: shape (N, 2). `colors`: one, or shape (N, 3), as of `add_spheres`, and so are `fields`.
     ///
     /// Raises `ValueError` or `TypeError` with the argument, the index, the value, and what is wanted.
     #[pyo3(signature = (vertices, faces, normals = None, uv = None, colors = None, material = None,
-                        *, smooth = None, name = None))]
+                        *, smooth = None, name = None, fields = None))]
     #[expect(clippy::too_many_arguments, reason = "they are the keywords of a Python function")]
     fn add_mesh(
         &self,
@@ -205,8 +208,9 @@ impl Scene {
         material: Option<&Bound<'_, PyAny>>,
         smooth: Option<&Bound<'_, PyAny>>,
         name: Option<String>,
+        fields: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Part> {
-        let mesh = bulk::mesh(vertices, faces, normals, uv, colors, smooth)?;
+        let mesh = bulk::mesh(vertices, faces, normals, uv, colors, smooth, fields)?;
         let material = self.material(material)?;
         Ok(self.put(mesh.into(), material, name, DAffine3::IDENTITY))
     }
@@ -214,11 +218,12 @@ impl Scene {
     /// Adds a cylinder from every start to every end; the part that they are.
     ///
     /// `starts`, `ends`: shape (N, 3). `radii`: one number, shape (N,), or (N, 2) for both ends.
-    /// `colors`: one, shape (N, 3), or (N, 2, 3) for the halves. `caps`: `"round"`, `"flat"` or `"none"`.
+    /// `colors`: one, shape (N, 3), or (N, 2, 3) for the halves. `fields`: as of `add_spheres`, or shape
+    /// (N, 2) for the ends. `caps`: `"round"`, `"flat"` or `"none"`.
     ///
     /// Raises `ValueError` or `TypeError` with the argument, the index, the value, and what is wanted.
     #[pyo3(signature = (starts, ends, radii, colors = None, material = None, *, caps = "round",
-                        name = None))]
+                        name = None, fields = None))]
     #[expect(clippy::too_many_arguments, reason = "they are the keywords of a Python function")]
     fn add_cylinders(
         &self,
@@ -229,8 +234,9 @@ impl Scene {
         material: Option<&Bound<'_, PyAny>>,
         caps: &str,
         name: Option<String>,
+        fields: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Part> {
-        let cylinders = bulk::cylinders(starts, ends, radii, colors, caps)?;
+        let cylinders = bulk::cylinders(starts, ends, radii, colors, caps, fields)?;
         let material = self.material(material)?;
         Ok(self.put(cylinders.into(), material, name, DAffine3::IDENTITY))
     }

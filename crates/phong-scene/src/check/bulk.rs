@@ -8,7 +8,8 @@ use rayon::prelude::*;
 use super::fault::{Faults, not_held};
 use crate::color::Rgb;
 use crate::limits::{LARGEST, Range};
-use crate::mesh::{Caps, Cylinders, Mesh, NO_INDEX, Points};
+use crate::mesh::{Caps, Cylinders, Field, Mesh, NO_INDEX, Points};
+use crate::wording::quoted;
 
 /// Items that one task looks through.
 const PIECE: usize = 1 << 12;
@@ -54,6 +55,7 @@ pub(super) fn mesh(mesh: &Mesh, materials: usize, faults: &mut Faults) {
     let right = |&m: &u32| (m as usize) < materials;
     let outside = |&m: &u32| Some(format!("is {m}, but there are {materials} materials"));
     first(faces, "face_materials", right, outside, faults);
+    fields(&mesh.fields, vertices, faults);
 }
 
 /// Judges points.
@@ -64,11 +66,12 @@ pub(super) fn points(points: &Points, faults: &mut Faults) {
     }
     first(&points.spheres, "spheres", is_ball, wrong_ball, faults);
     colors(&points.colors, "spheres", points.spheres.len(), faults);
+    fields(&points.fields, points.spheres.len(), faults);
 }
 
 /// Judges cylinders.
 pub(super) fn cylinders(cylinders: &Cylinders, faults: &mut Faults) {
-    let Cylinders { origin, segments, colors: pairs, caps } = cylinders;
+    let Cylinders { origin, segments, colors: pairs, caps, fields: numbers } = cylinders;
     faults.vector("origin", *origin);
     if segments.is_empty() {
         faults.say("segments", "`segments` is empty");
@@ -85,6 +88,20 @@ pub(super) fn cylinders(cylinders: &Cylinders, faults: &mut Faults) {
     };
     first(segments, "segments", right, wrong, faults);
     colors(pairs.as_flattened(), "ends of segments", 2 * segments.len(), faults);
+    fields(numbers, 2 * segments.len(), faults);
+}
+
+/// Judges fields of so many points; what is no number there is drawn as such.
+fn fields(fields: &[Field], points: usize, faults: &mut Faults) {
+    for Field { name, values } in fields {
+        if values.len() != points {
+            let (name, count) = (quoted(name), values.len());
+            faults.say(
+                "fields",
+                format!("`fields`: {name} holds {count} numbers for {points} points"),
+            );
+        }
+    }
 }
 
 /// Whether all is well with `[x, y, z, radius]`.

@@ -66,20 +66,21 @@ fn key(shape: &Shape) -> Option<Key> {
     fn at<T>(array: &Shared<T>) -> usize {
         if array.is_empty() { 0 } else { Shared::address(array) }
     }
+    // Fields are few, and looked through anew.
     let (arrays, origin) = match shape {
-        Shape::Mesh(mesh) => {
+        Shape::Mesh(mesh) if mesh.fields.is_empty() => {
             let Mesh { normals, normal_indices, uvs, uv_indices, colors, .. } = &**mesh;
             let [p, i, f] = [at(&mesh.positions), at(&mesh.indices), at(&mesh.face_materials)];
             let own = [at(normals), at(normal_indices), at(uvs), at(uv_indices), at(colors)];
             let [a, b, c, d, e] = own;
             ([p, i, f, a, b, c, d, e], mesh.origin)
         }
-        Shape::Points(points) => {
+        Shape::Points(points) if points.fields.is_empty() => {
             let Points { origin, spheres, colors, .. } = &**points;
             ([at(spheres), at(colors), 0, 0, 0, 0, 0, 0], *origin)
         }
-        Shape::Cylinders(cylinders) => {
-            let Cylinders { origin, segments, colors, caps } = &**cylinders;
+        Shape::Cylinders(cylinders) if cylinders.fields.is_empty() => {
+            let Cylinders { origin, segments, colors, caps, .. } = &**cylinders;
             ([at(segments), at(colors), *caps as usize, 0, 0, 0, 0, 0], *origin)
         }
         _ => return None,

@@ -25,6 +25,7 @@ pub use self::known::SoundArrays;
 use crate::bounds::Bounds;
 use crate::diagnostic::{Diagnostic, Place, Severity, Span};
 use crate::limits::LARGEST;
+use crate::maps;
 use crate::scene::{Object, Scene};
 use crate::shape::Shape;
 
@@ -64,6 +65,7 @@ impl Scene {
             let bounds = std::mem::take(&mut judge.bounds);
             clip::open(self, &bounds, &mut |warning| judge.say(warning));
             suspicion::check(self, &bounds, &mut |warning| judge.say(warning));
+            maps::check(self, &mut |diagnostic| judge.say(diagnostic));
             coplanar::check(self, &mut |warning| judge.say(warning));
             detail::check(self, &mut |warning| judge.say(warning));
         }

@@ -4,7 +4,7 @@ use super::fault::Faults;
 use super::shape;
 use super::value::values;
 use crate::limits::LARGEST;
-use crate::texture::{Texture, TextureKind};
+use crate::texture::{MapRange, Texture, TextureKind, TextureSpace};
 
 /// Judges a texture.
 pub(crate) fn texture(texture: &Texture, faults: &mut Faults) {
@@ -17,6 +17,24 @@ pub(crate) fn texture(texture: &Texture, faults: &mut Faults) {
     if let TextureKind::Image { border, tint, .. } = &texture.kind {
         faults.color("border", *border, LARGEST);
         faults.color("tint", *tint, LARGEST);
+    }
+    if let TextureKind::Grid { axes, .. } = texture.kind
+        && texture.space == TextureSpace::Uv
+        && axes.of(texture.space)[2]
+    {
+        let message = "`axes` has z, which is 0 everywhere in `uv`: all would be line";
+        faults.say("axes", message);
+    }
+    if let TextureKind::Map { range: MapRange::Between([low, high]), nan, axis, .. } = texture.kind
+    {
+        faults.color("nan", nan, LARGEST);
+        if let Some(axis) = axis {
+            faults.direction("axis", axis);
+        }
+        let finite = faults.finite("range", low) && faults.finite("range", high);
+        if finite && low == high {
+            faults.say("range", "`range` ends where it begins: it has no length");
+        }
     }
     shape::transform(&texture.transform, faults);
 }

@@ -26,6 +26,8 @@ pub(crate) struct Input<'a> {
     pub(crate) changes: &'a [Change],
     /// Bonds of earlier frames; `None`: there are no frames.
     pub(crate) topology: Option<&'a Topology>,
+    /// The properties of points that maps show; only files of points have some.
+    pub(crate) fields: &'a [String],
 }
 
 /// What of a file is wanted, where it could be read in more than one way.
@@ -52,6 +54,7 @@ impl<'a> Input<'a> {
             drawing: None,
             changes: &[],
             topology: None,
+            fields: &[],
         }
     }
 }

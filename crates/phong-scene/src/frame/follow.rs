@@ -55,14 +55,19 @@ fn are_same_meshes(a: &Mesh, b: &Mesh) -> bool {
         && a.uv_indices == b.uv_indices
         && a.colors == b.colors
         && a.face_materials == b.face_materials
+        && a.fields == b.fields
 }
 
 fn are_same_points(a: &Points, b: &Points) -> bool {
-    a.origin == b.origin && a.spheres == b.spheres && a.colors == b.colors
+    a.origin == b.origin && a.spheres == b.spheres && a.colors == b.colors && a.fields == b.fields
 }
 
 fn are_same_cylinders(a: &Cylinders, b: &Cylinders) -> bool {
-    a.origin == b.origin && a.segments == b.segments && a.colors == b.colors && a.caps == b.caps
+    a.origin == b.origin
+        && a.segments == b.segments
+        && a.colors == b.colors
+        && a.caps == b.caps
+        && a.fields == b.fields
 }
 
 #[cfg(test)]

@@ -154,6 +154,9 @@ pub(crate) fn of_word(table: &str, key: &str, word: &str) -> Option<&'static str
         }
         ("texture", "kind", "checkerboard" | "chess" | "chequer") => "did you mean `checker`?",
         ("texture", "kind", "ramp" | "linear") => "did you mean `gradient`?",
+        ("texture", "kind", "worley" | "voronoi" | "cellular") => "did you mean `cells`?",
+        ("texture", "kind", "perlin" | "fbm" | "turbulence" | "clouds") => "did you mean `noise`?",
+        ("texture", "kind", "lines" | "mesh") => "did you mean `grid`?",
         _ => return None,
     })
 }

@@ -81,6 +81,8 @@ pub(crate) enum Kind {
     Files,
     /// A number, or a list of numbers.
     Numbers,
+    /// `[low, high]`, two numbers that differ, or "auto".
+    Interval,
     /// Values by the path of a scene's key.
     Values,
     /// Options of another program, by its own words.
@@ -141,6 +143,7 @@ impl Kind {
             Self::Names => "a list of names, in quotes".to_owned(),
             Self::Files => "the path of a file or a list of paths, in quotes".to_owned(),
             Self::Numbers => "a number or a list of numbers".to_owned(),
+            Self::Interval => "two numbers, `[low, high]`, or \"auto\"".to_owned(),
             Self::Values => "lists of values by the path of a key".to_owned(),
             Self::Options => "words and numbers by name".to_owned(),
         }

@@ -5,7 +5,7 @@ use glam::{DAffine3, DVec2, DVec3, DVec4};
 use crate::ambient_occlusion::OcclusionDistance;
 use crate::color::Rgb;
 use crate::scene::Background;
-use crate::texture::{Param, TextureRef};
+use crate::texture::{MapRange, Param, TextureRef};
 use crate::wording::Word;
 
 /// The value of a key, read or to be written.
@@ -125,6 +125,23 @@ impl Stored for Background {
         match value {
             Value::Color(color) => Some(Self::Color(color)),
             Value::Background(background) => Some(background),
+            _ => None,
+        }
+    }
+}
+
+impl Stored for MapRange {
+    fn value(&self) -> Option<Value> {
+        Some(match self {
+            Self::Auto => Value::Word("auto"),
+            Self::Between(range) => Value::Numbers(range.to_vec()),
+        })
+    }
+
+    fn of(value: Value) -> Option<Self> {
+        match value {
+            Value::Word(_) => Some(Self::Auto),
+            Value::Numbers(range) => range.try_into().ok().map(Self::Between),
             _ => None,
         }
     }

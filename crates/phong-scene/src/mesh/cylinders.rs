@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::Shared;
+use super::{Field, Shared};
 use crate::color::Rgb;
 use crate::wording::words;
 
@@ -19,6 +19,8 @@ pub struct Cylinders {
     pub colors: Shared<[Rgb; 2]>,
     /// What the ends look like.
     pub caps: Caps,
+    /// Numbers that the ends have, two a segment, which maps show; most have none.
+    pub fields: Vec<Field>,
 }
 
 /// What the ends of cylinders look like.
@@ -39,7 +41,7 @@ words!(Caps { "round" = Round, "flat" = Flat, "none" = Open });
 impl Cylinders {
     /// Bytes that the arrays take in memory.
     pub fn bytes(&self) -> u64 {
-        (32 * self.segments.len() + 24 * self.colors.len()) as u64
+        (32 * self.segments.len() + 24 * self.colors.len()) as u64 + Field::bytes(&self.fields)
     }
 
     /// Whether both ends of a segment are at one place.
@@ -53,6 +55,9 @@ impl Cylinders {
         if self.caps != Caps::Round && self.segments.iter().any(Self::is_empty) {
             let mut keep = self.segments.iter().map(|segment| !Self::is_empty(segment));
             self.colors.retain(|_| keep.next().unwrap_or(true));
+            let segments = &self.segments;
+            let keep = |i: usize| segments.get(i).is_none_or(|segment| !Self::is_empty(segment));
+            Field::retain(&mut self.fields, 2, keep);
             self.segments.retain(|segment| !Self::is_empty(segment));
         }
         (before - self.segments.len()) as u64

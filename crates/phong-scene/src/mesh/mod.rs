@@ -6,6 +6,7 @@
 mod blocks;
 mod closed;
 mod cylinders;
+mod fields;
 mod groups;
 mod part;
 mod polygon;
@@ -16,6 +17,7 @@ mod tidy;
 mod weld;
 
 pub use cylinders::{Caps, Cylinders};
+pub use fields::Field;
 pub(crate) use groups::FLAT;
 pub(crate) use polygon::cut_polygons;
 pub use shared::Shared;
@@ -50,6 +52,8 @@ pub struct Mesh {
     pub colors: Shared<Rgb>,
     /// A material a triangle (an index into the scene's); empty: the object's for all.
     pub face_materials: Shared<u32>,
+    /// Numbers that the positions have, which maps show; most have none.
+    pub fields: Vec<Field>,
 }
 
 /// A sphere at every point. Radii > 0, every number finite.
@@ -64,4 +68,6 @@ pub struct Points {
     /// The radius of all, if nobody gave one and the reader guessed it: a picture that cannot show
     /// spheres so small may draw larger ones. `None`: the radii are as they were meant.
     pub guessed: Option<f32>,
+    /// Numbers that the points have, which maps show; most have none.
+    pub fields: Vec<Field>,
 }

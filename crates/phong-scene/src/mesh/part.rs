@@ -1,6 +1,8 @@
 //! Some of a mesh's triangles as a mesh of their own.
 
-use super::{Mesh, NO_INDEX};
+use std::sync::Arc;
+
+use super::{Field, Mesh, NO_INDEX};
 
 impl Mesh {
     /// The triangles for whose number `keep` says so, with what belongs to them and no more.
@@ -41,6 +43,14 @@ impl Mesh {
             uv_indices: uv_indices.into(),
             colors: pick(&self.colors, &used).into(),
             face_materials,
+            fields: self
+                .fields
+                .iter()
+                .map(|Field { name, values }| Field {
+                    name: Arc::clone(name),
+                    values: pick(values, &used).into(),
+                })
+                .collect(),
         }
     }
 }

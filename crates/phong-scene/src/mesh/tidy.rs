@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use super::{Mesh, NO_INDEX, Points};
+use super::{Field, Mesh, NO_INDEX, Points};
 
 impl Mesh {
     /// Takes the normals of length 0 away, whose corners get the geometric normal, and brings
@@ -69,6 +69,7 @@ impl Mesh {
         let triples = self.indices.len() + self.normal_indices.len() + self.uv_indices.len();
         let vectors = self.positions.len() + self.normals.len() + self.colors.len();
         (12 * (triples + vectors) + 8 * self.uvs.len() + 4 * self.face_materials.len()) as u64
+            + Field::bytes(&self.fields)
     }
 }
 
@@ -105,7 +106,7 @@ impl Mesh {
 impl Points {
     /// Bytes that the arrays take in memory.
     pub fn bytes(&self) -> u64 {
-        (16 * self.spheres.len() + 12 * self.colors.len()) as u64
+        (16 * self.spheres.len() + 12 * self.colors.len()) as u64 + Field::bytes(&self.fields)
     }
 }
 

@@ -142,7 +142,7 @@ impl Molecule {
                 origin: self.origin,
                 spheres: spheres.into(),
                 colors: colors.into(),
-                guessed: None,
+                ..Points::default()
             };
             if guessed {
                 points.guess_radius();
@@ -169,6 +169,7 @@ impl Molecule {
                 segments,
                 colors: vec![color; 12].into(),
                 caps: Caps::Round,
+                ..Cylinders::default()
             };
             drawn.shapes.push(("cell", lines.into()));
         }
@@ -285,6 +286,7 @@ impl Molecule {
             segments: bonds.iter().map(|bond| bond.map(end)).collect(),
             colors: bonds.iter().filter_map(halves).collect(),
             caps: if style == Style::Sticks { Caps::Round } else { Caps::Open },
+            ..Cylinders::default()
         })
     }
 }

@@ -4,14 +4,14 @@ use super::{TexelValues, Texels};
 use crate::limits::Limits;
 
 impl Texels {
-    /// Bytes that its numbers take.
+    /// Bytes that its numbers take, and those of its halves, which are made when they are needed.
     pub(crate) fn bytes(&self) -> u64 {
         let size = match self.values {
             TexelValues::Bytes(_) => 1,
             TexelValues::Shorts(_) => 2,
             TexelValues::Floats(_) => 4,
         };
-        size * self.values.len() as u64
+        with_halves(size * self.values.len() as u64)
     }
 
     /// The limits of the next image where `all` are in memory already: together they stay within `limits`.
@@ -19,6 +19,11 @@ impl Texels {
         let taken = all.map(Self::bytes).fold(0, u64::saturating_add);
         Limits { bytes: limits.bytes.saturating_sub(taken), ..limits.clone() }
     }
+}
+
+/// Bytes of an image together with its half, the half of that and so on, a quarter each.
+fn with_halves(bytes: u64) -> u64 {
+    bytes.saturating_add(bytes / 3)
 }
 
 /// Whether an image of this size may be read or made, `bytes` being what a pixel of it takes.
@@ -32,11 +37,11 @@ pub(crate) fn allow(size: [u32; 2], bytes: u64, limits: &Limits) -> Result<(), S
         let most = limits.image_pixels;
         return Err(format!("it is {width} × {height}: more than {most} pixels"));
     }
-    let needed = pixels.saturating_mul(bytes);
+    let needed = with_halves(pixels.saturating_mul(bytes));
     if needed > limits.bytes {
         let most = limits.bytes;
         return Err(format!(
-            "its pixels take {needed} bytes, over the {most} that are left of the limit"
+            "its pixels and halves take {needed} bytes, over the {most} that are left of the limit"
         ));
     }
     Ok(())

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Channel, Texture};
+use super::{Channel, MapRange, Texture, TextureSpace};
 use crate::color::Rgb;
 use crate::texels::Texels;
 use crate::wording::words;
@@ -41,6 +41,8 @@ pub enum TextureKind {
         texels: Arc<Texels>,
         /// What is beside it.
         wrap: Wrap,
+        /// What is above and below it; `None`: the same.
+        wrap_v: Option<Wrap>,
         /// The colour beside it, where [`Wrap::Border`] says so. Linear; its opacity is 0.
         border: Rgb,
         /// What its colours are multiplied by. Linear.
@@ -50,6 +52,113 @@ pub enum TextureKind {
         /// What its numbers mean.
         encoding: Encoding,
     },
+    /// Colours of numbers.
+    Map {
+        /// Which: what [`MapSource::of`](super::MapSource::of) takes.
+        of: String,
+        /// Along which heights are, and to which normals are held, any length but 0; `None`: the camera's
+        /// `up`.
+        axis: Option<DVec3>,
+        /// Between which the colours run.
+        range: MapRange,
+        /// `t` in [0, 1], never falling, and the linear colour there; at least one.
+        stops: Vec<(f32, Rgb)>,
+        /// The colour of what has no number. Linear.
+        nan: Rgb,
+        /// The unit of the numbers, for legends; `None`: it is not said.
+        unit: Option<String>,
+    },
+    /// Lines along planes in which one coordinate is a whole number of cells.
+    Grid {
+        /// That of the lines, and that of what is between them. Linear.
+        colors: [Rgb; 2],
+        /// Cells a unit, > 0.
+        scale: f64,
+        /// How wide lines are, in units, > 0; a cell's width and more: there is nothing between.
+        width: f64,
+        /// Along which axes cells are counted.
+        axes: GridAxes,
+    },
+    /// Two colours in turn, along an axis or from a point outwards.
+    Stripes {
+        /// That where the count of stripes is even, and that where it is odd. Linear.
+        colors: [Rgb; 2],
+        /// Stripes a unit, > 0.
+        scale: f64,
+        /// Which of the two. Default along the axis.
+        by: GradientBy,
+        /// Along which; any length but 0.
+        axis: DVec3,
+    },
+    /// Gradient noise: smooth, and without a direction.
+    Noise {
+        /// `t` in [0, 1], never falling, and the linear colour there; at least one.
+        stops: Vec<(f32, Rgb)>,
+        /// Cells a unit of the first octave, > 0.
+        scale: f64,
+        /// How many noises are added up, 1 to [`TextureKind::MOST_OCTAVES`].
+        octaves: u32,
+        /// How many times as fine each is as the one before, 1 to 8.
+        lacunarity: f64,
+        /// How many times as strong, 0 to 1.
+        gain: f64,
+        /// Which of many such noises.
+        seed: u32,
+    },
+    /// Veins: waves along an axis that noise bends.
+    Marble {
+        /// As those of noise.
+        stops: Vec<(f32, Rgb)>,
+        /// Veins a unit, > 0; as many cells of the noise.
+        scale: f64,
+        /// Across the veins; any length but 0.
+        axis: DVec3,
+        /// How many veins the noise moves them at most, about; 0 or more.
+        turbulence: f64,
+        /// As that of noise.
+        octaves: u32,
+        /// As that of noise.
+        lacunarity: f64,
+        /// As that of noise.
+        gain: f64,
+        /// As that of noise.
+        seed: u32,
+    },
+    /// Rings about an axis, which noise bends: each rises slowly, and falls at once.
+    Wood {
+        /// As those of noise.
+        stops: Vec<(f32, Rgb)>,
+        /// Rings a unit, > 0; as many cells of the noise.
+        scale: f64,
+        /// About which the rings lie; any length but 0.
+        axis: DVec3,
+        /// How many rings the noise moves them at most, about; 0 or more.
+        turbulence: f64,
+        /// As that of noise.
+        octaves: u32,
+        /// As that of noise.
+        lacunarity: f64,
+        /// As that of noise.
+        gain: f64,
+        /// As that of noise.
+        seed: u32,
+    },
+    /// Cells about points that are strewn, one into each cube of a lattice.
+    Cells {
+        /// As those of noise.
+        stops: Vec<(f32, Rgb)>,
+        /// Points a unit, > 0.
+        scale: f64,
+        /// What t is of a place.
+        by: CellsBy,
+        /// Which of many such textures.
+        seed: u32,
+    },
+}
+
+impl TextureKind {
+    /// The most noises that are added up.
+    pub const MOST_OCTAVES: u32 = 16;
 }
 
 impl Default for TextureKind {
@@ -115,6 +224,70 @@ pub enum GradientBy {
 
 words!(GradientBy { "axis" = Axis, "radius" = Radius });
 
+/// Along which axes the cells of a grid are counted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum GridAxes {
+    /// Those of a floor, x and z; of texture coordinates, u and v.
+    #[default]
+    Auto,
+    /// Along x alone, and so on.
+    X,
+    /// Along y.
+    Y,
+    /// Along z.
+    Z,
+    /// Along x and y.
+    Xy,
+    /// Along x and z.
+    Xz,
+    /// Along y and z.
+    Yz,
+    /// Along all three.
+    Xyz,
+}
+
+words!(GridAxes {
+    "auto" = Auto,
+    "x" = X,
+    "y" = Y,
+    "z" = Z,
+    "xy" = Xy,
+    "xz" = Xz,
+    "yz" = Yz,
+    "xyz" = Xyz,
+});
+
+impl GridAxes {
+    /// Whether cells are counted along x, y and z of a texture that lies in this space.
+    #[must_use]
+    pub fn of(self, space: TextureSpace) -> [bool; 3] {
+        match self {
+            Self::Auto if space == TextureSpace::Uv => [true, true, false],
+            Self::Auto | Self::Xz => [true, false, true],
+            Self::X => [true, false, false],
+            Self::Y => [false, true, false],
+            Self::Z => [false, false, true],
+            Self::Xy => [true, true, false],
+            Self::Yz => [false, true, true],
+            Self::Xyz => [true; 3],
+        }
+    }
+}
+
+/// What t of a texture of cells is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum CellsBy {
+    /// The distance to the nearest point, in cubes of the lattice; 1 and more is 1.
+    #[default]
+    Distance,
+    /// How much farther away the next one is: 0 where two cells meet.
+    Border,
+    /// A number of each cell's own.
+    Cell,
+}
+
+words!(CellsBy { "distance" = Distance, "border" = Border, "cell" = Cell });
+
 words!(TextureKind {
     "checker" = Checker { colors: [Rgb::WHITE, Rgb::BLACK], scale: 1.0 },
     "gradient" = Gradient {
@@ -122,38 +295,101 @@ words!(TextureKind {
         axis: DVec3::Y,
         from: 0.0,
         to: 1.0,
-        stops: vec![(0.0, Rgb::BLACK), (1.0, Rgb::WHITE)],
+        stops: black_to_white(),
     },
     "image" = Image {
         file: String::new(),
         texels: Arc::new(Texels::white()),
         wrap: Wrap::Repeat,
+        wrap_v: None,
         border: Rgb::BLACK,
         tint: Rgb::WHITE,
         filter: TexelFilter::Auto,
         encoding: Encoding::Auto,
     },
+    "map" = Map {
+        of: "height".to_owned(),
+        axis: None,
+        range: MapRange::Auto,
+        stops: black_to_white(),
+        nan: Rgb::grey(0.5),
+        unit: None,
+    },
+    "grid" = Grid {
+        colors: [Rgb::BLACK, Rgb::WHITE],
+        scale: 1.0,
+        width: 0.05,
+        axes: GridAxes::Auto,
+    },
+    "stripes" = Stripes {
+        colors: [Rgb::WHITE, Rgb::BLACK],
+        scale: 1.0,
+        by: GradientBy::Axis,
+        axis: DVec3::X,
+    },
+    "noise" = Noise {
+        stops: black_to_white(),
+        scale: 1.0,
+        octaves: 4,
+        lacunarity: 2.0,
+        gain: 0.5,
+        seed: 0,
+    },
+    "marble" = Marble {
+        stops: black_to_white(),
+        scale: 1.0,
+        axis: DVec3::X,
+        turbulence: 1.0,
+        octaves: 4,
+        lacunarity: 2.0,
+        gain: 0.5,
+        seed: 0,
+    },
+    "wood" = Wood {
+        stops: black_to_white(),
+        scale: 1.0,
+        axis: DVec3::Y,
+        turbulence: 0.2,
+        octaves: 2,
+        lacunarity: 2.0,
+        gain: 0.5,
+        seed: 0,
+    },
+    "cells" = Cells { stops: black_to_white(), scale: 1.0, by: CellsBy::Distance, seed: 0 },
 });
+
+fn black_to_white() -> Vec<(f32, Rgb)> {
+    vec![(0.0, Rgb::BLACK), (1.0, Rgb::WHITE)]
+}
 
 impl Texture {
     /// The values between which all of its values lie, of this channel: for [`Channel::Alpha`] greys.
     pub fn values(&self, channel: Option<Channel>) -> Vec<Rgb> {
         match &self.kind {
-            TextureKind::Image { texels, wrap, border, tint, encoding, .. } => {
+            TextureKind::Image { texels, wrap, wrap_v, border, tint, encoding, .. } => {
                 let value = |[r, g, b, alpha]: [f32; 4]| match channel {
                     Some(Channel::Alpha) => Rgb::grey(alpha),
                     _ => *tint * Rgb::new(r, g, b),
                 };
                 let mut values = texels.bounds(*encoding == Encoding::Srgb).map(value).to_vec();
-                if *wrap == Wrap::Border {
+                if *wrap == Wrap::Border || *wrap_v == Some(Wrap::Border) {
                     let beside = border.to_array();
                     values.push(value([beside[0], beside[1], beside[2], 0.0]));
                 }
                 values
             }
             _ if channel == Some(Channel::Alpha) => vec![Rgb::WHITE],
-            TextureKind::Checker { colors, .. } => colors.to_vec(),
-            TextureKind::Gradient { stops, .. } => stops.iter().map(|&(_, color)| color).collect(),
+            TextureKind::Checker { colors, .. }
+            | TextureKind::Grid { colors, .. }
+            | TextureKind::Stripes { colors, .. } => colors.to_vec(),
+            TextureKind::Map { stops, nan, .. } => {
+                stops.iter().map(|&(_, color)| color).chain([*nan]).collect()
+            }
+            TextureKind::Gradient { stops, .. }
+            | TextureKind::Noise { stops, .. }
+            | TextureKind::Marble { stops, .. }
+            | TextureKind::Wood { stops, .. }
+            | TextureKind::Cells { stops, .. } => stops.iter().map(|&(_, color)| color).collect(),
         }
     }
 }

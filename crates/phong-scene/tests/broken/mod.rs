@@ -2,10 +2,10 @@
 
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 use phong_scene::{
-    AmbientOcclusion, Background, Camera, CameraKind, Cap, Clip, ClipKind, ConstantMaterial, Fog,
-    FogKind, Fresnel, GradientBy, Group, GroupId, Image, Light, LightKind, Material, MaterialId,
-    Mesh, Model, NO_INDEX, Object, OcclusionDistance, Outline, Points, Rgb, Scene, Shape, SkyKind,
-    Texture, TextureId, TextureKind, TextureRef,
+    AmbientOcclusion, Background, Camera, CameraKind, Cap, Clip, ClipKind, ConstantMaterial, Field,
+    Fog, FogKind, Fresnel, GradientBy, Group, GroupId, Image, Light, LightKind, MapRange, Material,
+    MaterialId, Mesh, Model, NO_INDEX, Object, OcclusionDistance, Outline, Points, Rgb, Scene,
+    Shape, SkyKind, Texture, TextureId, TextureKind, TextureRef,
 };
 use proptest::prelude::*;
 
@@ -89,6 +89,7 @@ pub(crate) fn mesh() -> impl Strategy<Value = Mesh> {
                 uv_indices: uv_indices.into(),
                 colors: colors.into(),
                 face_materials: face_materials.into(),
+                fields: Vec::new(),
             }
         })
 }
@@ -102,7 +103,9 @@ fn shape() -> impl Strategy<Value = Shape> {
                 colors.clear();
             }
             let (spheres, colors) = (spheres.into(), colors.into());
-            Points { origin, spheres, colors, guessed: None }.into()
+            // Not one each, most of the time.
+            let fields = vec![Field { name: "T".into(), values: [0.5; 4].into() }];
+            Points { origin, spheres, colors, guessed: None, fields }.into()
         },
     );
     let capped = any::<bool>;
@@ -215,7 +218,18 @@ prop_compose! {
         a in color(), b in color(), scale in single(), axis in vector(), length in length(), kind in 0..40,
     ) -> Texture {
         let kind = match kind {
-            0..20 => TextureKind::Checker { colors: [a, b], scale: scale.into() },
+            0..15 => TextureKind::Checker { colors: [a, b], scale: scale.into() },
+            15..17 => TextureKind::Noise {
+                stops: vec![(scale, a)], scale: length, octaves: 3, lacunarity: length, gain: length, seed: 1,
+            },
+            17 => TextureKind::Map {
+                of: "T".to_owned(), axis: Some(axis), range: MapRange::Between([0.0, length]),
+                stops: vec![(0.0, a), (1.0, b)], nan: a, unit: None,
+            },
+            18..20 => TextureKind::Marble {
+                stops: vec![(0.0, a), (1.0, b)], scale: length, axis, turbulence: length, octaves: 1,
+                lacunarity: 2.0, gain: 0.5, seed: 1,
+            },
             20..39 => TextureKind::Gradient { by: GradientBy::Radius, axis, from: 0.0, to: length, stops: vec![(0.0, a), (scale, b)] },
             _ => TextureKind::Gradient { by: GradientBy::Axis, axis, from: 1.0, to: length, stops: Vec::new() },
         };

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use phong_scene::{Fresnel, Limits, Material, Model, Reading, Rgb, Scene, TextureKind};
+use phong_scene::{Fresnel, Limits, Material, Model, Reading, Rgb, Scene, TextureKind, Wrap};
 
 use super::{read_with, scene, told};
 
@@ -166,10 +166,19 @@ fn a_gltf_colour_whose_image_is_not_there_is_grey() {
 }
 
 #[test]
-fn a_sampler_that_differs_between_axes_is_told() {
-    let (_, _, told) = pbr(r#""metallicRoughnessTexture": {"index": 3}"#, "");
-    assert!(told.contains("/samplers/0: `wrapT` is not `wrapS`"), "{told}");
-    assert!(!pbr(METAL, "").2.contains("wrapT"));
+fn a_sampler_may_differ_between_axes() {
+    let wraps = |index: u32| {
+        let material = format!(
+            r#"{{"pbrMetallicRoughness": {{"metallicRoughnessTexture": {{"index": {index}}}}}}}"#
+        );
+        let reading = gltf(&[&material], &png([1, 1], &[0, 255, 0]), &Limits::default());
+        match scene(reading).textures[0].kind {
+            TextureKind::Image { wrap, wrap_v, .. } => (wrap, wrap_v),
+            ref other => panic!("{other:?}"),
+        }
+    };
+    assert_eq!(wraps(3), (Wrap::Clamp, Some(Wrap::Repeat)));
+    assert_eq!(wraps(1), (Wrap::Repeat, None));
 }
 
 /// Squares of metal and of none, 64 along each side: 12288 bytes.
@@ -181,8 +190,9 @@ fn squares() -> Vec<u8> {
 
 #[test]
 fn images_of_a_gltf_file_are_bounded_in_sum_and_made_once() {
-    // Of each of two images roughness (2 bytes a pixel) and two colours (12 each) are made.
-    let each = 64 * 64 * (3 + 2 + 2 * 12);
+    // Of each of two images roughness (2 bytes a pixel) and two colours (12 each) are made; halves of all of
+    // them take a third more.
+    let each = [3, 2, 12, 12].map(|bytes| 64 * 64 * bytes * 4 / 3).iter().sum::<u64>();
     let of = |image: &str| {
         format!(
             r#"{{"pbrMetallicRoughness": {{"metallicRoughnessTexture": {{"index": {image}}}}}}}"#
@@ -199,10 +209,16 @@ fn images_of_a_gltf_file_are_bounded_in_sum_and_made_once() {
     assert_eq!(count, 9, "{all_told}");
     let (count, told) = textures(2 * each - 1);
     assert_eq!(count, 7);
-    assert!(told.contains("everywhere as metallic as the mean: its pixels take 49152"), "{told}");
+    assert!(
+        told.contains("everywhere as metallic as the mean: its pixels and halves take 65536"),
+        "{told}"
+    );
     let (count, told) = textures(each + 1000);
     assert_eq!(count, 6);
-    assert!(told.contains("its pixels take 12288 bytes, over the 1000 that are left"), "{told}");
+    assert!(
+        told.contains("its pixels and halves take 16384 bytes, over the 1000 that are left"),
+        "{told}"
+    );
 }
 
 #[test]
@@ -224,6 +240,28 @@ fn images_of_an_mtl_file_and_of_a_scene_are_bounded_in_sum() {
         ];
         let told = told(&read_with(&files, &limits));
         assert_eq!(told.matches("cannot be read").count(), 1, "{name}: {told}");
-        assert!(told.contains("take 12288 bytes, over the 7712 that are left"), "{name}: {told}");
+        assert!(told.contains("take 16384 bytes, over the 3616 that are left"), "{name}: {told}");
+    }
+}
+
+#[test]
+fn images_of_a_scene_and_of_its_models_are_bounded_in_sum() {
+    let image = squares();
+    let limits = Limits { bytes: 20_000, ..Limits::default() };
+    let obj = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n";
+    let own = "[textures.c]\nkind = \"image\"\nfile = \"b.png\"\n";
+    let model = "[[mesh]]\nfile = \"a.obj\"\n";
+    for (first, second) in [(own, model), (model, own)] {
+        let text = format!("version = 1\n{first}{second}");
+        let files = [
+            ("a.toml", text.as_bytes()),
+            ("a.obj", obj.as_bytes()),
+            ("a.mtl", b"newmtl a\nmap_Kd a.png\n"),
+            ("a.png", &image),
+            ("b.png", &image),
+        ];
+        let told = told(&read_with(&files, &limits));
+        assert_eq!(told.matches("cannot be read").count(), 1, "{text}: {told}");
+        assert!(told.contains("bytes, over the 3616 that are left"), "{text}: {told}");
     }
 }

@@ -48,7 +48,9 @@ cases! {
     meshes_keep_their_normals_or_are_smoothed_or_flat
     molecules_are_drawn_in_styles_and_colours
     objects_are_numbered_by_kind_in_the_order_of_the_text
+    maps_show_numbers
     parameters_vary_by_textures
+    patterns_have_defaults
     points_are_spheres_of_the_radius_given
     shapes_are_scaled_then_turned_then_moved
     surfaces_may_be_see_through
@@ -111,7 +113,10 @@ cases! {
     nan_and_infinity_are_wrong_everywhere
     numbers_that_are_bytes_or_radians_are_doubted
     one_table_and_several_are_not_the_same
+    maps_of_numbers_that_they_cannot_have
+    maps_show_what_there_is
     opacity_is_a_share
+    patterns_of_numbers_that_they_cannot_have
     selections_and_columns_are_told_at_their_place
     shapes_that_are_none_are_told
     textures_that_are_not_there_or_do_not_fit

@@ -2,12 +2,13 @@
 
 use glam::{DAffine3, DMat3, DVec2, DVec3, Vec2, Vec3};
 use phong_scene::{
-    AmbientOcclusion, AmbientRule, Background, Camera, CameraKind, Cap, Caps, Channel, Clip,
-    ClipKind, ConstantMaterial as Material, Cylinders, Dialect, Distribution, FilterKind, Fog,
-    FogDistance, FogKind, Fresnel, GradientBy, Group, GroupId, Image, Keep, Light, LightKind,
-    MaterialId, Mesh, Model, NO_INDEX, NormalFormat, Object, OcclusionDistance, OpacityMode,
-    Outline, Place, Points, Rgb, Scene, ShadowRule, Shadowing, Shape, Sky, SkyKind, Texture,
-    TextureId, TextureKind, TextureRef, TextureSpace, Tint, Viewer, WardForm,
+    AmbientOcclusion, AmbientRule, Background, Camera, CameraKind, Cap, Caps, CellsBy, Channel,
+    Clip, ClipKind, ConstantMaterial as Material, Cylinders, Dialect, Distribution, FilterKind,
+    Fog, FogDistance, FogKind, Fresnel, GradientBy, GridAxes, Group, GroupId, Image, Keep, Light,
+    LightKind, MapRange, MaterialId, Mesh, Model, NO_INDEX, NormalFormat, Object,
+    OcclusionDistance, OpacityMode, Outline, Place, Points, Rgb, Scene, ShadowRule, Shadowing,
+    Shape, Sky, SkyKind, Texture, TextureId, TextureKind, TextureRef, TextureSpace, Tint, Viewer,
+    WardForm,
 };
 use proptest::prelude::*;
 
@@ -275,14 +276,54 @@ impl Make {
     }
 
     fn texture(&mut self, number: usize) -> Texture {
-        let kind = if self.flag() {
-            TextureKind::Checker { colors: [self.color(), self.color()], scale: self.number() }
-        } else {
-            let stops = [0.0, 0.25, 0.25, 0.3, 1.0].map(|t| (t, self.color()));
-            let axis = DVec3::new(self.number(), -2.0, 0.0);
-            let from = self.number();
-            let by = self.one(&[GradientBy::Axis, GradientBy::Radius]);
-            TextureKind::Gradient { by, axis, from, to: from - self.number(), stops: stops.into() }
+        let stops: Vec<_> = [0.0, 0.25, 0.25, 0.3, 1.0].map(|t| (t, self.color())).into();
+        let axis = DVec3::new(self.number(), -2.0, 0.0);
+        let (colors, scale, seed) =
+            ([self.color(), self.color()], self.number(), self.below(9) as u32);
+        let (octaves, lacunarity, gain) = (1 + seed, 1.0 + self.number(), self.number() / 1.01);
+        let turbulence = self.number();
+        let by = self.one(&[GradientBy::Axis, GradientBy::Radius]);
+        let kind = match self.below(9) {
+            0 => TextureKind::Checker { colors, scale },
+            1 => TextureKind::Grid { colors, scale, width: turbulence, axes: GridAxes::Xy },
+            2 => TextureKind::Stripes { colors, scale, by, axis },
+            3 => TextureKind::Noise { stops, scale, octaves, lacunarity, gain, seed },
+            4 => TextureKind::Marble {
+                stops,
+                scale,
+                axis,
+                turbulence,
+                octaves,
+                lacunarity,
+                gain,
+                seed,
+            },
+            5 => TextureKind::Wood {
+                stops,
+                scale,
+                axis,
+                turbulence,
+                octaves,
+                lacunarity,
+                gain,
+                seed,
+            },
+            6 => {
+                let by = self.one(&[CellsBy::Distance, CellsBy::Border, CellsBy::Cell]);
+                TextureKind::Cells { stops, scale, by, seed }
+            }
+            7 => TextureKind::Map {
+                of: "x".to_owned(),
+                axis: self.flag().then_some(axis),
+                range: MapRange::Between([-scale, turbulence]),
+                stops,
+                nan: self.color(),
+                unit: self.flag().then(|| "K".to_owned()),
+            },
+            _ => {
+                let from = self.number();
+                TextureKind::Gradient { by, axis, from, to: from - self.number(), stops }
+            }
         };
         Texture {
             name: format!("{} {number}", self.name()),

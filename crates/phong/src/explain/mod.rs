@@ -175,6 +175,8 @@ pub struct TextureTold {
     pub place: DVec3,
     /// How its image is looked up there; `None`: it is none.
     pub image: Option<ImageLookUp>,
+    /// What a map shows, and the number there, NaN where there is none; `None`: it is no map.
+    pub number: Option<(String, f64)>,
     /// The texture's value there, not yet scaled nor shifted. Linear.
     pub value: Rgb,
 }

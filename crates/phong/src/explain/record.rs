@@ -1,7 +1,7 @@
 //! Writes down what the integrator tells.
 
 use phong_bvh::Ray;
-use phong_scene::{Rgb, TextureUse};
+use phong_scene::{Rgb, TextureKind, TextureUse};
 
 use super::{Blocker, End, LightFrom, Lit, Onward, Openness, RayTold, Surface, TextureTold};
 use crate::interaction::SurfaceInteraction;
@@ -9,7 +9,7 @@ use crate::material::Material;
 use crate::math::Dir3;
 use crate::reflectance::Incident;
 use crate::terms::Terms;
-use crate::texture::{Texture, TexturePoint};
+use crate::texture::TexturePoint;
 use crate::view::{Occlusion, View};
 use crate::witness::{Branch, Cut, Faded, LightContribution, Witness};
 
@@ -258,13 +258,19 @@ fn textures(scene: &View, material: u32, point: &TexturePoint) -> Vec<TextureTol
     let look = scene.look();
     let told = |(parameter, asked): (&'static str, TextureUse)| {
         let written = look.textures.get(asked.texture.0 as usize)?;
-        let texture = Texture::new(written);
+        let texture = scene.textures().get(asked.texture.0 as usize)?;
         Some(TextureTold {
             parameter,
             texture: written.name.clone(),
             space: written.space,
             place: texture.place(point),
             image: texture.image_look_up(point),
+            number: match &written.kind {
+                TextureKind::Map { of, .. } => {
+                    texture.number(point).map(|number| (of.clone(), number))
+                }
+                _ => None,
+            },
             value: texture.value(point, asked),
         })
     };

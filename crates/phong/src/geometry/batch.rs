@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec2, DVec3, Vec2, Vec3};
 use phong_bvh::Hit;
-use phong_scene::{NO_INDEX, Rgb, Shared};
+use phong_scene::{Field, NO_INDEX, Rgb, Shared};
 
 use super::smooth::{SmoothMesh, ToWorld};
 use crate::math::Dir3;
@@ -25,7 +25,14 @@ pub(crate) struct Batch {
     pub(super) apart: Option<DVec3>,
     /// Of a triangle among solids its number in the mesh, and its corners.
     pub(super) face: Option<(u32, [u32; 3])>,
+    /// Numbers that the points have: of a mesh at its corners, of spheres one each, of cylinders two.
+    pub(super) fields: Vec<Field>,
+    /// Whether these are of the ends of cylinders.
+    pub(super) is_ends: bool,
 }
+
+/// The properties of a batch's points that maps show, in their order; `None`: it does not have that one.
+pub(crate) type Properties = [Option<Shared<f32>>; Field::MOST];
 
 /// The objects that a batch's primitives belong to.
 #[derive(Clone, Copy, Debug)]
@@ -66,6 +73,8 @@ impl Batch {
             rotations: Vec::new(),
             apart: None,
             face: None,
+            fields: Vec::new(),
+            is_ends: false,
         }
     }
 
@@ -169,6 +178,38 @@ impl Batch {
         let corners = at_corners(&mesh.uvs, &mesh.uv_indices, local, corners)?;
         let [a, b, c] = corners.map(|Vec2 { x, y }| DVec2::new(x.into(), y.into()));
         Some([b - a, c - a])
+    }
+
+    /// Those of its fields that have these names.
+    pub(crate) fn properties(&self, names: &[String]) -> Properties {
+        std::array::from_fn(|i| {
+            let name = names.get(i)?;
+            let field = self.fields.iter().find(|field| *field.name == **name)?;
+            Some(field.values.clone())
+        })
+    }
+
+    /// What they are at a hit: between points linear; NaN where it has none.
+    pub(crate) fn properties_at(
+        &self,
+        properties: &Properties,
+        corners: Option<[u32; 3]>,
+        hit: &Hit,
+    ) -> [f32; Field::MOST] {
+        let at = |values: &Option<Shared<f32>>| -> Option<f32> {
+            let values = values.as_ref()?;
+            if self.mesh.is_some() {
+                let [a, b, c] = corners?.map(|corner| values.get(corner as usize).copied());
+                return Some((1.0 - hit.u - hit.v) * a? + hit.u * b? + hit.v * c?);
+            }
+            let first = hit.prim as usize;
+            if self.is_ends {
+                let [a, b] = [0, 1].map(|end| values.get(2 * first + end).copied());
+                return Some((1.0 - hit.u) * a? + hit.u * b?);
+            }
+            values.get(first).copied()
+        };
+        properties.each_ref().map(|values| at(values).unwrap_or(f32::NAN))
     }
 
     /// The geometry's own colour; `None` where it is the material's.

@@ -63,14 +63,16 @@ pub(super) fn build(
             }
             Shape::Points(points) => {
                 let batch = Batch::new(Objects::One(number), material);
-                let Points { origin, spheres, colors, .. } = &**points;
-                let batch = Batch { colors: colors.clone(), ..batch };
+                let Points { origin, spheres, colors, fields, .. } = &**points;
+                let (colors, fields) = (colors.clone(), fields.clone());
+                let batch = Batch { colors, fields, ..batch };
                 (Arrays::Spheres(spheres.clone()), *origin, batch)
             }
             Shape::Cylinders(cylinders) => {
                 let batch = Batch::new(Objects::One(number), material);
-                let Cylinders { origin, segments, colors, caps } = &**cylinders;
-                let batch = Batch { end_colors: colors.clone(), ..batch };
+                let Cylinders { origin, segments, colors, caps, fields } = &**cylinders;
+                let (end_colors, fields) = (colors.clone(), fields.clone());
+                let batch = Batch { end_colors, fields, is_ends: true, ..batch };
                 (Arrays::Cylinders(segments.clone(), *caps), *origin, batch)
             }
             shape => {
@@ -101,7 +103,8 @@ fn of_mesh(mesh: &Mesh, to_world: DMat3, object: u32, material: u32) -> Batch {
     if !mesh.face_materials.is_empty() {
         batch.materials = MaterialNumbers::OneEach(mesh.face_materials.clone());
     }
-    let Mesh { normals, normal_indices, uvs, uv_indices, colors, .. } = mesh.clone();
+    let Mesh { normals, normal_indices, uvs, uv_indices, colors, fields, .. } = mesh.clone();
+    batch.fields = fields;
     if to_world != DMat3::IDENTITY && !normals.is_empty() {
         // Of about unit size, which f32 can hold whatever the transform's.
         let matrix = cofactor(to_world);

@@ -22,7 +22,7 @@ use phong_bvh::{BuildError, BuildOptions, Coordinates, Hit, Preset, Primitives, 
 use phong_scene::{Diagnostic, Place, Scene, Shape, SoundArrays};
 use thiserror::Error;
 
-pub(crate) use batch::Batch;
+pub(crate) use batch::{Batch, Properties};
 use closed::Closed;
 use scale::Scale;
 use tangents::KnownTangents;

@@ -70,7 +70,7 @@ impl Interactions {
             Some(coincidences) => self.settle(scene, coincidences, rays, &paths.departures),
         }
         self.widths.clear();
-        if scene.has_images() {
+        if scene.has_footprints() {
             integrator.measure_widths(rays, &self.hits, paths, &mut self.widths);
         }
         lamps::find(scene, rays, &mut self.hits, &mut self.lamps);

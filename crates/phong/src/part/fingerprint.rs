@@ -4,8 +4,8 @@ use std::fmt::{self, Write as _};
 
 use crc32fast::Hasher;
 use phong_scene::{
-    Clip, Cylinders, Group, Material, Mesh, Object, Place, Points, Scene, Shape, TexelValues,
-    Texels, Texture, TextureKind,
+    Clip, Cylinders, Field, Group, Material, Mesh, Object, Place, Points, Scene, Shape,
+    TexelValues, Texels, Texture, TextureKind,
 };
 
 /// A checksum of everything in a scene but its picture settings and the places it was written at:
@@ -115,6 +115,7 @@ impl Sum {
             uv_indices,
             colors,
             face_materials,
+            fields,
         } = mesh;
         self.debug(origin);
         self.words(positions, |v| v.to_array().map(f32::to_bits));
@@ -125,17 +126,27 @@ impl Sum {
         self.words(uv_indices, |corners| *corners);
         self.words(colors, |c| c.to_array().map(f32::to_bits));
         self.words(face_materials, |material| [*material]);
+        self.fields(fields);
+    }
+
+    fn fields(&mut self, fields: &[Field]) {
+        for Field { name, values } in fields {
+            self.debug(name);
+            self.words(values, |value| [value.to_bits()]);
+        }
     }
 
     fn points(&mut self, points: &Points) {
-        let Points { origin, spheres, colors, .. } = points;
+        let Points { origin, spheres, colors, fields, .. } = points;
+        self.fields(fields);
         self.debug(origin);
         self.words(spheres, |sphere| sphere.map(f32::to_bits));
         self.words(colors, |c| c.to_array().map(f32::to_bits));
     }
 
     fn cylinders(&mut self, cylinders: &Cylinders) {
-        let Cylinders { origin, segments, colors, caps } = cylinders;
+        let Cylinders { origin, segments, colors, caps, fields } = cylinders;
+        self.fields(fields);
         self.debug(&(origin, caps));
         self.words(segments.as_flattened(), |end| end.map(f32::to_bits));
         self.words(colors.as_flattened(), |c| c.to_array().map(f32::to_bits));

@@ -258,6 +258,7 @@ fn a_scene_is_known_by_the_pixels_of_its_images_and_not_by_their_files() {
             file: file.to_owned(),
             texels: Arc::new(Texels::new([2, 1], 1, values).unwrap()),
             wrap: Wrap::Repeat,
+            wrap_v: None,
             border: Rgb::BLACK,
             tint: Rgb::WHITE,
             filter: TexelFilter::Auto,

@@ -3,13 +3,15 @@
 use glam::DVec3;
 use phong_scene::{GradientBy, Rgb};
 
+use super::ramp::Ramp;
+
 #[derive(Clone, Debug)]
 pub(super) struct Gradient {
     /// Unit; `None`: by the distance from the origin.
     axis: Option<DVec3>,
     from: f64,
     to: f64,
-    stops: Vec<(f32, Rgb)>,
+    ramp: Ramp,
 }
 
 impl Gradient {
@@ -21,20 +23,14 @@ impl Gradient {
         stops: &[(f32, Rgb)],
     ) -> Self {
         let axis = (by == GradientBy::Axis).then(|| axis.normalize_or(DVec3::Y));
-        Self { axis, from, to, stops: stops.to_vec() }
+        Self { axis, from, to, ramp: Ramp::new(stops) }
     }
 
     /// Black where there are no stops.
     pub(super) fn value(&self, p: DVec3) -> Rgb {
         let along = self.axis.map_or_else(|| p.length(), |axis| axis.dot(p));
         let t = ((along - self.from) / (self.to - self.from)).clamp(0.0, 1.0) as f32;
-        let next = self.stops.partition_point(|&(at, _)| at <= t);
-        let (before, after) = self.stops.split_at(next);
-        match (before.last(), after.first()) {
-            (Some(&(from, a)), Some(&(to, b))) => a + (t - from) / (to - from) * (b - a),
-            (Some(&(_, only)), None) | (None, Some(&(_, only))) => only,
-            (None, None) => Rgb::BLACK,
-        }
+        self.ramp.at(t)
     }
 }
 

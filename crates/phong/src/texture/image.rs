@@ -12,7 +12,8 @@ const MOST_TAPS: f64 = 16.0;
 #[derive(Clone, Debug)]
 pub(super) struct ImageTexture {
     texels: Arc<Texels>,
-    wrap: Wrap,
+    /// Beside it, and above and below.
+    wrap: [Wrap; 2],
     border: [f32; 4],
     /// What colours are multiplied by.
     tint: Rgb,
@@ -34,7 +35,7 @@ pub struct ImageLookUp {
 impl ImageTexture {
     pub(super) fn new(
         texels: &Arc<Texels>,
-        (wrap, border): (Wrap, Rgb),
+        (wrap, border): ([Wrap; 2], Rgb),
         tint: Rgb,
         (filter, encoding): (TexelFilter, Encoding),
     ) -> Self {
@@ -161,7 +162,7 @@ impl ImageTexture {
     /// A pixel of the image or beside it.
     fn texel(&self, texels: &Texels, [x, y]: [i64; 2], srgb: bool) -> [f32; 4] {
         let [width, height] = texels.size();
-        match (wrapped(x, width, self.wrap), wrapped(y, height, self.wrap)) {
+        match (wrapped(x, width, self.wrap[0]), wrapped(y, height, self.wrap[1])) {
             (Some(x), Some(y)) => texels.get([x, y], srgb),
             _ => self.border,
         }
@@ -210,7 +211,7 @@ mod tests {
         let channels = bytes.len() / (size[0] * size[1]) as usize;
         let values = TexelValues::Bytes(bytes.to_vec());
         let texels = Arc::new(Texels::new(size, channels, values).expect("an image"));
-        ImageTexture::new(&texels, (wrap, Rgb::BLACK), Rgb::WHITE, (filter, Encoding::Linear))
+        ImageTexture::new(&texels, ([wrap; 2], Rgb::BLACK), Rgb::WHITE, (filter, Encoding::Linear))
     }
 
     #[test]
@@ -238,6 +239,17 @@ mod tests {
         }
         assert_eq!(at(Wrap::Repeat, 1e300), at(Wrap::Repeat, 1e300), "far away is no panic");
         at(Wrap::Repeat, f64::NAN);
+    }
+
+    #[test]
+    fn above_an_image_may_be_something_else_than_beside_it() {
+        let pixels = TexelValues::Bytes(vec![51, 255]);
+        let texels = Arc::new(Texels::new([2, 1], 1, pixels).expect("an image"));
+        let wrap = [Wrap::Repeat, Wrap::Border];
+        let how = (TexelFilter::Nearest, Encoding::Linear);
+        let image = ImageTexture::new(&texels, (wrap, Rgb::BLACK), Rgb::WHITE, how);
+        let at = |u, v| image.value(DVec2::new(u, v), [DVec2::ZERO; 2], true)[0];
+        assert_eq!([at(1.2, 0.5), at(1.7, 0.5), at(0.7, 1.5)], [0.2, 1.0, 0.0]);
     }
 
     #[test]

@@ -5,7 +5,7 @@ use phong_bvh::{Hit, Ray};
 use phong_scene::{NormalFormat, TextureRef, TextureUse};
 
 use super::View;
-use crate::texture::{Footprint, TexturePoint};
+use crate::texture::TexturePoint;
 
 /// What turns the normals of a material.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -100,14 +100,13 @@ impl View {
 
     /// Where textures are that far along the surface.
     fn beside(&self, at: &Turned<'_>, by: DVec3) -> TexturePoint {
-        let TexturePoint { object, world, uv, tangent, footprint } = *at.point;
         let [du, _] = self.uv_changes(at.ray, at.hit, [by, by]);
+        let TexturePoint { object, world, uv, .. } = *at.point;
         TexturePoint {
             object: object + self.geometry.own_vector(at.hit, by),
             world: world + by,
             uv: [uv[0] + du.x as f32, uv[1] + du.y as f32],
-            tangent,
-            footprint: Footprint { ..footprint },
+            ..*at.point
         }
     }
 

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3, Vec3};
 use phong_bvh::{Hit, Hits8, Ray, Rays8, Surface, Surfaces8, lanes};
-use phong_scene::{ConstantMaterial, Param, Rgb, TextureRef, TextureUse};
+use phong_scene::{ConstantMaterial, Field, Param, Rgb, TextureRef, TextureUse};
 
 use super::View;
 use super::relief::Turned;
@@ -156,7 +156,7 @@ impl View {
         ng: Vec3,
         width: f32,
     ) -> TexturePoint {
-        let footprint = if width > 0.0 && self.has_images {
+        let footprint = if width > 0.0 && self.has_footprints {
             let sides = footprint(width, ray.dir.as_dvec3(), ng.as_dvec3());
             Footprint {
                 object: sides.map(|side| self.geometry.own_vector(hit, side)),
@@ -172,7 +172,26 @@ impl View {
             world,
             uv: here.uv.to_array(),
             tangent: here.tangent.to_array(),
+            normal: if self.has_normal_maps { self.outwards(hit, ng) } else { [0.0; 3] },
+            properties: self.properties_at(hit),
             footprint,
+        }
+    }
+
+    /// The shading normal on the outer side of a surface, before textures turn it.
+    fn outwards(&self, hit: &Hit, ng: Vec3) -> [f32; 3] {
+        let own = if self.cap(hit).is_none() { self.own_normal(hit) } else { None };
+        own.map_or(ng, crate::math::Dir3::to_vec).to_array()
+    }
+
+    /// What the points of a surface have besides their place.
+    fn properties_at(&self, hit: &Hit) -> [f32; Field::MOST] {
+        match self.properties.get(hit.part as usize) {
+            Some(of_part) if self.cap(hit).is_none() => {
+                let corners = self.geometry.corners(hit.part, hit.prim);
+                self.geometry.batch(hit.part).properties_at(of_part, corners, hit)
+            }
+            _ => [f32::NAN; Field::MOST],
         }
     }
 
@@ -197,7 +216,7 @@ impl View {
 
     /// Whether any texture's values depend on how much of a surface a look-up stands for.
     #[inline]
-    pub(crate) fn has_images(&self) -> bool {
-        self.has_images
+    pub(crate) fn has_footprints(&self) -> bool {
+        self.has_footprints
     }
 }

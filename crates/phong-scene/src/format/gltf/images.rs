@@ -50,6 +50,8 @@ pub(super) struct Named {
     pub(super) image: usize,
     pub(super) texels: Arc<Texels>,
     wrap: Wrap,
+    /// Along the second axis, where that is another.
+    wrap_v: Option<Wrap>,
     filter: TexelFilter,
     transform: DAffine3,
 }
@@ -83,7 +85,7 @@ impl<'a> Images<'a> {
         findings: &mut Findings,
     ) -> Option<Named> {
         let at = of.get(key)?;
-        match self.find(&at, (buffers, file), findings) {
+        match self.find(&at, buffers) {
             Ok(named) => {
                 let set = at.whole_or_zero("texCoord").unwrap_or(0);
                 if set > 0 {
@@ -106,16 +108,11 @@ impl<'a> Images<'a> {
         }
     }
 
-    fn find(
-        &mut self,
-        at: &At<'_>,
-        (buffers, file): (&Buffers, &Arc<str>),
-        findings: &mut Findings,
-    ) -> Result<Named> {
+    fn find(&mut self, at: &At<'_>, buffers: &Buffers) -> Result<Named> {
         let index = at.need("index")?;
         let texture =
             self.root.item("textures", index.index()?).map_err(|f| index.fault(f.message))?;
-        let (mut wrap, mut filter) = (Wrap::Repeat, TexelFilter::Auto);
+        let (mut wrap, mut wrap_v, mut filter) = (Wrap::Repeat, None, TexelFilter::Auto);
         if let Some(number) = texture.get("sampler") {
             let sampler = self.root.item("samplers", number.index()?);
             let sampler = sampler.map_err(|f| number.fault(f.message))?;
@@ -126,18 +123,8 @@ impl<'a> Images<'a> {
                     _ => Wrap::Repeat,
                 })
             };
-            // A texture has one rule for both axes; the first axis decides.
             wrap = along("wrapS")?;
-            if along("wrapT")? != wrap {
-                findings.warning(
-                    "samplers that differ between axes",
-                    || whole(file),
-                    || {
-                        let at = &sampler.pointer;
-                        format!("{at}: `wrapT` is not `wrapS`, which is taken for both axes")
-                    },
-                );
-            }
+            wrap_v = Some(along("wrapT")?).filter(|other| *other != wrap);
             if sampler.whole_or_zero("magFilter")? == 9728 {
                 filter = TexelFilter::Nearest;
             }
@@ -151,7 +138,8 @@ impl<'a> Images<'a> {
             read
         };
         let texels = read?;
-        Ok(Named { image: number.index()?, texels, wrap, filter, transform: placed(at)? })
+        let (image, transform) = (number.index()?, placed(at)?);
+        Ok(Named { image, texels, wrap, wrap_v, filter, transform })
     }
 
     fn load(&self, number: &At<'_>, buffers: &Buffers) -> Result<Arc<Texels>> {
@@ -207,7 +195,7 @@ impl<'a> Images<'a> {
         (material, key): (&str, &str),
         place: &Place,
     ) -> TextureRef {
-        let Named { texels, wrap, filter, transform, .. } = named;
+        let Named { texels, wrap, wrap_v, filter, transform, .. } = named;
         let id = TextureId(self.textures.len() as u32);
         self.textures.push(Texture {
             name: format!("{material} {key}"),
@@ -215,6 +203,7 @@ impl<'a> Images<'a> {
                 file: String::new(),
                 texels: Arc::clone(texels),
                 wrap: *wrap,
+                wrap_v: *wrap_v,
                 border: Rgb::BLACK,
                 tint,
                 filter: *filter,
@@ -236,7 +225,7 @@ impl Named {
 
     /// Whether another image lies just as this one.
     pub(super) fn lies_as(&self, other: &Self) -> bool {
-        self.wrap == other.wrap && self.transform == other.transform
+        (self.wrap, self.wrap_v) == (other.wrap, other.wrap_v) && self.transform == other.transform
     }
 }
 

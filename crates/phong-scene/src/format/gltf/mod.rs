@@ -20,7 +20,7 @@
 //! | `alphaMode` with an image of the base colour | `opacity` by its alpha, a mask by `alphaCutoff` |
 //! | a base colour whose image cannot be read | a warning; the factor, or a grey of 0.8 where that is white |
 //! | images of base colour and of metal that lie differently | a warning; everywhere as metallic as the mean |
-//! | other images; samplers whose `wrapT` is not `wrapS`, which counts | a warning |
+//! | other images | a warning |
 //! | other extensions | a warning; where the file requires one, an error |
 //!
 //! What is wrong is said with a JSON pointer. What is out of range, or cut short, refuses the file,

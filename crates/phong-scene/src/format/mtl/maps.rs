@@ -122,6 +122,7 @@ impl Maps {
                 file: map.name.clone(),
                 texels,
                 wrap: if map.clamp { Wrap::Clamp } else { Wrap::Repeat },
+                wrap_v: None,
                 border: Rgb::BLACK,
                 tint,
                 filter: TexelFilter::Auto,

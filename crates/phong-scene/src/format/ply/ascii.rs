@@ -8,7 +8,7 @@ use glam::DVec3;
 use super::body::{Body, Contents, FaceList, ORIGIN_SAMPLES};
 use super::edges::EdgePlan;
 use super::header::Element;
-use super::names::{Row, WIDTH};
+use super::names::{FIELD, Row, WIDTH};
 use super::vertices::{Plan, tell};
 use crate::diagnostic::{Severity, Span};
 use crate::format::origin::origin_of;
@@ -200,6 +200,13 @@ impl Layout<'_> {
                 // The others keep their numbers.
                 block.contents.vertices.push(self.plan, &[0.0; WIDTH]);
                 return;
+            }
+        }
+        for field in FIELD..WIDTH {
+            // What a map shows may be a colour as well, say.
+            if let Some(place) = self.plan.columns[field].and_then(|property| self.places[property])
+            {
+                row[field] = row[place];
             }
         }
         if let Some(fault) = self.plan.blame(&row) {

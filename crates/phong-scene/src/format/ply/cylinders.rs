@@ -10,7 +10,7 @@ use super::names::RADIUS;
 use super::vertices::{Vertices, tell};
 use crate::color::Rgb;
 use crate::format::text::Findings;
-use crate::mesh::Cylinders;
+use crate::mesh::{Cylinders, Field};
 
 /// An end that is not there.
 const NOWHERE: [f32; 4] = [f32::NAN; 4];
@@ -85,7 +85,8 @@ impl Body<'_> {
             );
             return None;
         }
-        let (spheres, colors) = vertices.into_ends();
+        let (spheres, colors, of_ends) = vertices.into_ends(&self.plan);
+        let mut fields: Vec<_> = of_ends.iter().map(|_| Vec::new()).collect();
         let (mut segments, mut pairs) = (Vec::with_capacity(edges.ends.len()), Vec::new());
         let mut gone = 0_u64;
         for (i, ends) in edges.ends.iter().enumerate() {
@@ -102,6 +103,10 @@ impl Body<'_> {
                 continue;
             }
             segments.push(segment);
+            for (values, field) in fields.iter_mut().zip(&of_ends) {
+                let of = |end: u32| field.values.get(end as usize).copied().unwrap_or(f32::NAN);
+                values.extend(ends.map(of));
+            }
             if let Some(&color) = edges.colors.get(i) {
                 pairs.push([color; 2]);
             } else if !colors.is_empty() {
@@ -126,6 +131,9 @@ impl Body<'_> {
             origin: self.plan.origin,
             segments: segments.into(),
             colors: pairs.into(),
+            fields: (of_ends.into_iter().zip(fields))
+                .map(|(field, values)| Field { name: field.name, values: values.into() })
+                .collect(),
             ..Cylinders::default()
         })
     }

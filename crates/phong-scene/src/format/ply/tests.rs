@@ -7,7 +7,7 @@ use super::*;
 use crate::color::Rgb;
 use crate::format::export::PlyEncoding;
 use crate::limits::Limits;
-use crate::mesh::{Cylinders, Mesh, Points};
+use crate::mesh::{Cylinders, Field, Mesh, Points};
 use crate::source::Memory;
 
 fn model(bytes: &[u8], limits: &Limits, radius: Option<f32>) -> (Option<Shape>, String) {
@@ -276,7 +276,7 @@ fn what_is_written_reads_back_to_the_bit() {
             origin: glam::DVec3::ZERO,
             spheres: [[0.1, -2.0, 3e9, 0.5], [1.0, 2.0, 3.0, 1e-9]].into(),
             colors: [Rgb::new(0.25, 1.0, 7.5), Rgb::BLACK].into(),
-            guessed: None,
+            ..Points::default()
         };
         let mut file = Vec::new();
         cloud.write_ply(encoding, &mut file).unwrap();
@@ -299,5 +299,51 @@ fn what_is_written_reads_back_to_the_bit() {
             };
             assert_eq!((read.segments, read.colors), (bonds.segments, bonds.colors));
         }
+    }
+}
+
+/// The shape of a file of which maps show these properties.
+fn shown(bytes: &[u8], fields: &[&str]) -> Shape {
+    let source = Memory::new().with("a.ply", bytes);
+    let fields: Vec<_> = fields.iter().map(|name| (*name).to_owned()).collect();
+    let limits = Limits::default();
+    let input = Input { fields: &fields, ..Input::new("a.ply", &source, &limits) };
+    let mut out = Vec::new();
+    read(&input, &mut out).unwrap_or_else(|| panic!("{out:?}")).objects.remove(0).shape
+}
+
+#[test]
+fn what_maps_show_is_read_with_the_points_and_written_again() {
+    let elements = "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n\
+        property float T\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n";
+    let points = b"0 0 0 1.5 9 0 0\n1 0 0 nan 8 0 0\nnan 1 0 2.5 7 0 0\n0 1 1 -3 6 0 0\n";
+    let ascii = file("ascii", &format!("{elements}element face 0"), points);
+    let Shape::Points(cloud) = shown(&ascii, &["T", "absent", "red"]) else { panic!("no points") };
+    let names: Vec<_> = cloud.fields.iter().map(|field| &*field.name).collect();
+    assert_eq!(names, ["T", "red"]);
+    // The third point has no place.
+    let bits = |field: &Field| field.values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
+    assert_eq!(bits(&cloud.fields[0]), [1.5, f32::NAN, -3.0].map(f32::to_bits));
+    assert_eq!(cloud.fields[1].values, [9.0, 8.0, 6.0]);
+    for encoding in [PlyEncoding::Ascii, PlyEncoding::Binary] {
+        let mut written = Vec::new();
+        cloud.write_ply(encoding, &mut written).unwrap();
+        let Shape::Points(again) = shown(&written, &["T", "red"]) else { panic!("no points") };
+        assert_eq!(bits(&again.fields[0]), bits(&cloud.fields[0]));
+        assert_eq!(again.fields[1], cloud.fields[1]);
+        let positions = [Vec3::ZERO, Vec3::X, Vec3::Y].into();
+        let fields = vec![Field { name: "u".into(), values: [1.0, f32::NAN, 0.1].into() }];
+        let mesh = Mesh { positions, indices: [[0, 1, 2]].into(), fields, ..Mesh::default() };
+        let mut written = Vec::new();
+        mesh.write_ply(encoding, &mut written).unwrap();
+        let Shape::Mesh(again) = shown(&written, &["u"]) else { panic!("no mesh") };
+        assert_eq!(bits(&again.fields[0]), bits(&mesh.fields[0]));
+        let ends = [[[0.0, 0.0, 0.0, 0.5], [1.0, 0.0, 0.0, 0.5]]; 2];
+        let fields = vec![Field { name: "q".into(), values: [1.0, 2.0, 3.0, 2.0].into() }];
+        let bonds = Cylinders { segments: ends.into(), fields, ..Cylinders::default() };
+        let mut written = Vec::new();
+        bonds.write_ply(encoding, &mut written).unwrap();
+        let Shape::Cylinders(again) = shown(&written, &["q"]) else { panic!("no cylinders") };
+        assert_eq!(again.fields, bonds.fields);
     }
 }

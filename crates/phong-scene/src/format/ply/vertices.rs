@@ -2,6 +2,7 @@
 
 #![expect(clippy::needless_bitwise_bool, reason = "a branch for each number would cost more")]
 
+use std::array::from_fn;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -9,13 +10,13 @@ use glam::{DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 
 use super::header::{Element, Type};
-use super::names::{ALPHA, COLOR, NAMES, NORMAL, RADIUS, Row, UV, WIDTH};
+use super::names::{ALPHA, COLOR, FIELD, NAMES, NORMAL, RADIUS, Row, UV, WIDTH};
 use crate::color::{Rgb, srgb_decode};
 use crate::diagnostic::{Diagnostic, Severity, Span};
 use crate::format::input::Input;
 use crate::format::text::Findings;
 use crate::material::Material;
-use crate::mesh::{Mesh, Points};
+use crate::mesh::{Field, Mesh, Points};
 
 /// Which properties are used, for what.
 #[derive(Clone, Debug)]
@@ -36,6 +37,8 @@ pub(super) struct Plan {
     opaque: f64,
     /// Whether any vertex is less than opaque.
     pub(super) transparent: Arc<AtomicBool>,
+    /// The properties that maps show, by place from [`FIELD`] on.
+    fields: Vec<Arc<str>>,
 }
 
 /// How a stored colour becomes linear.
@@ -99,11 +102,21 @@ impl Plan {
             return None;
         }
         let mut columns: [Option<usize>; WIDTH] =
-            std::array::from_fn(|place| NAMES[place].iter().find_map(|name| element.find(name)));
+            from_fn(|place| NAMES[place].iter().find_map(|name| element.find(name)));
         // Half a normal, colour or texture coordinate is none.
         for group in [NORMAL..COLOR, COLOR..UV, UV..ALPHA] {
             if columns[group.clone()].contains(&None) {
                 columns[group].fill(None);
+            }
+        }
+        let mut fields = Vec::new();
+        for name in input.fields.iter().take(Field::MOST) {
+            // What is drawn anyway may be shown by a map as well.
+            if let Some(property) = element.find(name)
+                && element.properties[property].list.is_none()
+            {
+                columns[FIELD + fields.len()] = Some(property);
+                fields.push(Arc::from(name.as_str()));
             }
         }
         if spheres {
@@ -139,6 +152,7 @@ impl Plan {
             lenient: input.limits.lenient,
             opaque,
             transparent: Arc::default(),
+            fields,
         })
     }
 
@@ -156,7 +170,8 @@ impl Plan {
         let position = if self.spheres { 16 } else { 12 };
         let normal = if self.has(NORMAL) { 12 } else { 0 };
         let color = if self.has(COLOR) { 12 } else { 0 };
-        position + normal + color + if self.has(UV) { 8 } else { 0 }
+        let fields = 4 * self.fields.len() as u64;
+        position + normal + color + if self.has(UV) { 8 } else { 0 } + fields
     }
 
     /// What is wrong with a vertex, and what becomes of it; `None`: nothing.
@@ -227,6 +242,8 @@ pub(super) struct Vertices {
     normals: Vec<Vec3>,
     colors: Vec<Rgb>,
     uvs: Vec<Vec2>,
+    /// One for each of the plan's.
+    fields: [Vec<f32>; Field::MOST],
 }
 
 impl Vertices {
@@ -239,6 +256,7 @@ impl Vertices {
             normals: vec![Vec3::ZERO; count_if(plan.has(NORMAL))],
             colors: vec![Rgb::BLACK; count_if(plan.has(COLOR))],
             uvs: vec![Vec2::ZERO; count_if(plan.has(UV))],
+            fields: from_fn(|i| vec![0.0; count_if(plan.has(FIELD + i))]),
         }
     }
 
@@ -250,6 +268,7 @@ impl Vertices {
             normals: &mut self.normals,
             colors: &mut self.colors,
             uvs: &mut self.uvs,
+            fields: self.fields.each_mut().map(Vec::as_mut_slice),
         }
     }
 
@@ -280,6 +299,9 @@ impl Vertices {
         if plan.has(UV) {
             self.uvs.push(Vec2::new(row[UV] as f32, row[UV + 1] as f32));
         }
+        for (i, values) in self.fields.iter_mut().enumerate().take(plan.fields.len()) {
+            values.push(row[FIELD + i] as f32);
+        }
     }
 
     /// Appends those of a later piece.
@@ -289,11 +311,15 @@ impl Vertices {
         self.normals.append(&mut later.normals);
         self.colors.append(&mut later.colors);
         self.uvs.append(&mut later.uvs);
+        for (values, later) in self.fields.iter_mut().zip(&mut later.fields) {
+            values.append(later);
+        }
     }
 
     /// The vertices of a mesh; some positions may be no numbers.
     pub(super) fn into_mesh(mut self, plan: &Plan) -> Mesh {
         mend_colors(&mut self.colors);
+        let fields = named(&plan.fields, self.fields);
         let Self { positions, normals, colors, mut uvs, .. } = self;
         uvs.iter_mut().filter(|uv| !uv.is_finite()).for_each(|uv| *uv = Vec2::ZERO);
         Mesh {
@@ -302,14 +328,15 @@ impl Vertices {
             normals: normals.into(),
             colors: colors.into(),
             uvs: uvs.into(),
+            fields,
             ..Mesh::default()
         }
     }
 
-    /// All spheres, which may have no place or no radius, and their colours.
-    pub(super) fn into_ends(mut self) -> (Vec<[f32; 4]>, Vec<Rgb>) {
+    /// All spheres, which may have no place or no radius, their colours and fields.
+    pub(super) fn into_ends(mut self, plan: &Plan) -> (Vec<[f32; 4]>, Vec<Rgb>, Vec<Field>) {
         mend_colors(&mut self.colors);
-        (self.spheres, self.colors)
+        (self.spheres, self.colors, named(&plan.fields, self.fields))
     }
 
     /// The spheres, without those that have no place or no radius.
@@ -323,15 +350,29 @@ impl Vertices {
         if !self.spheres.par_chunks(PIECE).all(|piece| are_all(piece, sound)) {
             let mut kept = self.spheres.iter().map(sound);
             self.colors.retain(|_| kept.next().unwrap_or(true));
+            for values in &mut self.fields {
+                let mut kept = self.spheres.iter().map(sound);
+                values.retain(|_| kept.next().unwrap_or(true));
+            }
             self.spheres.retain(sound);
         }
         Points {
             origin: plan.origin,
             spheres: self.spheres.into(),
             colors: self.colors.into(),
+            fields: named(&plan.fields, self.fields),
             ..Points::default()
         }
     }
+}
+
+/// Numbers with their names.
+fn named(names: &[Arc<str>], fields: [Vec<f32>; Field::MOST]) -> Vec<Field> {
+    let field = |(name, values): (&Arc<str>, Vec<f32>)| Field {
+        name: Arc::clone(name),
+        values: values.into(),
+    };
+    names.iter().zip(fields).map(field).collect()
 }
 
 /// Makes grey what is no colour.
@@ -362,6 +403,7 @@ pub(super) struct Part<'a> {
     normals: &'a mut [Vec3],
     colors: &'a mut [Rgb],
     uvs: &'a mut [Vec2],
+    fields: [&'a mut [f32]; Field::MOST],
 }
 
 impl Part<'_> {
@@ -383,6 +425,12 @@ impl Part<'_> {
             normals: take!(normals),
             colors: take!(colors),
             uvs: take!(uvs),
+            fields: self.fields.each_mut().map(|all| {
+                let count = count.min(all.len());
+                let (part, rest) = std::mem::take(all).split_at_mut(count);
+                *all = rest;
+                part
+            }),
         }
     }
 
@@ -420,6 +468,10 @@ impl Part<'_> {
             if let Some(column) = plan.columns[UV + i] {
                 columns.fill(column, self.uvs, |uv, v| uv[i] = v as f32);
             }
+        }
+        for (i, values) in self.fields.iter_mut().enumerate() {
+            let Some(column) = plan.columns[FIELD + i] else { continue };
+            columns.fill(column, values, |value, v| *value = v as f32);
         }
         if let Some(column) = plan.columns[ALPHA] {
             // One of the two is empty.

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use crate::color::{Rgb, srgb_encode};
 use crate::format::export::PlyEncoding;
-use crate::mesh::{Cylinders, Mesh, NO_INDEX, Points};
+use crate::mesh::{Cylinders, Field, Mesh, NO_INDEX, Points};
 
 impl Mesh {
     /// Writes the mesh as PLY: positions (as doubles if it has an origin), normals, texture
@@ -43,6 +43,7 @@ impl Mesh {
             text.extend(names.iter().filter(|_| wanted).map(|name| property(name)));
         }
         let bytes = color_properties(&self.colors, &mut text);
+        let fields = field_properties(&self.fields, &mut text);
         text.extend(["element face ", &triangles.len().to_string(), "\n"]);
         text += "property list uchar uint vertex_indices\nend_header\n";
         let mut out = Out { encoding, bytes, row: Vec::new(), to };
@@ -59,6 +60,7 @@ impl Mesh {
                 out.floats(&uv.to_array());
             }
             out.color(self.colors.get(at));
+            out.fields(&fields, at);
             out.end_row()?;
         }
         for triangle in triangles {
@@ -103,12 +105,14 @@ impl Points {
     pub fn write_ply(&self, encoding: PlyEncoding, to: &mut dyn Write) -> io::Result<()> {
         let mut text = header(encoding, self.spheres.len(), self.origin) + &property("radius");
         let bytes = color_properties(&self.colors, &mut text);
+        let fields = field_properties(&self.fields, &mut text);
         let mut out = Out { encoding, bytes, row: Vec::new(), to };
         out.to.write_all((text + "end_header\n").as_bytes())?;
         for (i, &[x, y, z, radius]) in self.spheres.iter().enumerate() {
             out.position(Vec3::new(x, y, z), self.origin);
             out.floats(&[radius]);
             out.color(self.colors.get(i));
+            out.fields(&fields, i);
             out.end_row()?;
         }
         out.finish()
@@ -123,16 +127,18 @@ impl Cylinders {
     /// # Errors
     /// Whatever `to` says.
     pub fn write_ply(&self, encoding: PlyEncoding, to: &mut dyn Write) -> io::Result<()> {
-        // An end for each place and colour, in the order of first use.
+        // An end for each place, colour and number, in the order of first use.
         let mut numbers = HashMap::new();
         let mut ends = Vec::new();
         let mut number = |i: usize, end: usize| {
             let [x, y, z, _] = self.segments[i][end];
             let color = self.colors.get(i).map(|colors| colors[end]);
             let bits = |color: Rgb| color.to_array().map(f32::to_bits);
-            let key = ([x, y, z].map(f32::to_bits), color.map(bits));
+            let own = |field: &Field| field.values.get(2 * i + end).map(|v| v.to_bits());
+            let of_fields: Vec<_> = self.fields.iter().map(own).collect();
+            let key = ([x, y, z].map(f32::to_bits), color.map(bits), of_fields);
             *numbers.entry(key).or_insert_with(|| {
-                ends.push((Vec3::new(x, y, z), color));
+                ends.push((Vec3::new(x, y, z), color, 2 * i + end));
                 ends.len() as u32 - 1
             })
         };
@@ -142,14 +148,16 @@ impl Cylinders {
         let radii: &[&str] = if one { &["radius"] } else { &["radius1", "radius2"] };
         let mut text = header(encoding, ends.len(), self.origin);
         let bytes = color_properties(self.colors.as_flattened(), &mut text);
+        let fields = field_properties(&self.fields, &mut text);
         text.extend(["element edge ", &count.to_string(), "\n"]);
         text += "property uint vertex1\nproperty uint vertex2\n";
         text.extend(radii.iter().map(|name| property(name)));
         let mut out = Out { encoding, bytes, row: Vec::new(), to };
         out.to.write_all((text + "end_header\n").as_bytes())?;
-        for (place, color) in &ends {
+        for (place, color, end) in &ends {
             out.position(*place, self.origin);
             out.color(color.as_ref());
+            out.fields(&fields, *end);
             out.end_row()?;
         }
         for ([from, to], edge) in self.segments.iter().zip(edges) {
@@ -191,6 +199,20 @@ fn color_properties(colors: &[Rgb], text: &mut String) -> bool {
     bytes
 }
 
+/// Adds the properties of fields, but for those that the file has anyway.
+fn field_properties<'a>(fields: &'a [Field], text: &mut String) -> Vec<&'a Field> {
+    let known = |name: &str| text.lines().any(|line| line.split(' ').next_back() == Some(name));
+    let is_new = |field: &&Field| !known(&field.name) && field.name.chars().all(is_of_word);
+    let new: Vec<_> = fields.iter().filter(is_new).collect();
+    text.extend(new.iter().map(|field| property(&field.name)));
+    new
+}
+
+/// Whether a name with this letter is one word of a header.
+fn is_of_word(letter: char) -> bool {
+    !letter.is_whitespace() && !letter.is_control()
+}
+
 /// The sRGB bytes that decode to this very colour; `None`: there are none.
 fn bytes_of(color: Rgb) -> Option<[u8; 3]> {
     let bytes = color.to_array().map(|c| (srgb_encode(f64::from(c)) * 255.0).round() as u8);
@@ -228,6 +250,12 @@ impl Out<'_> {
         match bytes_of(*color).filter(|_| self.bytes) {
             Some(bytes) => bytes.into_iter().for_each(|byte| self.number(&[byte], byte)),
             None => self.floats(&color.to_array()),
+        }
+    }
+
+    fn fields(&mut self, fields: &[&Field], at: usize) {
+        for field in fields {
+            self.floats(&[field.values.get(at).copied().unwrap_or(f32::NAN)]);
         }
     }
 

@@ -1,5 +1,8 @@
 //! What a scene names by file: other scene files, and models.
 
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
 use super::draft::{Draft, DraftShape, Looks, Part};
 use super::path::{join, normal};
 use super::reader::Reader;
@@ -7,10 +10,13 @@ use super::table::Values;
 use super::text::{self, Text};
 use crate::format::input::{Input, Named, ReadModel, Wanted};
 use crate::fragment::Fragment;
+use crate::limits::Limits;
 use crate::mesh::{Caps, Mesh, Points, Shared};
 use crate::scene::Object;
 use crate::shape::{GroupId, Shape};
 use crate::source::trouble;
+use crate::texels::Texels;
+use crate::texture::TextureKind;
 use crate::wording::{self, Word};
 
 /// Most files that a scene may include, those included by others too: a file that includes the
@@ -242,7 +248,8 @@ impl Reader<'_> {
         radius: Option<f32>,
     ) -> Option<(String, Fragment, usize)> {
         let (file, read) = self.reader_of(v, path)?;
-        let mut fragment = match self.read.find(&normal(&file), wanted, radius) {
+        let mut fragment = match self.read.find(&normal(&file), (wanted, self.fields.len()), radius)
+        {
             Some(fragment) => fragment,
             None => self.read_file(v, &file, read, wanted, radius)?,
         };
@@ -293,10 +300,27 @@ impl Reader<'_> {
         wanted: Wanted,
         radius: Option<f32>,
     ) -> Option<Fragment> {
-        let input = Input { radius, wanted, ..Input::new(file, self.source, self.limits) };
-        let fragment = self.read_input(v, &input, read)?;
-        self.read.keep(normal(file), wanted, radius, &fragment);
+        let fields = std::mem::take(&mut self.fields);
+        let limits = Texels::left(&self.left_of_models(), self.images.read());
+        let new = Input::new(file, self.source, &limits);
+        let input = Input { radius, wanted, fields: &fields, ..new };
+        let fragment = self.read_input(v, &input, read);
+        self.fields = fields;
+        let fragment = fragment?;
+        self.read.keep(normal(file), (wanted, self.fields.len()), radius, &fragment);
         Some(fragment)
+    }
+
+    /// The limits of what is read next, where the images of models count that there are already.
+    pub(super) fn left_of_models(&self) -> Limits {
+        let textures = self.fragments.iter().flat_map(|looks| &looks.textures);
+        let texels = textures.filter_map(|texture| match &texture.kind {
+            TextureKind::Image { texels, .. } => Some(texels),
+            _ => None,
+        });
+        // Several textures may show one image.
+        let each: BTreeMap<_, _> = texels.map(|texels| (Arc::as_ptr(texels), &**texels)).collect();
+        Texels::left(self.limits, each.into_values())
     }
 
     /// Reads a file and says what there is to say about it.
@@ -337,5 +361,6 @@ fn drop_normals(mesh: &mut Mesh) {
 /// A sphere at every vertex.
 fn vertices(mesh: Mesh, radius: f32) -> Points {
     let spheres = mesh.positions.iter().map(|p| [p.x, p.y, p.z, radius]).collect();
-    Points { origin: mesh.origin, spheres, colors: mesh.colors, ..Points::default() }
+    let Mesh { origin, colors, fields, .. } = mesh;
+    Points { origin, spheres, colors, fields, ..Points::default() }
 }

@@ -61,7 +61,7 @@ pub(super) struct Reader<'a> {
     pub(super) materials: Named<Material>,
     pub(super) textures: Named<Texture>,
     /// The images of textures that were read.
-    images: ImageFiles,
+    pub(super) images: ImageFiles,
     /// The textures that materials name.
     pub(super) texture_names: TextureNames,
     /// The materials that shapes name, and where.
@@ -76,6 +76,8 @@ pub(super) struct Reader<'a> {
     counts: BTreeMap<&'static str, usize>,
     /// The files that are being read, outermost first, as lexically normal paths.
     pub(super) open: Vec<String>,
+    /// The properties of points that maps show, as far as the text was looked through.
+    pub(super) fields: Vec<String>,
     /// How many files were read, and bytes of text.
     pub(super) files: u32,
     pub(super) bytes: u64,
@@ -123,6 +125,7 @@ impl<'a> Reader<'a> {
             drafts: Vec::new(),
             counts: BTreeMap::new(),
             open: Vec::new(),
+            fields: Vec::new(),
             files: 0,
             bytes: 0,
         }
@@ -211,6 +214,13 @@ impl<'a> Reader<'a> {
             self.settings_not_written(document, head);
         }
         items.sort_by_key(|(spot, _)| spot.start);
+        // Files that stand before the maps that show something of them must be read with it.
+        for (_, item) in &items {
+            if let Item::Texture(name, text) = item {
+                let over = self.changes.over("textures", &[name]);
+                texture::note_property(text, &over, &mut self.fields);
+            }
+        }
         for (spot, item) in items {
             self.item(spot, &item, path);
         }
@@ -339,10 +349,11 @@ impl<'a> Reader<'a> {
                 let over = self.changes.over("textures", &[name]);
                 let notes = &mut self.notes;
                 let values = Values::read_changed(&keys::TEXTURE, text, spot, &over, notes);
+                let limits = self.left_of_models();
                 let images = &mut Images {
                     path,
                     source: self.source,
-                    limits: self.limits,
+                    limits: &limits,
                     read: &mut self.images,
                 };
                 let read = texture::texture(&values, name, images, &mut self.notes);

@@ -80,7 +80,8 @@ impl Reader<'_> {
             objects,
             groups,
         });
-        if let Some(scene) = &scene {
+        let mut scene = scene;
+        if let Some(scene) = &mut scene {
             let default = default_needed.then_some(default);
             let used: BTreeSet<_> = resolver.named.into_iter().flatten().chain(default).collect();
             let used = |number: usize| used.contains(&MaterialId(number as u32));
@@ -103,6 +104,7 @@ impl Reader<'_> {
                 |name| format!("no instance places the group {name}"),
                 &mut notes,
             );
+            scene.textures = scene.ranged_textures();
             for diagnostic in scene.check() {
                 notes.say_located(diagnostic);
             }

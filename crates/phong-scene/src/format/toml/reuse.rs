@@ -9,15 +9,21 @@ use crate::mesh::{Mesh, Shared};
 /// What was read of model files, and what was made of it.
 #[derive(Debug, Default)]
 pub(super) struct Models {
-    /// By lexically normal path, what was wanted, and the bits of the radius of what brings none.
-    fragments: BTreeMap<(String, Wanted, Option<u32>), Fragment>,
+    /// By lexically normal path, what was wanted and how many fields were, and the bits of the radius of
+    /// what brings none.
+    fragments: BTreeMap<(String, (Wanted, usize), Option<u32>), Fragment>,
     /// Meshes that were made smooth, with their normals.
     smooth: Vec<(Mesh, u64)>,
 }
 
 impl Models {
     /// What the file at `path` holds, if it was read before.
-    pub(super) fn find(&self, path: &str, wanted: Wanted, radius: Option<f32>) -> Option<Fragment> {
+    pub(super) fn find(
+        &self,
+        path: &str,
+        wanted: (Wanted, usize),
+        radius: Option<f32>,
+    ) -> Option<Fragment> {
         self.fragments.get(&(path.to_owned(), wanted, radius.map(f32::to_bits))).cloned()
     }
 
@@ -25,7 +31,7 @@ impl Models {
     pub(super) fn keep(
         &mut self,
         path: String,
-        wanted: Wanted,
+        wanted: (Wanted, usize),
         radius: Option<f32>,
         fragment: &Fragment,
     ) {

@@ -4,7 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
+use toml::de::DeTable;
 
+use super::change::Laid;
 use super::draft::{Named, say_unknown_name};
 use super::notes::Notes;
 use super::path::{join, normal};
@@ -14,14 +16,22 @@ use super::text::Spot;
 use crate::check::{material as judge, texture as texture_judge};
 use crate::limits::Limits;
 use crate::material::Material;
+use crate::mesh::Field;
 use crate::source::Source;
 use crate::texels::{self, Texels};
-use crate::texture::{Texture, TextureId, TextureKind, TextureRef};
+use crate::texture::{MapSource, Texture, TextureId, TextureKind, TextureRef};
 use crate::wording;
 
 /// The images of textures, each file of which is read once.
 #[derive(Debug, Default)]
 pub(super) struct ImageFiles(BTreeMap<String, Result<Arc<Texels>, String>>);
+
+impl ImageFiles {
+    /// Those that could be read.
+    pub(super) fn read(&self) -> impl Iterator<Item = &Texels> {
+        self.0.values().flatten().map(AsRef::as_ref)
+    }
+}
 
 /// Where the images of one file's textures are found.
 pub(super) struct Images<'a> {
@@ -38,8 +48,7 @@ impl Images<'_> {
         let path = join(self.path, file);
         let key = normal(&path);
         if !self.read.0.contains_key(&key) {
-            let all = self.read.0.values().flatten().map(AsRef::as_ref);
-            let limits = Texels::left(self.limits, all);
+            let limits = Texels::left(self.limits, self.read.read());
             self.read.0.insert(key.clone(), texels::load(&path, self.source, &limits));
         }
         match &self.read.0[&key] {
@@ -70,6 +79,20 @@ pub(super) fn texture(
     let sound =
         notes.judge(|key| v.spot_of(key), |faults| texture_judge::texture(&texture, faults));
     sound.then_some(texture)
+}
+
+/// Notes the property of points that a texture shows, if it does.
+pub(super) fn note_property(text: &DeTable<'_>, over: &[&Laid<'_>], names: &mut Vec<String>) {
+    let laid = |key: &str| over.iter().find(|laid| laid.target.key.name == key);
+    let said = |key: &str| match laid(key) {
+        Some(laid) => laid.value.get_ref().as_str(),
+        None => text.get(key).and_then(|value| value.get_ref().as_str()),
+    };
+    let (Some("map"), Some(of)) = (said("kind"), said("of")) else { return };
+    let Some(name) = MapSource::of(of).property() else { return };
+    if !names.iter().any(|known| known == name) && names.len() < Field::MOST {
+        names.push(name.to_owned());
+    }
 }
 
 /// Where it lies in its space. A `scale` that is the kind's own is none of it.

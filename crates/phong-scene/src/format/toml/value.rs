@@ -107,6 +107,8 @@ impl ValueReader<'_> {
             Kind::Names if !value.get_ref().is_array() => self.mismatch(value),
             Kind::Files | Kind::Names => self.files(value).map(Value::Texts),
             Kind::Numbers => self.some_numbers(value).map(Value::Numbers),
+            Kind::Interval if value.get_ref().as_str() == Some("auto") => Some(Value::Word("auto")),
+            Kind::Interval => self.numbers::<2>(value).map(|range| Value::Numbers(range.to_vec())),
             Kind::Map => self.mismatch(value),
             Kind::Table(_) | Kind::Tables(_) | Kind::Named(_) | Kind::Values | Kind::Options => {
                 None
