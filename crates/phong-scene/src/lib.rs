@@ -24,6 +24,7 @@ mod fog;
 mod format;
 mod fragment;
 mod frame;
+mod furniture;
 mod keys;
 mod light;
 mod limits;
@@ -63,6 +64,9 @@ pub use format::toml::camera_path::read_camera_path;
 pub use format::{Export, ExportOptions, read, read_changed};
 pub use fragment::Fragment;
 pub use frame::{Framing, Side};
+pub use furniture::{
+    Anchor, Axes, BarLength, Furniture, FurnitureStyle, Hidden, Legend, PointLabel, ScaleBar, Title,
+};
 pub use keys::{batch_reference_markdown, batch_schema_json, reference_markdown, schema_json};
 pub use light::{Light, LightKind};
 pub use limits::{LARGEST, Limits};

@@ -42,6 +42,12 @@
 //! | `sky` | a table | none | A sky that the ambient light comes from. |
 //! | `fog` | a table | none | What is far away fades into a colour. |
 //! | `outline` | a table | none | Lines around things, drawn when the picture is done. |
+//! | `furniture` | a table | every key's default | What title, scale bar, axes, legend and labels have in common. |
+//! | `title` | a table | none | A title, drawn onto the picture when it is done. |
+//! | `scale_bar` | a table | none | A bar that shows a length. |
+//! | `axes` | a table | none | Three arrows that show which ways x, y and z point. |
+//! | `legend` | a table | none | What the colours of a map stand for. |
+//! | `label` | a list of tables | none | Words at points of the scene. |
 //! | `clip` | a list of tables | none | What is cut away. |
 //! | `light` | a list of tables | none | The lights. |
 //! | `materials` | tables by name | none | The materials, by name. |
@@ -103,6 +109,7 @@ use crate::clip::Clip;
 use crate::color::Rgb;
 use crate::diagnostic::{Diagnostic, Place, SceneError};
 use crate::fog::Fog;
+use crate::furniture::Furniture;
 use crate::light::Light;
 use crate::limits::Range;
 use crate::material::{Material, MaterialId};
@@ -141,6 +148,8 @@ pub struct Scene {
     pub fog: Option<Fog>,
     /// Lines around things, drawn when the picture is done; `None`: there are none.
     pub outline: Option<Outline>,
+    /// Title, scale bar, axes, legend and labels, drawn when the picture is done; by default nothing.
+    pub furniture: Furniture,
     /// What the ambient light comes from, and what rays see that hit nothing unless the background is
     /// transparent. `None`: ambient light comes from everywhere alike.
     pub sky: Option<Sky>,
@@ -169,6 +178,7 @@ impl Default for Scene {
             ambient_occlusion: None,
             fog: None,
             outline: None,
+            furniture: Furniture::default(),
             sky: None,
             clips: Vec::new(),
             lights: Vec::new(),

@@ -24,6 +24,7 @@ pub(crate) use self::groups::MOST_OBJECTS;
 pub use self::known::SoundArrays;
 use crate::bounds::Bounds;
 use crate::diagnostic::{Diagnostic, Place, Severity, Span};
+use crate::furniture::Furniture;
 use crate::limits::LARGEST;
 use crate::maps;
 use crate::scene::{Object, Scene};
@@ -171,6 +172,7 @@ impl<'s> Judge<'s> {
         if let Some(outline) = &scene.outline {
             self.judge(&nowhere, || "outline".into(), |f| settings::outline(outline, f));
         }
+        self.furniture();
         for (i, clip) in scene.clips.iter().enumerate() {
             let name = || named("clips", i, "clip", &clip.place);
             self.judge(&clip.place, name, |f| settings::clip(clip, f));
@@ -187,6 +189,40 @@ impl<'s> Judge<'s> {
         for (i, texture) in scene.textures.iter().enumerate() {
             let name = || named("textures", i, &texture.name, &texture.place);
             self.judge(&texture.place, name, |f| texture::texture(texture, f));
+        }
+    }
+
+    /// What a figure needs beside its picture.
+    fn furniture(&mut self) {
+        let Furniture { style, title, scale_bar, axes, legend, labels } = &self.scene.furniture;
+        let nowhere = Place::default();
+        self.judge(&nowhere, || "furniture".into(), |f| settings::furniture_style(style, f));
+        if let Some(title) = title {
+            self.judge(&nowhere, || "title".into(), |f| settings::title(title, f));
+        }
+        if let Some(bar) = scale_bar {
+            self.judge(&nowhere, || "scale_bar".into(), |f| settings::scale_bar(bar, f));
+        }
+        if let Some(axes) = axes {
+            self.judge(&nowhere, || "axes".into(), |f| settings::axes(axes, f));
+        }
+        if let Some(legend) = legend {
+            self.judge(&nowhere, || "legend".into(), |f| settings::legend(legend, f));
+            let textures = &self.scene.textures;
+            self.judge(
+                &nowhere,
+                || "legend".into(),
+                |f| settings::legend_texture(legend, textures, f),
+            );
+        }
+        for (i, label) in labels.iter().enumerate() {
+            let name = || named("furniture.labels", i, "label", &label.place);
+            self.judge(&label.place, name, |f| settings::label(label, f));
+        }
+        let (count, most) = (labels.len(), Furniture::MOST_LABELS);
+        if count > most {
+            let message = format!("a scene has at most {most} labels, and there are {count}");
+            self.say(Diagnostic::error(message, None));
         }
     }
 

@@ -9,11 +9,14 @@ use crate::camera::Camera;
 use crate::clip::{Clip, ClipKind};
 use crate::color::Rgb;
 use crate::fog::{Fog, FogKind};
+use crate::furniture::{Axes, Furniture, FurnitureStyle, Legend, PointLabel, ScaleBar, Title};
 use crate::light::{Light, LightKind};
 use crate::limits::LARGEST;
 use crate::outline::Outline;
 use crate::scene::Image;
 use crate::sky::{Sky, SkyKind};
+use crate::texture::{Texture, TextureKind};
+use crate::wording::{closest, quoted};
 
 /// Below this sine of the angle to the view, a millionth of a degree, "up" is decided by rounding.
 const PARALLEL: f64 = 1e-8;
@@ -32,6 +35,77 @@ pub(super) fn occlusion(occlusion: &AmbientOcclusion, faults: &mut Faults) {
 
 pub(super) fn outline(outline: &Outline, faults: &mut Faults) {
     values(outline, None, faults);
+}
+
+pub(super) fn furniture_style(style: &FurnitureStyle, faults: &mut Faults) {
+    values(style, None, faults);
+}
+
+/// Judges a title.
+pub(crate) fn title(title: &Title, faults: &mut Faults) {
+    values(title, None, faults);
+    text("text", &title.text, faults);
+}
+
+/// Judges a scale bar.
+pub(crate) fn scale_bar(bar: &ScaleBar, faults: &mut Faults) {
+    values(bar, None, faults);
+    text("unit", &bar.unit, faults);
+}
+
+pub(super) fn axes(axes: &Axes, faults: &mut Faults) {
+    values(axes, None, faults);
+}
+
+/// Judges a legend by itself.
+pub(crate) fn legend(legend: &Legend, faults: &mut Faults) {
+    values(legend, None, faults);
+    text("text", &legend.text, faults);
+    text("unit", &legend.unit, faults);
+    if legend.texture.is_empty() && legend.map.is_none() {
+        let help = "`map = \"viridis\"`, or `texture` with the name of a gradient";
+        faults.say("map", "a legend needs colours: a `map` or a `texture`").help =
+            Some(help.to_owned());
+    }
+    if let (Some(from), Some(to)) = (legend.from, legend.to)
+        && from == to
+        && faults.spare(&["from", "to"])
+    {
+        faults.say("to", format!("`to` must be another number than `from`, which is {from}"));
+    }
+}
+
+/// Judges what a legend takes from a texture of the scene's.
+pub(super) fn legend_texture(legend: &Legend, textures: &[Texture], faults: &mut Faults) {
+    if legend.texture.is_empty() {
+        return;
+    }
+    let name = quoted(&legend.texture);
+    let Some(texture) = textures.iter().find(|texture| texture.name == legend.texture) else {
+        let near = closest(&legend.texture, textures.iter().map(|texture| &*texture.name));
+        let fault = faults.say("texture", format!("there is no texture {name}"));
+        fault.help = near.map(|near| format!("did you mean {near:?}?"));
+        return;
+    };
+    let ranged = matches!(texture.kind, TextureKind::Gradient { .. });
+    if !ranged && legend.map.is_none() {
+        let message = format!("the texture {name} has no colours from one number to another");
+        faults.say("texture", message).help = Some("a legend shows a gradient's".to_owned());
+    }
+}
+
+/// Judges a label.
+pub(crate) fn label(label: &PointLabel, faults: &mut Faults) {
+    values(label, None, faults);
+    text("text", &label.text, faults);
+}
+
+/// Judges how long a text is.
+fn text(name: &'static str, text: &str, faults: &mut Faults) {
+    let (most, count) = (Furniture::LONGEST_TEXT, text.chars().count());
+    if count > most {
+        faults.say(name, format!("`{name}` has at most {most} characters; this has {count}"));
+    }
 }
 
 /// Judges a sky.

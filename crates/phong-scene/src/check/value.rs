@@ -52,6 +52,9 @@ fn single(key: &Key, value: &Value, faults: &mut Faults) {
                 };
             }
         }
+        (Value::Pair(pair), _) => {
+            faults.vector(name, pair.extend(0.0));
+        }
         (Value::Uvs(uvs), _) => {
             for uv in uvs {
                 faults.vector(name, uv.extend(0.0));

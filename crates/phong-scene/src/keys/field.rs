@@ -9,6 +9,7 @@ use crate::ambient_occlusion::AmbientOcclusion;
 use crate::camera::Camera;
 use crate::clip::Clip;
 use crate::fog::Fog;
+use crate::furniture::{Axes, FurnitureStyle, Legend, PointLabel, ScaleBar, Title};
 use crate::light::Light;
 use crate::material::Material;
 use crate::outline::Outline;
@@ -28,6 +29,12 @@ pub(crate) enum Field {
     Fog(Access<Fog>),
     Clip(Access<Clip>),
     Outline(Access<Outline>),
+    FurnitureStyle(Access<FurnitureStyle>),
+    Title(Access<Title>),
+    ScaleBar(Access<ScaleBar>),
+    Axes(Access<Axes>),
+    Legend(Access<Legend>),
+    PointLabel(Access<PointLabel>),
     Camera(Access<Camera>),
     Light(Access<Light>),
     Texture(Access<Texture>),

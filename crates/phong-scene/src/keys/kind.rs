@@ -53,6 +53,8 @@ pub(crate) enum Kind {
     Points,
     /// Three directions.
     Directions,
+    /// `[x, y]`, any two numbers.
+    Pair,
     /// Three `[u, v]`.
     Uvs,
     /// `true`, `false`, or an angle in degrees between 0 and 180.
@@ -103,6 +105,7 @@ impl Kind {
             Self::Number(range) => format!("a number {}", range.words()),
             Self::NumberOr(range, word) => format!("a number {}, or \"{word}\"", range.words()),
             Self::Point => "three numbers, `[x, y, z]`".to_owned(),
+            Self::Pair => "two numbers, `[x, y]`".to_owned(),
             Self::Direction => "three numbers, `[x, y, z]`, not all 0".to_owned(),
             Self::Color | Self::Reflectance => {
                 "a colour: a number, `[r, g, b]`, \"#rrggbb\" or a CSS name".to_owned()

@@ -2,6 +2,7 @@
 
 use super::camera::CAMERA;
 use super::field::{field, keyed};
+use super::furniture::{AXES, FURNITURE, LABEL, LEGEND, SCALE_BAR, TITLE};
 use super::light::LIGHT;
 use super::material::MATERIAL;
 use super::shape::{GROUP, SHAPES};
@@ -65,6 +66,42 @@ pub(crate) static SCENE: Table = Table {
                 Kind::Table(&OUTLINE),
                 Default::Said("none"),
                 "Lines around things, drawn when the picture is done.",
+            ),
+            Key::new(
+                "furniture",
+                Kind::Table(&FURNITURE),
+                Default::Said("every key's default"),
+                "What title, scale bar, axes, legend and labels have in common.",
+            ),
+            Key::new(
+                "title",
+                Kind::Table(&TITLE),
+                Default::Said("none"),
+                "A title, drawn onto the picture when it is done.",
+            ),
+            Key::new(
+                "scale_bar",
+                Kind::Table(&SCALE_BAR),
+                Default::Said("none"),
+                "A bar that shows a length.",
+            ),
+            Key::new(
+                "axes",
+                Kind::Table(&AXES),
+                Default::Said("none"),
+                "Three arrows that show which ways x, y and z point.",
+            ),
+            Key::new(
+                "legend",
+                Kind::Table(&LEGEND),
+                Default::Said("none"),
+                "What the colours of a map stand for.",
+            ),
+            Key::new(
+                "label",
+                Kind::Tables(&LABEL),
+                Default::Said("none"),
+                "Words at points of the scene.",
             ),
             Key::new("clip", Kind::Tables(&CLIP), Default::Said("none"), "What is cut away."),
             Key::new("light", Kind::Tables(&LIGHT), Default::Said("none"), "The lights."),

@@ -134,6 +134,7 @@ fn kind(kind: Kind) -> Value {
         }
         Kind::Attenuation => list(&number(&Range::NOT_NEGATIVE), 3),
         Kind::Points | Kind::Directions => list(&list(&any_number(), 3), 3),
+        Kind::Pair => list(&any_number(), 2),
         Kind::Uvs => list(&list(&any_number(), 2), 3),
         Kind::Smooth => {
             json!({ "anyOf": [{ "type": "boolean" }, number(&Range::closed(0.0, 180.0))] })

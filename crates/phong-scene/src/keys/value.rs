@@ -4,6 +4,7 @@ use glam::{DAffine3, DVec2, DVec3, DVec4};
 
 use crate::ambient_occlusion::OcclusionDistance;
 use crate::color::Rgb;
+use crate::furniture::BarLength;
 use crate::scene::Background;
 use crate::texture::{MapRange, Param, TextureRef};
 use crate::wording::Word;
@@ -16,6 +17,7 @@ pub(crate) enum Value {
     Number(f64),
     Vector(DVec3),
     Vectors([DVec3; 3]),
+    Pair(DVec2),
     Uvs([DVec2; 3]),
     Rotations(Vec<DVec4>),
     Matrix(DAffine3),
@@ -66,6 +68,7 @@ stored! {
     DVec3: Vector, |v| *v, |v| v;
     [f64; 3]: Vector, |v| (*v).into(), |v: DVec3| v.to_array();
     [DVec3; 3]: Vectors, |v| *v, |v| v;
+    DVec2: Pair, |v| *v, |v| v;
     [DVec2; 3]: Uvs, |v| *v, |v| v;
     [u32; 2]: Size, |size| *size, |size| size;
     Rgb: Color, |color| *color, |color| color;
@@ -159,6 +162,23 @@ impl Stored for OcclusionDistance {
         match value {
             Value::Word(_) => Some(Self::Auto),
             Value::Number(distance) => Some(Self::Units(distance)),
+            _ => None,
+        }
+    }
+}
+
+impl Stored for BarLength {
+    fn value(&self) -> Option<Value> {
+        Some(match *self {
+            Self::Auto => Value::Word("auto"),
+            Self::Units(length) => Value::Number(length),
+        })
+    }
+
+    fn of(value: Value) -> Option<Self> {
+        match value {
+            Value::Word(_) => Some(Self::Auto),
+            Value::Number(length) => Some(Self::Units(length)),
             _ => None,
         }
     }

@@ -2,10 +2,11 @@
 
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 use phong_scene::{
-    AmbientOcclusion, Background, Camera, CameraKind, Cap, Clip, ClipKind, ConstantMaterial, Field,
-    Fog, FogKind, Fresnel, GradientBy, Group, GroupId, Image, Light, LightKind, MapRange, Material,
-    MaterialId, Mesh, Model, NO_INDEX, Object, OcclusionDistance, Outline, Points, Rgb, Scene,
-    Shape, SkyKind, Texture, TextureId, TextureKind, TextureRef,
+    AmbientOcclusion, Background, BarLength, Camera, CameraKind, Cap, Clip, ClipKind,
+    ConstantMaterial, Field, Fog, FogKind, Fresnel, Furniture, FurnitureStyle, GradientBy, Group,
+    GroupId, Image, Light, LightKind, MapRange, Material, MaterialId, Mesh, Model, NO_INDEX,
+    Object, OcclusionDistance, Outline, PointLabel, Points, Rgb, ScaleBar, Scene, Shape, SkyKind,
+    Texture, TextureId, TextureKind, TextureRef,
 };
 use proptest::prelude::*;
 
@@ -284,6 +285,12 @@ prop_compose! {
                 ..Fog::default()
             }),
             outline: Some(Outline { width: fov, ..Outline::default() }),
+            furniture: Furniture {
+                style: FurnitureStyle { size: fov, halo: aperture, ..FurnitureStyle::default() },
+                scale_bar: Some(ScaleBar { length: BarLength::Units(fov), ..ScaleBar::default() }),
+                labels: vec![PointLabel { text: "a".into(), at: eye, radius: aperture, ..PointLabel::default() }],
+                ..Furniture::default()
+            },
             clips: vec![Clip {
                 kind: ClipKind::Plane { point: eye, normal: up },
                 // Now and then a material that is not there.

@@ -2,12 +2,13 @@
 
 use glam::{DAffine3, DMat3, DVec2, DVec3, Vec2, Vec3};
 use phong_scene::{
-    AmbientOcclusion, AmbientRule, Background, Camera, CameraKind, Cap, Caps, CellsBy, Channel,
-    Clip, ClipKind, ConstantMaterial as Material, Cylinders, Dialect, Distribution, FilterKind,
-    Fog, FogDistance, FogKind, Fresnel, GradientBy, GridAxes, Group, GroupId, Image, Keep, Light,
-    LightKind, MapRange, MaterialId, Mesh, Model, NO_INDEX, NormalFormat, Object,
-    OcclusionDistance, OpacityMode, Outline, Place, Points, Rgb, Scene, ShadowRule, Shadowing,
-    Shape, Sky, SkyKind, Texture, TextureId, TextureKind, TextureRef, TextureSpace, Tint, Viewer,
+    AmbientOcclusion, AmbientRule, Anchor, Axes, Background, BarLength, Camera, CameraKind, Cap,
+    Caps, CellsBy, Channel, Clip, ClipKind, ConstantMaterial as Material, Cylinders, Dialect,
+    Distribution, FilterKind, Fog, FogDistance, FogKind, Fresnel, Furniture, FurnitureStyle,
+    GradientBy, GridAxes, Group, GroupId, Hidden, Image, Keep, Legend, Light, LightKind, MapRange,
+    MaterialId, Mesh, Model, NO_INDEX, NormalFormat, Object, OcclusionDistance, OpacityMode,
+    Outline, Place, PointLabel, Points, Rgb, ScaleBar, Scene, ShadowRule, Shadowing, Shape, Sky,
+    SkyKind, Texture, TextureId, TextureKind, TextureRef, TextureSpace, Tint, Title, Viewer,
     WardForm,
 };
 use proptest::prelude::*;
@@ -141,12 +142,45 @@ impl Make {
                 crease: 30.0,
                 ..Outline::default()
             }),
+            furniture: self.furniture(),
             clips,
             lights,
             materials,
             textures,
             objects,
             groups,
+        }
+    }
+
+    fn furniture(&mut self) -> Furniture {
+        let place = self.one(&[Anchor::Top, Anchor::BottomRight]);
+        let label = PointLabel {
+            text: "a \"b\"\nc".to_owned(),
+            at: DVec3::new(1.0, 2.0, self.number()),
+            hidden: self.one(&[Hidden::Behind, Hidden::Never]),
+            offset: DVec2::new(self.number(), 0.0),
+            ..PointLabel::default()
+        };
+        let unit = self.one(&["", "Å"]).to_owned();
+        let length = self.one(&[BarLength::Auto, BarLength::Units(2.5)]);
+        let map = Some(vec![(0.0, self.color()), (0.5, Rgb::WHITE)]);
+        let from = self.flag().then_some(-1.5);
+        Furniture {
+            style: FurnitureStyle {
+                size: self.one(&[9.0, 7.5]),
+                color: self.flag().then(|| self.color()),
+                ..FurnitureStyle::default()
+            },
+            title: self.flag().then(|| Title { text: "Ti tle".to_owned(), place }),
+            scale_bar: self.flag().then(|| ScaleBar {
+                length,
+                unit: unit.clone(),
+                factor: 0.1,
+                place,
+            }),
+            axes: self.flag().then_some(Axes { length: 24.0, place }),
+            legend: self.flag().then(|| Legend { map, from, unit, ..Legend::default() }),
+            labels: if self.flag() { vec![label.clone(), label] } else { Vec::new() },
         }
     }
 

@@ -19,8 +19,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use phong_scene::{
-    Camera, Folder, Image, Light, Limits, Material, Mesh, Object, Points, Reading, Scene, Shape,
-    Texture, read,
+    Camera, Folder, Furniture, Image, Light, Limits, Material, Mesh, Object, Points, Reading,
+    Scene, Shape, Texture, read,
 };
 
 use crate::differing::differing;
@@ -72,6 +72,7 @@ fn summary(scene: &Scene) -> String {
         sky,
         fog,
         outline,
+        furniture,
         clips,
         lights,
         materials,
@@ -87,6 +88,9 @@ fn summary(scene: &Scene) -> String {
     lines.extend(sky.map(|sky| format!("{sky:?}")));
     lines.extend(fog.map(|fog| format!("{fog:?}")));
     lines.extend(outline.map(|outline| format!("{outline:?}")));
+    if *furniture != Furniture::default() {
+        lines.push(format!("{furniture:?}"));
+    }
     lines.extend(clips.iter().map(|clip| format!("{clip:?}")));
     lines.extend(ambient_occlusion.map(|occlusion| format!("{occlusion:?}")));
     lines.extend(lights.iter().map(|light| differing(light, &Light::default())));

@@ -20,6 +20,7 @@ pub fn fingerprint(scene: &Scene) -> u32 {
         fog,
         // It is no part of the film.
         outline: _,
+        furniture: _,
         sky,
         clips,
         lights,

@@ -52,6 +52,9 @@ pub(crate) fn write_gltf(
         if scene.outline.is_some() {
             lost.push("lines around things");
         }
+        if !scene.furniture.is_empty() {
+            lost.push("title, scale bar, axes, legend or labels");
+        }
         if !scene.clips.is_empty() {
             lost.push("clips: what they cut away is there");
         }

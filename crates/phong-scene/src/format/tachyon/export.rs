@@ -135,6 +135,10 @@ fn head(scene: &Scene, account: &mut Account) -> String {
         let message = "Tachyon holds no sky: `[sky]` is not written";
         account.drop(Diagnostic::warning(message.to_owned(), None));
     }
+    if !scene.furniture.is_empty() {
+        let message = "Tachyon holds no title, scale bar, axes, legend or labels";
+        account.drop(Diagnostic::warning(message, None));
+    }
     if scene.outline.is_some() {
         let message = "Tachyon's outlines are of materials: `[outline]` is not written";
         account.drop(Diagnostic::warning(message.to_owned(), None));

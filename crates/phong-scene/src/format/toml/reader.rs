@@ -23,6 +23,7 @@ use crate::color::Rgb;
 use crate::diagnostic::Diagnostic;
 use crate::fog::Fog;
 use crate::format::input::Models;
+use crate::furniture::Furniture;
 use crate::keys::{self, Kind, Table};
 use crate::light::Light;
 use crate::limits::Limits;
@@ -52,6 +53,8 @@ pub(super) struct Reader<'a> {
     pub(super) ambient_occlusion: Option<AmbientOcclusion>,
     pub(super) fog: Option<Fog>,
     pub(super) outline: Option<Outline>,
+    pub(super) furniture: Furniture,
+    label_count: usize,
     pub(super) sky: Option<Sky>,
     /// The clips, and where in `material_names` the material of each one's cap is.
     pub(super) clips: Vec<(Clip, Option<usize>)>,
@@ -89,6 +92,7 @@ enum Item<'t> {
     Texture(&'t str, &'t DeTable<'t>),
     Light(&'t DeTable<'t>),
     Clip(&'t DeTable<'t>),
+    Label(&'t DeTable<'t>),
     Shape(&'static Table, &'t DeTable<'t>, Option<u32>),
     Include(&'t DeTable<'t>),
 }
@@ -109,6 +113,8 @@ impl<'a> Reader<'a> {
             ambient_occlusion: None,
             fog: None,
             outline: None,
+            furniture: Furniture::default(),
+            label_count: 0,
             sky: None,
             clips: Vec::new(),
             clip_count: 0,
@@ -191,6 +197,7 @@ impl<'a> Reader<'a> {
                         let item = match key.name {
                             "light" => Item::Light(text),
                             "clip" => Item::Clip(text),
+                            "label" => Item::Label(text),
                             "include" => Item::Include(text),
                             _ => Item::Shape(table, text, None),
                         };
@@ -246,7 +253,10 @@ impl<'a> Reader<'a> {
     /// `[image]`, `[ambient]` and the like where the text has none, and something is laid
     /// over them.
     fn settings_not_written(&mut self, document: &DeTable<'_>, head: Spot) {
-        for name in ["image", "ambient", "ambient_occlusion", "sky", "fog", "outline"] {
+        for name in ["image", "ambient", "ambient_occlusion", "sky", "fog", "outline"]
+            .into_iter()
+            .chain(settings::FURNITURE)
+        {
             let Some(Kind::Table(table)) = keys::SCENE.find(name, None).map(|key| key.kind) else {
                 continue;
             };
@@ -277,6 +287,7 @@ impl<'a> Reader<'a> {
                     let count = match list {
                         "light" => self.light_count,
                         "clip" => self.clip_count,
+                        "label" => self.label_count,
                         _ => self.counts.get(list).copied().unwrap_or(0),
                     };
                     let message = format!("the scene has no {list} {of} to change");
@@ -303,6 +314,9 @@ impl<'a> Reader<'a> {
             "outline" => {
                 let mut outline = Outline::default();
                 self.outline = values.fill(&mut outline).map(|()| outline);
+            }
+            name if settings::FURNITURE.contains(&name) => {
+                settings::furniture(name, &values, &mut self.furniture, &mut self.notes);
             }
             _ => self.image = settings::image(&values).unwrap_or_default(),
         }
@@ -380,6 +394,13 @@ impl<'a> Reader<'a> {
                 });
                 let clip = settings::clip(&values, &mut self.notes);
                 self.clips.extend(clip.map(|clip| (clip, cap)));
+            }
+            Item::Label(text) => {
+                self.label_count += 1;
+                let over = self.changes.over("label", &[&self.label_count.to_string()]);
+                let notes = &mut self.notes;
+                let values = Values::read_changed(&keys::LABEL, text, spot, &over, notes);
+                self.furniture.labels.extend(settings::label(&values, &mut self.notes));
             }
             Item::Shape(table, text, group) => {
                 let drafts = self.shape(table, text, spot, path);

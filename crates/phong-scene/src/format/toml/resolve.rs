@@ -72,6 +72,7 @@ impl Reader<'_> {
             ambient_occlusion: self.ambient_occlusion,
             fog: self.fog,
             outline: self.outline,
+            furniture: self.furniture,
             sky: self.sky,
             clips,
             lights: self.lights,

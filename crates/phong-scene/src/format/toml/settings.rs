@@ -6,6 +6,7 @@ use crate::camera::{Camera, CameraKind};
 use crate::check::settings as judge;
 use crate::clip::{Cap, Clip};
 use crate::fog::Fog;
+use crate::furniture::{Axes, Furniture, FurnitureStyle, Legend, PointLabel, ScaleBar, Title};
 use crate::light::{Light, LightKind};
 use crate::scene::Image;
 use crate::sky::Sky;
@@ -51,6 +52,51 @@ pub(super) fn fog(v: &Values, notes: &mut Notes) -> Option<Fog> {
     v.fill(&mut fog)?;
     let sound = notes.judge(|key| v.spot_of(key), |faults| judge::fog(&fog, faults));
     sound.then_some(fog)
+}
+
+/// The tables of what a figure needs beside its picture, labels aside.
+pub(super) const FURNITURE: [&str; 5] = ["furniture", "title", "scale_bar", "axes", "legend"];
+
+/// One of them; what is wrong with it has been said.
+pub(super) fn furniture(name: &str, v: &Values, to: &mut Furniture, notes: &mut Notes) {
+    match name {
+        "title" => {
+            let mut title = Title::default();
+            let filled = v.fill(&mut title).is_some();
+            let sound = notes.judge(|key| v.spot_of(key), |faults| judge::title(&title, faults));
+            to.title = (filled && sound).then_some(title);
+        }
+        "scale_bar" => {
+            let mut bar = ScaleBar::default();
+            let filled = v.fill(&mut bar).is_some();
+            let sound = notes.judge(|key| v.spot_of(key), |faults| judge::scale_bar(&bar, faults));
+            to.scale_bar = (filled && sound).then_some(bar);
+        }
+        "axes" => {
+            let mut axes = Axes::default();
+            to.axes = v.fill(&mut axes).map(|()| axes);
+        }
+        "legend" => {
+            let mut legend = Legend::default();
+            let filled = v.fill(&mut legend).is_some();
+            let sound = notes.judge(|key| v.spot_of(key), |faults| judge::legend(&legend, faults));
+            to.legend = (filled && sound).then_some(legend);
+        }
+        _ => {
+            let mut style = FurnitureStyle::default();
+            if v.fill(&mut style).is_some() {
+                to.style = style;
+            }
+        }
+    }
+}
+
+/// A label; what is wrong with it has been said.
+pub(super) fn label(v: &Values, notes: &mut Notes) -> Option<PointLabel> {
+    let mut label = PointLabel { place: notes.place(v.spot), ..PointLabel::default() };
+    v.fill(&mut label)?;
+    let sound = notes.judge(|key| v.spot_of(key), |faults| judge::label(&label, faults));
+    sound.then_some(label)
 }
 
 /// A clip, whose cap is of no other material yet; what is wrong with it has been said.

@@ -89,6 +89,7 @@ impl ValueReader<'_> {
                 .triple::<3, _>(value, Self::numbers)
                 .map(|p| Value::Vectors(p.map(DVec3::from))),
             Kind::Directions => self.triple::<3, _>(value, Self::direction).map(Value::Vectors),
+            Kind::Pair => self.numbers(value).map(|v| Value::Pair(v.into())),
             Kind::Uvs => {
                 self.triple::<2, _>(value, Self::numbers).map(|uv| Value::Uvs(uv.map(DVec2::from)))
             }

@@ -17,7 +17,8 @@ use super::table::default;
 use crate::clip::Cap;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::format::export::{Account, File, PlyEncoding, Writing, free_name, split_all};
-use crate::keys::{self, Key, Kind, Table, Value};
+use crate::furniture::Furniture;
+use crate::keys::{self, Key, Keyed, Kind, Table, Value};
 use crate::limits::LARGEST;
 use crate::material::{Material, MaterialId};
 use crate::mesh::{Cylinders, Mesh};
@@ -51,6 +52,7 @@ pub(crate) fn write_toml(
         ambient_occlusion,
         fog,
         outline,
+        mut furniture,
         sky,
         clips,
         lights,
@@ -59,13 +61,18 @@ pub(crate) fn write_toml(
         objects,
         groups,
     } = scene;
+    let texture_names = texture_names(&textures, account);
+    if let Some(legend) = &mut furniture.legend {
+        let named = textures.iter().position(|texture| texture.name == legend.texture);
+        legend.texture = named.map(|number| texture_names[number].clone()).unwrap_or_default();
+    }
     let stem = file.strip_suffix(".toml").unwrap_or(file).to_owned();
     let group_names = groups.iter().map(|group| group.name.clone()).collect();
     let mut out = Writer {
         text: "version = 1\n".to_owned(),
         stem,
         materials: Materials::new(materials, account),
-        texture_names: texture_names(&textures, account),
+        texture_names,
         group_names,
         counts: BTreeMap::new(),
         files: Vec::new(),
@@ -102,6 +109,9 @@ pub(crate) fn write_toml(
                     out.table(&header, table, None, |key| key.get(&outline));
                 }
             }
+            "furniture" | "title" | "scale_bar" | "axes" | "legend" => {
+                out.furniture(&header, table, &furniture);
+            }
             "ambient_occlusion" => {
                 if let Some(occlusion) = ambient_occlusion {
                     out.table(&header, table, None, |key| key.get(&occlusion));
@@ -109,6 +119,9 @@ pub(crate) fn write_toml(
             }
             _ => out.setting(&header, table, None, |_| Some(Value::Color(ambient))),
         }
+    }
+    for label in &furniture.labels {
+        out.table("[[label]]", &keys::LABEL, None, |key| said(key, label));
     }
     for clip in &clips {
         let kind = keys::CLIP.word_of(clip);
@@ -145,6 +158,11 @@ pub(crate) fn write_toml(
     trouble.map_or(Ok(files), |trouble| Err(Box::new(trouble)))
 }
 
+/// The value of a key; nothing where that is no text at all.
+fn said<T: Keyed>(key: &Key, of: &T) -> Option<Value> {
+    key.get(of).filter(|value| !matches!(value, Value::Text(text) if text.is_empty()))
+}
+
 struct Writer<'a> {
     text: String,
     /// What the names of files begin with.
@@ -176,6 +194,23 @@ impl Writer<'_> {
         self.table(header, table, word, say);
         if self.text[before..].trim() == header {
             self.text.truncate(before);
+        }
+    }
+
+    /// One of the tables of what a figure needs beside its picture, if there is such a thing.
+    fn furniture(&mut self, header: &str, table: &'static Table, furniture: &Furniture) {
+        // What is by default is written all the same: the table says that it is there.
+        fn written<T: Keyed>(out: &mut Writer<'_>, header: &str, table: &'static Table, of: &T) {
+            out.table(header, table, None, |key| said(key, of));
+        }
+        let Furniture { style, title, scale_bar, axes, legend, labels: _ } = furniture;
+        match (table.name, title, scale_bar, axes, legend) {
+            ("title", Some(title), ..) => written(self, header, table, title),
+            ("scale_bar", _, Some(bar), ..) => written(self, header, table, bar),
+            ("axes", _, _, Some(axes), _) => written(self, header, table, axes),
+            ("legend", .., Some(legend)) => written(self, header, table, legend),
+            ("furniture", ..) => self.setting(header, table, None, |key| key.get(style)),
+            _ => {}
         }
     }
 

@@ -20,6 +20,7 @@ pub(super) fn value(value: &Value, kind: Kind, textures: &[String]) -> String {
         Value::Vector(v) if matches!(kind, Kind::Scale) && *v == DVec3::splat(v.x) => number(v.x),
         Value::Vector(v) => numbers(&v.to_array()),
         Value::Vectors(vs) => list(vs.iter().map(|v| numbers(&v.to_array()))),
+        Value::Pair(pair) => numbers(&pair.to_array()),
         Value::Uvs(uvs) => list(uvs.iter().map(|uv: &DVec2| numbers(&uv.to_array()))),
         Value::Rotations(rotations) => list(rotations.iter().map(|r| numbers(&r.to_array()))),
         Value::Matrix(m) => {
