@@ -4,11 +4,15 @@
 //! the sum of its terms.
 
 mod outline;
+mod patch;
 
 use std::borrow::Cow;
+use std::sync::OnceLock;
 
 use crate::film::{Film, LayerKind, Window};
 use crate::render::{Lines, RenderOptions};
+
+pub use patch::Patch;
 
 /// How a picture is to be finished. The default leaves it as its film has it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -28,6 +32,8 @@ pub struct Finishing {
     pub shown: Option<(Window, Vec<LayerKind>)>,
     /// Pixels an inch, which PNG files say; `None`: they do not.
     pub dpi: Option<f64>,
+    /// What lies over all that, one upon the other: the furniture of a figure.
+    pub patches: Vec<Patch>,
 }
 
 impl Finishing {
@@ -35,13 +41,13 @@ impl Finishing {
     /// that scene.
     pub fn of(options: &RenderOptions) -> Self {
         let lines = options.lines();
-        let shown = lines.map(|_| (options.shown(), options.shown_layers()));
+        let shown = options.keeps_more().then(|| (options.shown(), options.shown_layers()));
         Self { lines, shown, ..Self::default() }
     }
 
     /// Whether the finished picture is another than that of the film.
     pub fn draws(&self) -> bool {
-        self.lines.is_some()
+        self.lines.is_some() || !self.patches.is_empty()
     }
 
     /// The same, of the scene with this [`fingerprint`](crate::part::fingerprint()).
@@ -61,8 +67,12 @@ impl Finishing {
 #[derive(Clone, Debug)]
 pub struct Finished<'a> {
     film: Cow<'a, Film>,
-    /// The picture and its alpha with all that is drawn onto it; `None`: nothing is.
-    drawn: Option<[Vec<f32>; 2]>,
+    /// The picture and its alpha with the lines that are drawn onto it; `None`: none are.
+    lined: Option<[Vec<f32>; 2]>,
+    /// What lies over that.
+    patches: Vec<Patch>,
+    /// The picture and its alpha with all that is drawn onto it, where that is patches.
+    covered: OnceLock<[Vec<f32>; 2]>,
     dpi: Option<f64>,
     scene: Option<u32>,
     picture: Option<u32>,
@@ -70,24 +80,33 @@ pub struct Finished<'a> {
 
 /// Finishes a film's picture.
 pub fn finish<'a>(film: &'a Film, finishing: &Finishing) -> Finished<'a> {
-    let Finishing { scene, picture, lines, shown, dpi } = finishing;
-    let (scene, picture, dpi) = (*scene, *picture, *dpi);
+    let Finishing { scene, picture, lines, shown, dpi, patches } = finishing;
+    let (scene, picture, dpi, patches) = (*scene, *picture, *dpi, patches.clone());
+    let covered = OnceLock::new();
     let coverage = lines.and_then(|lines| Some((outline::coverage(film, &lines)?, lines)));
     let Some((window, kinds)) = shown else {
-        let drawn = coverage.map(|(coverage, lines)| drawn(film, &coverage, &lines));
-        return Finished { film: Cow::Borrowed(film), drawn, dpi, scene, picture };
+        let lined = coverage.map(|(coverage, lines)| lined(film, &coverage, &lines));
+        let film = Cow::Borrowed(film);
+        return Finished { film, lined, patches, covered, dpi, scene, picture };
     };
     let film_shown = film.cut(*window, kinds);
-    let drawn = coverage.map(|(coverage, lines)| {
-        drawn(&film_shown, &film.cut_values(&coverage, 1, *window), &lines)
+    let lined = coverage.map(|(coverage, lines)| {
+        lined(&film_shown, &film.cut_values(&coverage, 1, *window), &lines)
     });
-    Finished { film: Cow::Owned(film_shown), drawn, dpi, scene, picture }
+    Finished { film: Cow::Owned(film_shown), lined, patches, covered, dpi, scene, picture }
+}
+
+/// A film's picture and alpha; where it has none, all of it is covered.
+fn values(film: &Film) -> [Vec<f32>; 2] {
+    let values = |kind| film.layer(kind).map(|layer| layer.values.to_vec());
+    let picture = values(LayerKind::Picture).unwrap_or_default();
+    let alpha = values(LayerKind::Alpha).unwrap_or_else(|| vec![1.0; picture.len() / 3]);
+    [picture, alpha]
 }
 
 /// A film's picture and alpha under lines that cover each pixel by so much.
-fn drawn(film: &Film, coverage: &[f32], lines: &Lines) -> [Vec<f32>; 2] {
-    let values = |kind| film.layer(kind).map(|layer| layer.values.to_vec());
-    let mut picture = values(LayerKind::Picture).unwrap_or_default();
+fn lined(film: &Film, coverage: &[f32], lines: &Lines) -> [Vec<f32>; 2] {
+    let [mut picture, mut alpha] = values(film);
     let color = lines.color.to_array();
     for (pixel, &share) in picture.as_chunks_mut::<3>().0.iter_mut().zip(coverage) {
         if share > 0.0 {
@@ -96,7 +115,6 @@ fn drawn(film: &Film, coverage: &[f32], lines: &Lines) -> [Vec<f32>; 2] {
             }
         }
     }
-    let mut alpha = values(LayerKind::Alpha).unwrap_or_else(|| vec![1.0; coverage.len()]);
     for (alpha, &share) in alpha.iter_mut().zip(coverage) {
         *alpha += (1.0 - *alpha) * share;
     }
@@ -111,7 +129,33 @@ impl Finished<'_> {
 
     /// Red, green and blue of the finished picture, and its alpha; `None`: nothing is drawn onto it.
     pub(crate) fn drawn(&self) -> Option<[&[f32]; 2]> {
-        self.drawn.as_ref().map(|[picture, alpha]| [&**picture, &**alpha])
+        let drawn = if self.patches.is_empty() {
+            self.lined.as_ref()?
+        } else {
+            self.covered.get_or_init(|| {
+                let mut drawn = self.lined.clone().unwrap_or_else(|| values(&self.film));
+                for patch in &self.patches {
+                    patch.over_linear(self.film.window, &mut drawn);
+                }
+                drawn
+            })
+        };
+        Some([&drawn[0], &drawn[1]])
+    }
+
+    /// What is to be laid over the levels of a file that [`beneath`](Self::beneath) becomes.
+    pub(crate) fn patches(&self) -> &[Patch] {
+        &self.patches
+    }
+
+    /// The values of a layer as they are to be seen, without what [`patches`](Self::patches) cover.
+    pub(crate) fn beneath(&self, kind: LayerKind) -> Option<&[f32]> {
+        match (kind, &self.lined) {
+            (LayerKind::Picture, Some([picture, _])) => return Some(picture),
+            (LayerKind::Alpha, Some([_, alpha])) => return Some(alpha),
+            _ => {}
+        }
+        self.film.layer(kind).map(|layer| &*layer.values)
     }
 
     /// Pixels an inch, which files say; `None`: they do not.
@@ -122,8 +166,9 @@ impl Finished<'_> {
     /// The finished picture as a film of its own, whose picture and alpha are what is drawn.
     #[must_use]
     pub fn into_film(self) -> Film {
+        let drawn = self.drawn().map(|drawn| drawn.map(<[f32]>::to_vec));
         let mut film = self.film.into_owned();
-        let Some([picture, alpha]) = self.drawn else { return film };
+        let Some([picture, alpha]) = drawn else { return film };
         for layer in &mut film.layers {
             match layer.kind {
                 LayerKind::Picture => layer.values.copy_from_slice(&picture),
@@ -148,12 +193,11 @@ impl Finished<'_> {
 
     /// The values of a layer as they are to be seen; `None` if the film has no such layer.
     pub fn values(&self, kind: LayerKind) -> Option<&[f32]> {
-        match (kind, &self.drawn) {
-            (LayerKind::Picture, Some([picture, _])) => return Some(picture),
-            (LayerKind::Alpha, Some([_, alpha])) => return Some(alpha),
-            _ => {}
+        match (kind, self.drawn()) {
+            (LayerKind::Picture, Some([picture, _])) => Some(picture),
+            (LayerKind::Alpha, Some([_, alpha])) => Some(alpha),
+            _ => self.film.layer(kind).map(|layer| &*layer.values),
         }
-        self.film.layer(kind).map(|layer| &*layer.values)
     }
 }
 

@@ -15,9 +15,9 @@ use rayon::prelude::*;
 
 use super::curve::{Curve, LinearLevels, linear_level};
 use super::picture::{MAX_VALUES, Picture, Plane, ReadError, Transfer, count, within};
-use super::{Bits, Encoding, WriteError, layer};
+use super::{Bits, Encoding, WriteError};
 use crate::aov::Aov;
-use crate::film::LayerKind;
+use crate::film::{LayerKind, Window};
 use crate::finish::Finished;
 
 /// Bytes of levels that are encoded at a time, and of a chunk of the file, at most.
@@ -47,7 +47,11 @@ pub(super) fn write(
     encoding: &Encoding,
     out: &mut impl Write,
 ) -> Result<(), WriteError> {
-    let (values, film) = (layer(picture, kind)?, picture.film());
+    let layer = |kind: LayerKind| {
+        let missing = || WriteError::Unsuitable(format!("the film has no layer {}", kind.name()));
+        picture.beneath(kind).ok_or_else(missing)
+    };
+    let (values, film) = (layer(kind)?, picture.film());
     let curve = match (encoding.linear, encoding.bits) {
         (true, _) => None,
         (false, Bits::Eight) => Some(Curve::eight()),
@@ -58,7 +62,7 @@ pub(super) fn write(
     let (values, tone): (Cow<'_, [f32]>, _) = match kind {
         LayerKind::Picture => {
             let gain = libm::exp2(encoding.exposure) as f32;
-            let alpha = layer(picture, LayerKind::Alpha).ok();
+            let alpha = layer(LayerKind::Alpha).ok();
             // All of a piece, without a branch for each.
             let is_whole = |piece: &[f32]| piece.iter().fold(true, |all, &a| all & (a == 1.0));
             let alpha = alpha.filter(|alpha| !alpha.chunks(4096).all(is_whole));
@@ -118,7 +122,11 @@ pub(super) fn write(
     let step = (BAND / (8 * width)).max(1);
     for first in (0..height).step_by(step) {
         let band = first..height.min(first + step);
-        rows.write_all(&levels(&values, if grey { 1 } else { 3 }, width, band, &tone))?;
+        let mut levels = levels(&values, if grey { 1 } else { 3 }, width, band.clone(), &tone);
+        if kind == LayerKind::Picture {
+            cover(&mut levels, band, picture, &tone);
+        }
+        rows.write_all(&levels)?;
     }
     rows.finish().map_err(encoding_error)?;
     writer.finish().map_err(encoding_error)
@@ -128,13 +136,26 @@ pub(super) fn write(
 /// from top to bottom, by the sRGB curve unless `encoding` is linear. Its `bits` are not looked at.
 pub fn srgb8(picture: &Finished<'_>, encoding: &Encoding) -> Vec<u8> {
     let film = picture.film();
-    let values = picture.values(LayerKind::Picture).unwrap_or_default();
+    let values = picture.beneath(LayerKind::Picture).unwrap_or_default();
     let opaque = || vec![1.0; values.len() / 3].into();
-    let alpha: Cow<'_, [f32]> = picture.values(LayerKind::Alpha).map_or_else(opaque, Cow::Borrowed);
+    let alpha: Cow<'_, [f32]> = picture.beneath(LayerKind::Alpha).map_or_else(opaque, Cow::Borrowed);
     let curve = (!encoding.linear).then(Curve::eight);
     let gain = libm::exp2(encoding.exposure) as f32;
     let tone = Tone { gain, bits: Bits::Eight, curve, alpha: Some(&alpha) };
-    levels(values, 3, film.width() as usize, 0..film.height() as usize, &tone)
+    let rows = 0..film.height() as usize;
+    let mut levels = levels(values, 3, film.width() as usize, rows.clone(), &tone);
+    cover(&mut levels, rows, picture, &tone);
+    levels
+}
+
+/// Lays what covers the picture over the levels of some of its rows.
+fn cover(levels: &mut [u8], rows: Range<usize>, picture: &Finished<'_>, tone: &Tone<'_>) {
+    let whole = picture.film().window;
+    let [y0, y1] = [rows.start, rows.end].map(|row| whole.y0 + row as u32);
+    let part = Window { y0, y1, ..whole };
+    for patch in picture.patches() {
+        patch.over_levels(part, levels, tone.alpha.is_some(), tone.bits, tone.curve.is_none());
+    }
 }
 
 /// The levels of some rows of pixels, as the bytes a PNG holds.

@@ -7,6 +7,7 @@
 //! little-endian floats, where samples are lacking the sums from which it goes on, and a checksum of
 //! all that. A cut file or a flipped bit is an error.
 
+mod figure;
 mod fingerprint;
 mod join;
 mod settings;
@@ -38,7 +39,7 @@ const FILMS: (u32, u32) = (4, 0xc7bf_6330);
 const END: u64 = u64::MAX;
 
 /// The longest header that is read, in bytes.
-const MAX_HEADER: usize = 64 << 10;
+const MAX_HEADER: usize = 4 << 20;
 
 /// A film that may lack tiles, and the picture it is of.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use phong_scene::Scene;
 
-use super::{ARITHMETIC, checksum, fingerprint};
+use super::{ARITHMETIC, checksum, figure, fingerprint};
 use crate::film::{Film, LayerKind, Window};
 use crate::finish::Finishing;
 use crate::image::{Bits, Encoding};
@@ -47,8 +47,13 @@ impl Settings {
         let mut more = |name: &str, value| picture.push((name.to_owned(), value));
         if let Some(lines) = options.lines() {
             more("lines", lines.to_string());
+        }
+        if options.keeps_more() {
             more("shown", corners(options.shown()));
             more("kept", names(&options.shown_layers()));
+        }
+        if let Some(line) = figure::to_line(scene) {
+            more(figure::LINE, line);
         }
         if let Some(dpi) = scene.image.dpi {
             more("dpi", dpi.to_string());
@@ -70,7 +75,7 @@ impl Settings {
         u32::from_str_radix(sum, 16).ok()
     }
 
-    fn said(&self, name: &str) -> Option<&str> {
+    pub(super) fn said(&self, name: &str) -> Option<&str> {
         self.picture.iter().find(|(said, _)| said == name).map(|(_, value)| value.as_str())
     }
 
@@ -102,7 +107,7 @@ impl Settings {
         self
     }
 
-    /// How the film is to be finished.
+    /// How the film is to be finished, but for its [furniture](Self::furniture), which somebody has to draw.
     pub fn finishing(&self) -> Finishing {
         let dpi = self.said("dpi").and_then(|dpi| dpi.parse().ok());
         Finishing {
@@ -111,6 +116,7 @@ impl Settings {
             lines: self.said("lines").and_then(Lines::from_text),
             shown: self.shown(),
             dpi: dpi.filter(|dpi: &f64| *dpi > 0.0 && dpi.is_finite()),
+            patches: Vec::new(),
         }
     }
 

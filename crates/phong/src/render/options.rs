@@ -39,6 +39,8 @@ pub struct RenderOptions {
     lights: u32,
     passes: Passes,
     lines: Option<Lines>,
+    /// Whether the distance of things is kept, for what they may hide of the picture's furniture.
+    hides: bool,
 }
 
 /// Why there are no such options: in every case the caller's fault.
@@ -122,6 +124,7 @@ impl RenderOptions {
             lights: 0,
             passes: Passes::default(),
             lines: None,
+            hides: false,
         };
         valid.with_size(size)?.with_samples(samples)?.with_depth(depth)?.with_min_weight(min_weight)
     }
@@ -271,11 +274,13 @@ impl RenderOptions {
         Self { lines, ..self }
     }
 
-    /// Keeps what the picture of this scene is finished by ([`finish`](crate::finish::finish)).
+    /// Keeps what the picture of this scene is finished by ([`finish`](crate::finish::finish)): its lines,
+    /// and the distance of what may hide a label.
     #[must_use]
     pub fn with_finishing_of(self, scene: &Scene) -> Self {
-        let Scene { outline, image, .. } = scene;
-        self.with_lines(outline.as_ref().map(|outline| Lines::of(outline, image)))
+        let Scene { outline, image, furniture, .. } = scene;
+        let lines = outline.as_ref().map(|outline| Lines::of(outline, image));
+        Self { hides: furniture.needs_depth(), ..self.with_lines(lines) }
     }
 
     /// Lines that are drawn when the film is done; `None`: there are none.
@@ -400,15 +405,24 @@ impl RenderOptions {
     /// The layers of the film: those that are shown, and what lines are drawn by.
     pub fn layers(&self) -> Vec<LayerKind> {
         let mut kinds = self.shown_layers();
-        let needs =
-            self.lines.iter().flat_map(|_| Lines::NEEDS).filter(|aov| !self.aovs.contains(aov));
-        kinds.extend(needs.map(LayerKind::Aov));
+        let lines: &[Aov] = if self.lines.is_some() { &Lines::NEEDS } else { &[] };
+        let labels: &[Aov] = if self.hides { &[Aov::Depth] } else { &[] };
+        for kind in lines.iter().chain(labels).map(|aov| LayerKind::Aov(*aov)) {
+            if !kinds.contains(&kind) {
+                kinds.push(kind);
+            }
+        }
         kinds
     }
 
     /// Whether the film holds any variable.
     pub(crate) fn has_variables(&self) -> bool {
-        !self.aovs.is_empty() || self.lines.is_some()
+        !self.aovs.is_empty() || self.keeps_more()
+    }
+
+    /// Whether the film holds more than is shown, for who finishes it.
+    pub(crate) fn keeps_more(&self) -> bool {
+        self.lines.is_some() || self.hides
     }
 
     /// The layers that are shown: the picture, its alpha, the terms and variables asked for.

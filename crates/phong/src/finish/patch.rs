@@ -1,0 +1,127 @@
+//! Pieces of figures that lie over a picture when all else is done: what they show is not exposed, and no
+//! tone curve changes it.
+
+use phong_scene::{Rgb, srgb_decode};
+
+use crate::film::Window;
+use crate::image::Bits;
+
+/// A piece that lies over a part of a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Patch {
+    /// Where, in pixels of the full picture.
+    pub window: Window,
+    /// Red, green, blue and opacity of each pixel as levels from 0 to 255, of sRGB and straight; rows from
+    /// the top. As many as the window has.
+    pub pixels: Vec<[u8; 4]>,
+}
+
+impl Patch {
+    /// Calls `each` with every pixel of it that is seen in a part of the picture, by its number there.
+    fn over(&self, part: Window, mut each: impl FnMut(usize, [u8; 4])) {
+        let here = self.window;
+        let both = here.intersection(&part);
+        for y in both.y0..both.y1 {
+            for x in both.x0..both.x1 {
+                let from = (y - here.y0) as usize * here.width() as usize + (x - here.x0) as usize;
+                let to = (y - part.y0) as usize * part.width() as usize + (x - part.x0) as usize;
+                match self.pixels.get(from) {
+                    Some(&pixel) if pixel[3] > 0 => each(to, pixel),
+                    _ => {}
+                }
+            }
+        }
+    }
+
+    /// Lays it over linear values of a part of a picture: three a pixel and premultiplied, and their alpha.
+    pub(super) fn over_linear(&self, part: Window, [picture, alpha]: &mut [Vec<f32>; 2]) {
+        self.over(part, |i, [r, g, b, a]| {
+            let share = f32::from(a) / 255.0;
+            let color = Rgb::from_srgb8([r, g, b]).to_array();
+            for (value, color) in picture[3 * i..].iter_mut().zip(color) {
+                *value = *value * (1.0 - share) + color * share;
+            }
+            alpha[i] += (1.0 - alpha[i]) * share;
+        });
+    }
+
+    /// Lays it over the levels of a part of a picture, as a PNG has them: of 8 bits, or of 16 with the high
+    /// byte first; four values a pixel where there is `alpha`, which is straight, else three. `linear`: they
+    /// are on no curve.
+    pub(crate) fn over_levels(
+        &self,
+        part: Window,
+        bytes: &mut [u8],
+        alpha: bool,
+        bits: Bits,
+        linear: bool,
+    ) {
+        let channels = if alpha { 4 } else { 3 };
+        let (size, most) = match bits {
+            Bits::Eight => (1, 255.0),
+            Bits::Sixteen => (2, 65535.0),
+        };
+        self.over(part, |i, [r, g, b, a]| {
+            let Some(pixel) = bytes.get_mut(i * channels * size..(i + 1) * channels * size) else {
+                return;
+            };
+            let level = |at: usize, pixel: &[u8]| match bits {
+                Bits::Eight => f64::from(pixel[at]) / most,
+                Bits::Sixteen => {
+                    f64::from(u16::from_be_bytes([pixel[2 * at], pixel[2 * at + 1]])) / most
+                }
+            };
+            let share = f64::from(a) / 255.0;
+            let below = if alpha { level(3, pixel) } else { 1.0 };
+            let whole = share + below * (1.0 - share);
+            let mut levels = [0.0, 0.0, 0.0, whole];
+            for (at, color) in [r, g, b].into_iter().enumerate() {
+                let color = f64::from(color) / 255.0;
+                let color = if linear { srgb_decode(color) } else { color };
+                let under = level(at, pixel) * below * (1.0 - share);
+                levels[at] = (color * share + under) / whole;
+            }
+            for (to, level) in pixel.chunks_exact_mut(size).zip(levels) {
+                let level = (level * most + 0.5) as u16;
+                match bits {
+                    Bits::Eight => to[0] = level as u8,
+                    Bits::Sixteen => to.copy_from_slice(&level.to_be_bytes()),
+                }
+            }
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PART: Window = Window { x0: 10, y0: 0, x1: 12, y1: 1 };
+
+    /// Half red over the second pixel of the part, and something beside the part.
+    fn patch() -> Patch {
+        let window = Window { x0: 11, y0: 0, x1: 13, y1: 1 };
+        Patch { window, pixels: vec![[255, 0, 0, 51], [9, 9, 9, 255]] }
+    }
+
+    #[test]
+    fn a_patch_covers_the_levels_of_a_picture_by_its_opacity() {
+        let mut bytes = [100, 100, 100, 100, 100, 100];
+        patch().over_levels(PART, &mut bytes, false, Bits::Eight, false);
+        assert_eq!(bytes, [100, 100, 100, 131, 80, 80]);
+        let mut bytes = [0, 0, 0, 0, 0, 0, 0, 0];
+        patch().over_levels(PART, &mut bytes, true, Bits::Eight, false);
+        assert_eq!(bytes, [0, 0, 0, 0, 255, 0, 0, 51], "nothing is below it");
+        let mut bytes = [0; 12];
+        patch().over_levels(PART, &mut bytes, false, Bits::Sixteen, true);
+        assert_eq!(bytes[6..8], 13107_u16.to_be_bytes());
+    }
+
+    #[test]
+    fn a_patch_covers_linear_values_by_its_opacity() {
+        let mut values = [vec![0.5; 6], vec![0.5; 2]];
+        patch().over_linear(PART, &mut values);
+        assert_eq!(values[0], [0.5, 0.5, 0.5, 0.6, 0.4, 0.4]);
+        assert_eq!(values[1], [0.5, 0.6]);
+    }
+}
