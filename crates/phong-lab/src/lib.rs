@@ -1,4 +1,4 @@
-//! What is asked of the renderer: figures, fits, grades, comparisons, formulas evaluated by name,
+//! What is asked of the renderer: figures, what a figure needs beside its picture, fits, grades, comparisons, formulas evaluated by name,
 //! measured memory and speed, and explanations of a pixel as text, JSON, LaTeX, SVG and HTML.
 //!
 //! Everything here is made from the public items of [`phong`]. A program that only draws pictures
@@ -12,6 +12,7 @@ pub mod compare;
 pub mod eval;
 pub mod figures;
 pub mod fit;
+pub mod furniture;
 pub mod grade;
 mod markup;
 pub mod measure;

@@ -6,36 +6,36 @@ use glam::DVec2;
 use phong::math::wide;
 
 /// A place on the canvas.
-pub(super) type Point = DVec2;
+pub(crate) type Point = DVec2;
 
 /// A colour with an opacity.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Ink {
-    pub(super) srgb: [u8; 3],
-    pub(super) opacity: f64,
+pub(crate) struct Ink {
+    pub(crate) srgb: [u8; 3],
+    pub(crate) opacity: f64,
 }
 
 impl Ink {
-    pub(super) const fn rgb(r: u8, g: u8, b: u8) -> Self {
+    pub(crate) const fn rgb(r: u8, g: u8, b: u8) -> Self {
         Self { srgb: [r, g, b], opacity: 1.0 }
     }
 
     /// The same colour, seen through.
-    pub(super) const fn fade(self, opacity: f64) -> Self {
+    pub(crate) const fn fade(self, opacity: f64) -> Self {
         Self { opacity, ..self }
     }
 }
 
 /// A line's look.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Stroke {
-    pub(super) ink: Ink,
-    pub(super) width: f64,
-    pub(super) dashed: bool,
+pub(crate) struct Stroke {
+    pub(crate) ink: Ink,
+    pub(crate) width: f64,
+    pub(crate) dashed: bool,
 }
 
 impl Stroke {
-    pub(super) const fn new(ink: Ink, width: f64) -> Self {
+    pub(crate) const fn new(ink: Ink, width: f64) -> Self {
         Self { ink, width, dashed: false }
     }
 
@@ -46,7 +46,7 @@ impl Stroke {
 
 /// One step of an outline.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Step {
+pub(crate) enum Step {
     Move(Point),
     Line(Point),
     Quad(Point, Point),
@@ -56,27 +56,53 @@ pub(super) enum Step {
 
 /// An outline.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Path(pub(super) Vec<Step>);
+pub(crate) struct Path(pub(crate) Vec<Step>);
 
 impl Path {
-    pub(super) fn move_to(&mut self, p: Point) {
+    pub(crate) fn move_to(&mut self, p: Point) {
         self.0.push(Step::Move(p));
     }
-    pub(super) fn line_to(&mut self, p: Point) {
+    pub(crate) fn line_to(&mut self, p: Point) {
         self.0.push(Step::Line(p));
     }
-    pub(super) fn quad_to(&mut self, c: Point, p: Point) {
+    pub(crate) fn quad_to(&mut self, c: Point, p: Point) {
         self.0.push(Step::Quad(c, p));
     }
-    pub(super) fn cubic_to(&mut self, c: Point, d: Point, p: Point) {
+    pub(crate) fn cubic_to(&mut self, c: Point, d: Point, p: Point) {
         self.0.push(Step::Cubic(c, d, p));
     }
-    pub(super) fn close(&mut self) {
+    pub(crate) fn close(&mut self) {
         self.0.push(Step::Close);
     }
 
+    /// The same elsewhere.
+    pub(crate) fn moved(&self, by: Point) -> Self {
+        Self(
+            self.0
+                .iter()
+                .map(|step| match *step {
+                    Step::Move(p) => Step::Move(p + by),
+                    Step::Line(p) => Step::Line(p + by),
+                    Step::Quad(c, p) => Step::Quad(c + by, p + by),
+                    Step::Cubic(c, d, p) => Step::Cubic(c + by, d + by, p + by),
+                    Step::Close => Step::Close,
+                })
+                .collect(),
+        )
+    }
+
+    /// Every point of it, those that its curves are only drawn towards as well.
+    pub(crate) fn points(&self) -> impl Iterator<Item = Point> {
+        self.0.iter().flat_map(|step| match *step {
+            Step::Move(p) | Step::Line(p) => vec![p],
+            Step::Quad(c, p) => vec![c, p],
+            Step::Cubic(c, d, p) => vec![c, d, p],
+            Step::Close => Vec::new(),
+        })
+    }
+
     /// Straight from point to point.
-    pub(super) fn polyline(points: impl IntoIterator<Item = Point>) -> Self {
+    pub(crate) fn polyline(points: impl IntoIterator<Item = Point>) -> Self {
         let mut path = Self::default();
         for point in points {
             if path.0.is_empty() { path.move_to(point) } else { path.line_to(point) }
@@ -85,14 +111,14 @@ impl Path {
     }
 
     /// Straight from point to point and back to the first.
-    pub(super) fn polygon(points: impl IntoIterator<Item = Point>) -> Self {
+    pub(crate) fn polygon(points: impl IntoIterator<Item = Point>) -> Self {
         let mut path = Self::polyline(points);
         path.close();
         path
     }
 
     /// Part of a circle, from one angle to another; degrees, anticlockwise from the right.
-    pub(super) fn arc(center: Point, radius: f64, from: f64, to: f64) -> Self {
+    pub(crate) fn arc(center: Point, radius: f64, from: f64, to: f64) -> Self {
         let pieces = ((to - from).abs() / 45.0).ceil().max(1.0);
         let step = (to - from) / pieces;
         // The control points' distance that keeps a cubic within 4e-6 radii of the circle.

@@ -129,7 +129,7 @@ impl Canvas {
     }
 }
 
-fn outline(path: &Path) -> Option<tiny_skia::Path> {
+pub(crate) fn outline(path: &Path) -> Option<tiny_skia::Path> {
     let mut builder = PathBuilder::new();
     let xy = |p: Point| (p.x as f32, p.y as f32);
     for step in &path.0 {
@@ -160,7 +160,7 @@ fn color(Ink { srgb: [r, g, b], opacity }: Ink) -> tiny_skia::Color {
     tiny_skia::Color::from_rgba8(r, g, b, (opacity * 255.0 + 0.5) as u8)
 }
 
-fn solid(ink: Ink) -> Paint<'static> {
+pub(crate) fn solid(ink: Ink) -> Paint<'static> {
     let mut paint = Paint::default();
     paint.set_color(color(ink));
     paint

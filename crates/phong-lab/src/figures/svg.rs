@@ -69,7 +69,7 @@ fn element(drawing: &Drawing, title: &str, description: &str, head: &str) -> Str
     out + "</svg>\n"
 }
 
-fn shape(path: &Path, fill: Option<Ink>, stroke: Option<Stroke>) -> String {
+pub(crate) fn shape(path: &Path, fill: Option<Ink>, stroke: Option<Stroke>) -> String {
     let mut out = String::from("<path d=\"");
     for step in &path.0 {
         let (letter, points): (char, &[Point]) = match step {
@@ -159,7 +159,7 @@ fn image(at: Point, size: Point, bitmap: &Bitmap) -> String {
 }
 
 /// Hundredths, without trailing zeros.
-fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     let rounded = format!("{value:.2}");
     let trimmed = rounded.trim_end_matches('0').trim_end_matches('.');
     if trimmed == "-0" { "0".to_owned() } else { trimmed.to_owned() }

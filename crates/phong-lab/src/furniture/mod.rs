@@ -1,0 +1,131 @@
+//! What a figure needs beside its picture, drawn when that is done: title, scale bar, axes, legend and
+//! labels.
+//!
+//! It is outlines, those of the letters too, so it is sharp at any size. [`finish`] draws it in pixels onto a
+//! film's picture, [`svg`] writes it as outlines over one. It is no part of the film, and comes after exposure
+//! and tone: ink is ink.
+
+mod layout;
+mod raster;
+mod round;
+mod sheet;
+mod svg;
+mod text;
+
+use phong::aov::Aov;
+use phong::film::{Film, LayerKind};
+use phong::finish::{Finished, Finishing};
+use phong::part::Settings;
+use phong_scene::{Diagnostic, Furniture, Hidden, PointLabel, Scene};
+
+use layout::{Layout, pixels_a_unit, place_of};
+use sheet::Group;
+use text::Font;
+
+pub use svg::svg;
+
+/// The share of its distance by which a point may lie behind what is seen there without being hidden: it
+/// lies *on* something more often than not.
+const SLACK: f64 = 2e-3;
+
+/// Finishes a film's picture by its settings: lines, and all the scene's furniture over them.
+///
+/// This is what every picture goes through that is looked at. The film is the whole one; of a share nothing
+/// is finished.
+pub fn finish<'a>(film: &'a Film, settings: &Settings) -> Finished<'a> {
+    phong::finish(film, &finishing(film, settings))
+}
+
+/// How a film is to be finished by its settings: lines, and all the scene's furniture over them.
+pub fn finishing(film: &Film, settings: &Settings) -> Finishing {
+    let mut finishing = settings.finishing();
+    if let Some(scene) = settings.furniture() {
+        let groups = groups(&Font::new(), &scene, film, settings.size);
+        finishing.patches =
+            groups.iter().flat_map(|group| raster::patches(group, settings.size)).collect();
+    }
+    finishing
+}
+
+/// The settings of a film's finished picture as a film of its own, whose furniture is still to be drawn: by
+/// the film it is known which labels are hidden, and no other film says so.
+#[must_use]
+pub fn settled(film: &Film, settings: Settings) -> Settings {
+    let Some(scene) = settings.furniture() else { return settings.finished() };
+    let mut furniture = scene.furniture.clone();
+    furniture.labels.retain(|label| is_seen(label, &scene, film, settings.size));
+    for label in &mut furniture.labels {
+        label.hidden = Hidden::Never;
+    }
+    settings.with_furniture(furniture).finished()
+}
+
+/// What there is to say of a scene's furniture before it is drawn in a picture of `size` pixels: letters that
+/// the font does not have, and what is not drawn at all.
+pub fn warnings(scene: &Scene) -> Vec<Diagnostic> {
+    let Furniture { style: _, title, scale_bar, axes: _, legend, labels } = &scene.furniture;
+    if scene.furniture.is_empty() {
+        return Vec::new();
+    }
+    let font = Font::new();
+    let title = title.iter().map(|title| ("title".to_owned(), &title.text));
+    let unit = scale_bar.iter().map(|bar| ("scale_bar".to_owned(), &bar.unit));
+    let legend = legend.iter().flat_map(|legend| {
+        [("legend".to_owned(), &legend.text), ("legend".to_owned(), &legend.unit)]
+    });
+    let labels = labels.iter().enumerate();
+    let labels = labels.map(|(i, label)| (format!("label {}", i + 1), &label.text));
+    let texts = title.chain(unit).chain(legend).chain(labels);
+    let mut said = Vec::new();
+    for (name, text) in texts {
+        let missing = font.missing(text);
+        if !missing.is_empty() {
+            let letters: Vec<String> = missing
+                .iter()
+                .map(|letter| format!("{letter} (U+{:04X})", u32::from(*letter)))
+                .collect();
+            let message = format!("{name}: the font has no {}, left out", letters.join(", "));
+            let help =
+                "it has Latin, Greek and Cyrillic letters, and the signs of units and powers";
+            said.push(Diagnostic::warning(message, None).with_help(help));
+        }
+    }
+    if scale_bar.is_some() && pixels_a_unit(&scene.camera, scene.image.size).is_none() {
+        let message =
+            "scale_bar: it is not drawn: this camera has not one scale all over the picture";
+        said.push(Diagnostic::warning(message, None));
+    }
+    said
+}
+
+/// All furniture that is seen, in the order that it is painted in: labels first.
+fn groups(font: &Font, scene: &Scene, film: &Film, size: [u32; 2]) -> Vec<Group> {
+    let mut layout = Layout::new(font, scene, size);
+    let seen = scene.furniture.labels.iter().filter(|label| is_seen(label, scene, film, size));
+    let labels = seen.filter_map(|label| {
+        let (place, _) = place_of(label.at, scene, size)?;
+        Some(layout.label(label, place))
+    });
+    let mut groups: Vec<Group> = labels.collect();
+    groups.extend(layout.edges());
+    groups
+}
+
+/// Whether a label is in the picture and not hidden.
+fn is_seen(label: &PointLabel, scene: &Scene, film: &Film, size: [u32; 2]) -> bool {
+    let Some((place, away)) = place_of(label.at, scene, size) else { return false };
+    if label.hidden == Hidden::Never {
+        return true;
+    }
+    let (x, y, window) = (place.x as u32, place.y as u32, film.window);
+    if !(window.x0..window.x1).contains(&x) || !(window.y0..window.y1).contains(&y) {
+        return false;
+    }
+    let Some(depth) = film.layer(LayerKind::Aov(Aov::Depth)) else { return true };
+    let pixel = (y - window.y0) as usize * window.width() as usize + (x - window.x0) as usize;
+    let seen = depth.values.get(pixel).copied().unwrap_or(f32::INFINITY);
+    f64::from(seen) + label.radius + SLACK * away >= away
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,86 @@
+//! Round numbers, and how they are written.
+
+/// The digit to the left of the exponent's number, above the line.
+const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+
+/// A round number: 1, 2 or 5 times a power of ten.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Round {
+    digit: u32,
+    exponent: i32,
+}
+
+impl Round {
+    /// The largest that is no more than `most`, a finite number above 0; `None`: there is none.
+    pub(super) fn below(most: f64) -> Option<Self> {
+        if !(most.is_finite() && most > 0.0) {
+            return None;
+        }
+        let exponent = libm::floor(libm::log10(most)) as i32;
+        // The logarithm is rounded: a step up may still fit, and one down may be needed.
+        let rounds = (exponent - 1..=exponent + 1).rev();
+        rounds
+            .flat_map(|exponent| [5, 2, 1].map(|digit| Self { digit, exponent }))
+            .find(|round| round.value() <= most)
+    }
+
+    /// It as a number: the nearest there is.
+    pub(super) fn value(self) -> f64 {
+        format!("{}e{}", self.digit, self.exponent).parse().unwrap_or(f64::NAN)
+    }
+
+    /// So many times it: the nearest number there is.
+    pub(super) fn times(self, count: i64) -> f64 {
+        format!("{}e{}", count * i64::from(self.digit), self.exponent).parse().unwrap_or(f64::NAN)
+    }
+
+    /// Digits behind the point of its multiples.
+    pub(super) fn decimals(self) -> usize {
+        usize::try_from(-self.exponent).unwrap_or(0)
+    }
+}
+
+/// A number in as few digits as it has, with at most so many behind the point; very large and very small
+/// ones as a power of ten.
+pub(super) fn number(value: f64, decimals: usize) -> String {
+    let size = value.abs();
+    let plain = if size != 0.0 && !(1e-4..1e6).contains(&size) {
+        let text = format!("{value:.5e}");
+        let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+        let raised = exponent.chars().map(|digit| match digit.to_digit(10) {
+            Some(digit) => RAISED[digit as usize],
+            None => '⁻',
+        });
+        let digits = digits.trim_end_matches('0').trim_end_matches('.');
+        let power: String = "10".chars().chain(raised).collect();
+        match digits {
+            "1" => power,
+            "-1" => format!("-{power}"),
+            digits => format!("{digits} · {power}"),
+        }
+    } else {
+        format!("{value:.decimals$}")
+    };
+    plain.replace('-', "−")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn round_numbers_are_the_largest_that_fit() {
+        let below = |most| Round::below(most).map(Round::value);
+        let found = [0.99, 1.0, 1.99, 2.5, 7.0, 10.0, 49.9, 1e300, 3e-7].map(below);
+        let wanted = [0.5, 1.0, 1.0, 2.0, 5.0, 10.0, 20.0, 1e300, 2e-7];
+        assert_eq!(found, wanted.map(Some));
+        assert_eq!([0.0, -1.0, f64::NAN, f64::INFINITY].map(below), [None; 4]);
+    }
+
+    #[test]
+    fn numbers_are_written_as_people_write_them() {
+        let written = [number(0.0, 1), number(-2.5, 1), number(1500.0, 0), number(0.1 + 0.2, 1)];
+        assert_eq!(written, ["0.0", "−2.5", "1500", "0.3"]);
+        assert_eq!([number(2e-7, 7), number(1e9, 0)], ["2 · 10⁻⁷", "10⁹"]);
+    }
+}

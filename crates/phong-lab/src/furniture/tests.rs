@@ -1,0 +1,144 @@
+use phong::film::Window;
+use phong::image::Encoding;
+use phong::render::{Cancel, RenderOptions, render};
+use phong::view::View;
+use phong_scene::{Limits, Memory, read};
+
+use super::*;
+
+const BALL: &str = "version = 1\n[image]\nsize = [96, 64]\nsamples = 1\n[camera]\neye = [0, 0, 5]\n\
+                    look_at = [0, 0, 0]\n[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n";
+
+fn scene(furniture: &str) -> Scene {
+    let text = format!("{BALL}{furniture}");
+    let files = Memory::new().with("a.toml", text.as_bytes());
+    let reading = read("a.toml", None, &files, &Limits::default());
+    assert!(reading.scene.is_some(), "{:?}", reading.diagnostics);
+    reading.scene.unwrap()
+}
+
+fn drawn(scene: &Scene, window: Option<Window>) -> (Film, Settings) {
+    let options = RenderOptions::of(&scene.image).unwrap().with_finish(scene);
+    let options = match window {
+        Some(window) => options.with_window(window).unwrap(),
+        None => options,
+    };
+    let view = View::of(scene).unwrap();
+    let film = render(&view, &options, &|_| {}, &Cancel::new()).film;
+    (film, Settings::of(scene, &options, Encoding::default()))
+}
+
+/// Red of every pixel as it is seen.
+fn seen(film: &Film, settings: &Settings) -> Vec<f32> {
+    let finished = finish(film, settings);
+    let picture = finished.values(LayerKind::Picture).unwrap();
+    picture.iter().step_by(3).copied().collect()
+}
+
+const ALL: &str = "[title]\ntext = \"T\"\n[scale_bar]\n[axes]\n[legend]\nmap = \"viridis\"\n\
+                   [[label]]\ntext = \"L\"\nat = [0, 0, 1]\n";
+
+#[test]
+fn furniture_is_drawn_and_the_film_is_as_it_was() {
+    let (film, settings) = drawn(&scene(ALL), None);
+    let before = film.clone();
+    let finished = finish(&film, &settings);
+    assert_eq!(finished.film().layer(LayerKind::Picture), before.layer(LayerKind::Picture));
+    assert_eq!(finished.film().layers.len(), 2, "what labels need is not shown");
+    let plain = film.layer(LayerKind::Picture).unwrap().values.iter().step_by(3);
+    let changed = seen(&film, &settings).iter().zip(plain).filter(|(a, b)| a != b).count();
+    assert!(changed > 300, "{changed} pixels");
+}
+
+#[test]
+fn a_part_of_a_picture_has_the_furniture_of_the_whole() {
+    let scene = scene(ALL);
+    let (film, settings) = drawn(&scene, None);
+    let whole = seen(&film, &settings);
+    let window = Window { x0: 20, y0: 10, x1: 90, y1: 60 };
+    let (film, settings) = drawn(&scene, Some(window));
+    let part = seen(&film, &settings);
+    for (i, value) in part.iter().enumerate() {
+        let (x, y) = (20 + i % 70, 10 + i / 70);
+        assert_eq!(*value, whole[y * 96 + x], "{x} {y}");
+    }
+}
+
+#[test]
+fn a_label_is_hidden_by_what_stands_before_its_point() {
+    let label = |at: &str, more: &str| {
+        let text = format!("[[label]]\ntext = \"L\"\nat = {at}\n{more}\n");
+        let scene = scene(&text);
+        let (film, settings) = drawn(&scene, None);
+        !finishing(&film, &settings).patches.is_empty()
+    };
+    assert!(label("[0, 0, 1]", ""), "on the ball, before its middle");
+    assert!(!label("[0, 0, 0]", ""), "in the ball");
+    assert!(label("[0, 0, 0]", "radius = 1"), "the ball is its own");
+    assert!(!label("[0, 0, -1]", ""), "behind it");
+    assert!(label("[0, 0, -1]", "hidden = \"never\""));
+    assert!(!label("[0, 0, 9]", "hidden = \"never\""), "behind the eye");
+    assert!(!label("[40, 0, 0]", "hidden = \"never\""), "beside the picture");
+    assert!(label("[1.5, 0, -1]", ""), "nothing is before it");
+}
+
+#[test]
+fn what_is_put_together_has_the_furniture_of_its_settings() {
+    let (film, settings) = drawn(&scene(ALL), None);
+    let finished = finish(&film, &settings);
+    let settled = settled(&film, settings.clone());
+    assert_eq!(settled.furniture().unwrap().furniture.labels[0].hidden, Hidden::Never);
+    // As the picture of another program keeps it: lines in the film, and furniture beside it.
+    let own = phong::finish(&film, &settings.finishing()).into_film();
+    let again = finish(&own, &settled);
+    assert_eq!(again.values(LayerKind::Picture), finished.values(LayerKind::Picture));
+}
+
+#[test]
+fn an_svg_is_the_picture_with_outlines_over_it() {
+    let (film, settings) =
+        drawn(&scene(&format!("{ALL}[image.no]\n").replace("[image.no]\n", "")), None);
+    let svg = svg(&film, &settings, &Encoding::default()).unwrap();
+    assert!(svg.starts_with("<svg") && svg.ends_with("</svg>\n"));
+    assert!(svg.contains("<title>T</title>") && svg.contains("data:image/png;base64,"));
+    assert!(
+        svg.contains("<linearGradient") && svg.matches("<g role").count() == 5,
+        "{}",
+        svg.len()
+    );
+    assert!(!svg.contains("<text"), "letters are outlines");
+}
+
+#[test]
+fn letters_that_the_font_lacks_and_bars_without_a_scale_are_told() {
+    let told = |text: &str| {
+        warnings(&scene(text)).into_iter().map(|said| said.message).collect::<Vec<_>>()
+    };
+    assert_eq!(told(ALL), [""; 0]);
+    assert_eq!(
+        told("[title]\ntext = \"水 a\"\n[[label]]\ntext = \"≤\"\nat = [0, 0, 0]\n"),
+        [
+            "title: the font has no 水 (U+6C34), left out",
+            "label 1: the font has no ≤ (U+2264), left out"
+        ]
+    );
+    let mut around = scene("[scale_bar]\n");
+    around.camera.kind = phong_scene::CameraKind::Panorama;
+    assert_eq!(warnings(&around).len(), 1);
+    let (film, settings) = drawn(&around, None);
+    assert!(finishing(&film, &settings).patches.is_empty());
+}
+
+#[test]
+fn furniture_of_any_size_is_bounded_by_the_picture() {
+    let text =
+        "[furniture]\nsize = 1000\n[title]\ntext = \"WWWWWWWW\"\n[scale_bar]\nlength = 1e17\n\
+                [axes]\nlength = 1000\n[legend]\nmap = \"grey\"\n"
+            .replace("\"grey\"", "[[0, 0], [1, 1]]");
+    let mut scene = scene(&text);
+    scene.image.dpi = Some(1e17);
+    let (film, settings) = drawn(&scene, None);
+    for patch in finishing(&film, &settings).patches {
+        assert!(patch.window.fits([96, 64]) && patch.pixels.len() as u64 == patch.window.pixels());
+    }
+}
