@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, OnceLock, PoisonError};
 
 use glam::DVec3;
+use phong_lab::furniture;
 use phong_scene::{
     Batch, BatchReading, Blob, CameraKind, CameraPath, CameraPathReading, Diagnostic, Folder,
     Format, FrameRange, Frames, Framing, Jail, Limits, Memory, Reading, Scene, Severity, Side,
@@ -251,6 +252,7 @@ fn judged(args: &InputArgs, mut reading: Reading) -> Reading {
         let way_out = hindrance(path).and_then(|error| way_out(path, &error));
         only.help = way_out.or_else(|| only.help.take());
     }
+    reading.diagnostics.extend(reading.scene.iter().flat_map(furniture::warnings));
     if args.strict {
         for diagnostic in reading.diagnostics.iter_mut().filter(|one| !one.is_note()) {
             diagnostic.severity = Severity::Error;

@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 use phong::aov::Aov;
 use phong::film::{Film, LayerKind, Window};
 use phong::finish::{Finishing, finish};
-use phong::image::{self, Bits, Content, Encoding, Format};
+use phong::image::{self, Bits, Content, Encoding, Format, WriteError};
 use phong::part::{self, Settings};
 use phong::render::{Passes, RenderOptions};
 use phong::terms::TermSet;
+use phong_lab::furniture;
 use phong_scene::{Diagnostic, Image};
 
 use crate::args::{self, EncodingArgs, ImageArgs, OutputFormat, RenderArgs, ViewArgs};
@@ -23,6 +24,8 @@ pub(crate) enum Outputs {
     Part(Box<Output>),
     /// Each file with what it holds, the picture's first.
     Picture(Format, Vec<(Content, Output)>),
+    /// The picture as SVG, with its furniture as outlines.
+    Figure(Box<Output>),
 }
 
 impl Outputs {
@@ -33,13 +36,24 @@ impl Outputs {
         kinds: &[LayerKind],
     ) -> Result<Self, Failure> {
         let stdout = path == Path::new("-");
-        let format = match format.map(Format::from).or_else(|| Format::of_path(path)) {
+        let is_svg = |end: &std::ffi::OsStr| end.eq_ignore_ascii_case("svg");
+        if format == Some(OutputFormat::Svg)
+            || format.is_none() && path.extension().is_some_and(is_svg)
+        {
+            if Content::of(kinds, Format::Png).len() > 1 {
+                return Err(Failure::usage("an SVG holds the picture, and no layers of it")
+                    .with_help("write them into an .exr, or beside a .png"));
+            }
+            return Ok(Self::Figure(Box::new(Output::create(path)?)));
+        }
+        let format = format.and_then(OutputFormat::of_picture);
+        let format = match format.or_else(|| Format::of_path(path)) {
             Some(format) => format,
             None if stdout => Format::Png,
             None => {
                 let what = format!("the name {} does not say what to write", path.display());
                 return Err(Failure::usage(what)
-                    .with_help("end it in .png, .pfm or .exr, or give --output-format"));
+                    .with_help("end it in .png, .pfm, .exr or .svg, or give --output-format"));
             }
         };
         let contents = Content::of(kinds, format);
@@ -70,7 +84,7 @@ impl Outputs {
     /// Every file.
     pub(crate) fn iter(&self) -> impl Iterator<Item = &Output> {
         let (part, files) = match self {
-            Self::Part(output) => (Some(&**output), None),
+            Self::Part(output) | Self::Figure(output) => (Some(&**output), None),
             Self::Picture(_, files) => (None, Some(files)),
         };
         part.into_iter().chain(files.into_iter().flatten().map(|(_, output)| output))
@@ -83,17 +97,23 @@ impl Outputs {
                 output.write(|mut out| part::write(film.film_tiles(), settings, &mut out))
             }
             Self::Picture(format, files) => {
-                write_files(*format, files, film, settings, &settings.finishing())
+                let finishing = furniture::finishing(film, settings);
+                write_files(*format, files, film, settings, &finishing)
             }
+            Self::Figure(output) => output.write(|out| {
+                let text = furniture::svg(film, settings, &settings.encoding)?;
+                out.write_all(text.as_bytes())?;
+                Ok::<_, WriteError>(())
+            }),
         }
     }
 
     /// The same, where the files are to say which picture they are.
     pub(crate) fn write_marked(&mut self, film: &Film, settings: &Settings) -> Result<(), Failure> {
         match self {
-            Self::Part(_) => self.write(film, settings),
+            Self::Part(_) | Self::Figure(_) => self.write(film, settings),
             Self::Picture(format, files) => {
-                let marked = settings.finishing().of_picture(settings.checksum());
+                let marked = furniture::finishing(film, settings).of_picture(settings.checksum());
                 write_files(*format, files, film, settings, &marked)
             }
         }
@@ -102,7 +122,7 @@ impl Outputs {
     /// Gives every file its name: all or none.
     pub(crate) fn commit(self) -> Result<(), Failure> {
         Output::commit(match self {
-            Self::Part(output) => vec![*output],
+            Self::Part(output) | Self::Figure(output) => vec![*output],
             Self::Picture(_, files) => files.into_iter().map(|(_, output)| output).collect(),
         })
     }
@@ -240,16 +260,6 @@ impl From<args::Bits> for Bits {
         match bits {
             args::Bits::Eight => Self::Eight,
             args::Bits::Sixteen => Self::Sixteen,
-        }
-    }
-}
-
-impl From<OutputFormat> for Format {
-    fn from(format: OutputFormat) -> Self {
-        match format {
-            OutputFormat::Png => Self::Png,
-            OutputFormat::Pfm => Self::Pfm,
-            OutputFormat::Exr => Self::Exr,
         }
     }
 }

@@ -1,14 +1,18 @@
 //! `phong.Image`: a picture that was rendered.
 
-use std::io::Cursor;
+use std::io::{Cursor, Write as _};
+use std::path::Path;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use numpy::PyArrayMethods as _;
 use phong::film::{Film, LayerKind};
 use phong::finish::{Finished, finish};
-use phong::image::{Bits, Content, Encoding, Format, SaveError, save, write};
+use phong::image::{
+    Bits, Content, Draft, Encoding, Format, SaveError, WriteError, place, save, write,
+};
 use phong::part::{self, Join, Part, ReadError, Settings};
 use phong::render::RenderOptions;
+use phong_lab::furniture;
 use phong_scene::{Diagnostic, Scene};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -49,13 +53,14 @@ impl Image {
     ) -> Self {
         let samples = options.samples();
         // A share is finished when it is put together with the others.
-        let (film, options) = if options.lines().is_some() && film.is_complete() {
+        let finishes = options.lines().is_some() || !scene.furniture.is_empty();
+        let (film, made) = if finishes && film.is_complete() {
             let settings = Settings::of(&scene, &options, Encoding::default());
-            (finish(&film, &settings.finishing()).into_film(), options.with_lines(None))
+            let (film, settings) = finished(&film, settings);
+            (film, Made::Elsewhere(settings))
         } else {
-            (film, options)
+            (film, Made::Here(scene, options, OnceLock::new()))
         };
-        let made = Made::Here(scene, options, OnceLock::new());
         Self::of(Arc::new(film), made, seconds, warnings, samples)
     }
 
@@ -74,8 +79,9 @@ impl Image {
     fn joined(film: Film, settings: Settings, seconds: Vec<(String, f64)>) -> Self {
         let samples = settings.picture.iter().find(|(name, _)| name == "samples");
         let samples = samples.and_then(|(_, text)| text.parse().ok()).unwrap_or(0);
-        let (film, settings) = if settings.finishing().lines.is_some() && film.is_complete() {
-            (finish(&film, &settings.finishing()).into_film(), settings.finished())
+        let finishes = settings.finishing().lines.is_some() || settings.furniture().is_some();
+        let (film, settings) = if finishes && film.is_complete() {
+            finished(&film, settings)
         } else {
             (film, settings)
         };
@@ -93,7 +99,7 @@ impl Image {
 
     /// Its film, finished as files hold it.
     fn finished(&self) -> Finished<'_> {
-        finish(&self.film, &self.settings().finishing())
+        furniture::finish(&self.film, self.settings())
     }
 
     fn sides(&self) -> [usize; 2] {
@@ -102,7 +108,22 @@ impl Image {
 
     /// The picture for those who compare it with others.
     pub(crate) fn picture(&self) -> phong::image::Picture {
-        phong::image::Picture::of_film(&self.film)
+        match &self.made {
+            Made::Elsewhere(settings) if settings.furniture().is_some() => {
+                phong::image::Picture::of_film(&self.finished().into_film())
+            }
+            _ => phong::image::Picture::of_film(&self.film),
+        }
+    }
+
+    fn save_svg(&self, path: &Path, encoding: &Encoding) -> Result<(), SaveError> {
+        let mut draft = Draft::create(path)?;
+        draft.write(|out| {
+            let text = furniture::svg(&self.film, self.settings(), encoding)?;
+            out.write_all(text.as_bytes())?;
+            Ok::<_, WriteError>(())
+        })?;
+        place(vec![draft])
     }
 
     fn png(&self, encoding: &Encoding) -> PyResult<Vec<u8>> {
@@ -112,6 +133,12 @@ impl Image {
             .map_err(|error| value_error(error.to_string()))?;
         Ok(out.into_inner())
     }
+}
+
+/// A film with its lines, and its settings with the furniture that is still to be drawn over it: not before
+/// the picture is exposed.
+fn finished(film: &Film, settings: Settings) -> (Film, Settings) {
+    (finish(film, &settings.finishing()).into_film(), furniture::settled(film, settings))
 }
 
 /// Encoding of a PNG by its keywords.
@@ -130,9 +157,9 @@ fn encoding(bits: u32, exposure: f64, linear: bool) -> PyResult<Encoding> {
 }
 
 /// Red, green, blue and alpha of every pixel, side by side.
-fn interleaved(film: &Film) -> Vec<f32> {
-    let picture = film.layer(LayerKind::Picture).map_or(&[][..], |layer| &layer.values);
-    let alpha = film.layer(LayerKind::Alpha).map_or(&[][..], |layer| &layer.values);
+fn interleaved(finished: &Finished<'_>) -> Vec<f32> {
+    let picture = finished.values(LayerKind::Picture).unwrap_or_default();
+    let alpha = finished.values(LayerKind::Alpha).unwrap_or_default();
     let pixels = picture.as_chunks::<3>().0.iter().zip(alpha);
     let mut all = Vec::with_capacity(4 * alpha.len());
     pixels.for_each(|(&[r, g, b], &a)| all.extend_from_slice(&[r, g, b, a]));
@@ -152,8 +179,7 @@ impl Image {
         let this = slf.get();
         let [height, width] = this.sides();
         let array = this.array.get_or_try_init(py, || {
-            let film = Arc::clone(&this.film);
-            let values = py.detach(move || interleaved(&film));
+            let values = py.detach(|| interleaved(&this.finished()));
             frozen(py, values, &[height, width, 4]).map(Bound::unbind)
         })?;
         let array = array.bind(py);
@@ -225,7 +251,8 @@ impl Image {
         Ok(all)
     }
 
-    /// Writes it as PNG, EXR or PFM, as the name ends: whole or not at all.
+    /// Writes it as PNG, EXR, PFM or SVG, as the name ends: whole or not at all. An SVG is a PNG, and over it
+    /// title, scale bar, axes, legend and labels as outlines, sharp at any size.
     ///
     /// Layers lie beside it where the format does not hold them (`a.depth.png` for `a.png`). `bits`: 8
     /// or 16, of a PNG. `exposure`: stops by which a PNG is brighter. `linear`: no sRGB curve in a PNG.
@@ -241,10 +268,14 @@ impl Image {
     ) -> PyResult<()> {
         let encoding = encoding(bits, exposure, linear)?;
         let path = phong_scene::path_of(&path_of(path)?);
-        let saved = py.detach(|| save(&self.finished(), &path, &encoding));
+        let is_svg = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("svg"));
+        let saved = py.detach(|| match is_svg {
+            true => self.save_svg(&path, &encoding),
+            false => save(&self.finished(), &path, &encoding),
+        });
         saved.map_err(|error| match error {
             SaveError::Unsuitable(message) => {
-                value_error(format!("path: {message}; end it in .png, .pfm or .exr"))
+                value_error(format!("path: {message}; end it in .png, .pfm, .exr or .svg"))
             }
             error => os_error(error.to_string()),
         })

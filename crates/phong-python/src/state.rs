@@ -6,6 +6,7 @@ use std::sync::Arc;
 use phong::geometry::{Geometry, GeometryError, GeometryOptions};
 use phong::look::Look;
 use phong::view::{View, ViewError};
+use phong_lab::furniture;
 use phong_scene::{
     Background, Diagnostic, Framing, Image, Material, MaterialId, Object, Place, Scene, Texture,
     TextureId,
@@ -329,9 +330,10 @@ impl Snapshot {
 
 /// What is said where a scene holds nothing to be seen.
 fn check(scene: &Scene) -> Result<Vec<Diagnostic>, GeometryError> {
-    let said = scene.check();
+    let mut said = scene.check();
     if said.iter().any(Diagnostic::is_error) {
         return Err(GeometryError::Scene(said));
     }
+    said.extend(furniture::warnings(scene));
     Ok(said)
 }

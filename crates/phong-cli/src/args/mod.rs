@@ -9,6 +9,7 @@ mod values;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use phong::image::Format;
 use phong_scene::Change;
 
 pub(crate) use picture::{ImageArgs, RenderArgs};
@@ -150,4 +151,18 @@ pub(crate) enum OutputFormat {
     Png,
     Pfm,
     Exr,
+    /// A PNG, and over it outlines.
+    Svg,
+}
+
+impl OutputFormat {
+    /// The format that a picture is written in by the renderer; `None`: it is a figure around one.
+    pub(crate) fn of_picture(self) -> Option<Format> {
+        match self {
+            Self::Png => Some(Format::Png),
+            Self::Pfm => Some(Format::Pfm),
+            Self::Exr => Some(Format::Exr),
+            Self::Svg => None,
+        }
+    }
 }

@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use phong::film::{Film, Window};
-use phong::finish::finish;
 use phong::image::{
     Animation, AnimationFormat, AnimationOptions, Content, Format, WriteError, picture_of,
 };
@@ -13,13 +12,14 @@ use phong::look::Look;
 use phong::part::Settings;
 use phong::render::{Event, Outcome, Progress, RenderOptions};
 use phong::view::View;
+use phong_lab::furniture;
 use phong_lab::measure::memory::peak;
 use phong_lab::tell::diagnostic;
 use phong_scene::{Background, Camera, CameraPath, FrameRange, Scene};
 use serde_json::json;
 
 use super::render::{Clock, draw};
-use crate::args::RenderArgs;
+use crate::args::{OutputFormat, RenderArgs};
 use crate::checkpoint::Checkpoint;
 use crate::compile::{compile_again, compile_for};
 use crate::failure::Failure;
@@ -280,7 +280,7 @@ impl Filming<'_> {
                 let quiet = self.args.work.quiet;
                 Checkpoint::beside(&path, settings.clone(), &self.options, quiet)
             };
-            if resume && is_there(&path, format.map(Format::from), &settings) {
+            if resume && is_there(&path, format, &settings) {
                 // It stays where a run was killed just before it would have gone.
                 beside().remove();
                 self.there += 1;
@@ -322,11 +322,10 @@ impl Filming<'_> {
             let mut animation = Animation::new(out, options)?;
             for number in 0..self.motion.pictures() {
                 let drawn = self.stand(number);
-                let drawn = drawn.and_then(|settings| {
-                    Ok((self.draw(number, &settings, None)?, settings.finishing()))
-                });
+                let drawn =
+                    drawn.and_then(|settings| Ok((self.draw(number, &settings, None)?, settings)));
                 match drawn {
-                    Ok((film, finishing)) => animation.add(&finish(&film, &finishing))?,
+                    Ok((film, settings)) => animation.add(&furniture::finish(&film, &settings))?,
                     Err(failure) => {
                         failed = Some(failure);
                         return Err(WriteError::Unsuitable("a picture is missing".to_owned()));
@@ -379,8 +378,13 @@ impl Filming<'_> {
 }
 
 /// Whether a picture's files are there, by what they say of themselves.
-fn is_there(path: &Path, format: Option<Format>, settings: &Settings) -> bool {
-    let Some(format) = format.or_else(|| Format::of_path(path)) else { return false };
+fn is_there(path: &Path, format: Option<OutputFormat>, settings: &Settings) -> bool {
+    let format = match format {
+        Some(format) => format.of_picture(),
+        None => Format::of_path(path),
+    };
+    // A figure does not say which picture it is around.
+    let Some(format) = format else { return false };
     let checksum = Some(settings.checksum());
     let is_of_it =
         |content: Content| picture_of(&content.path(path)).is_ok_and(|said| said == checksum);
