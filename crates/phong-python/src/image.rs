@@ -1,6 +1,6 @@
 //! `phong.Image`: a picture that was rendered.
 
-use std::io::{Cursor, Write as _};
+use std::io::Cursor;
 use std::path::Path;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 

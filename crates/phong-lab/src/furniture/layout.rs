@@ -11,9 +11,6 @@ use super::sheet::{Group, Paint, ink};
 use super::text::{CAPITAL, Font};
 use crate::figures::mark::{Ink, Path, Point, Stroke};
 
-/// Pixels an inch where nobody says.
-const DPI: f64 = 96.0;
-
 /// The most pixels of a point: where there were more, there are so many.
 const MOST_PIXELS: f64 = 500.0;
 
@@ -59,7 +56,7 @@ impl<'a> Layout<'a> {
     /// Of a scene's furniture in a picture of `size` pixels.
     pub(super) fn new(font: &'a Font, scene: &'a Scene, size: [u32; 2]) -> Self {
         let style = scene.furniture.style;
-        let point = (scene.image.dpi.unwrap_or(DPI) / 72.0).min(MOST_PIXELS);
+        let point = (scene.image.dpi.unwrap_or(super::DPI) / 72.0).min(MOST_PIXELS);
         let color = style.color.unwrap_or(Rgb::BLACK);
         let dark = 0.2126 * color.r + 0.7152 * color.g + 0.0722 * color.b <= 0.179;
         let around = if dark { Ink::rgb(255, 255, 255) } else { Ink::rgb(0, 0, 0) };
@@ -162,8 +159,7 @@ impl<'a> Layout<'a> {
         let [right, up, forward] = frame(&self.scene.camera);
         let dark = self.halo.is_some_and(|(around, _)| around.srgb == [0; 3]);
         let inks = AXES[usize::from(dark)];
-        let reach = length + 0.9 * self.letters;
-        let middle = Point::splat(reach);
+        let middle = Point::ZERO;
         let mut arrows = [(DVec3::X, "x"), (DVec3::Y, "y"), (DVec3::Z, "z")]
             .map(|(axis, name)| (axis, name, axis.dot(forward)))
             .into_iter()
@@ -191,7 +187,11 @@ impl<'a> Layout<'a> {
             let at = at + Point::new(-0.5 * words.width, 0.5 * x_height);
             paints.push(Paint::Fill(words.path.moved(at), ink));
         }
-        Block { paints, size: Point::splat(2.0 * reach), says: "x, y and z".to_owned() }
+        // As much room as the arrows take: they point into any direction.
+        let group = Group { says: "x, y and z".to_owned(), paints, halo: None };
+        let [low, high] = group.bounds().unwrap_or_default();
+        let paints = group.paints.iter().map(|paint| paint.moved(-low)).collect();
+        Block { paints, size: high - low, says: group.says }
     }
 
     fn legend(&self, legend: &Legend) -> Block {

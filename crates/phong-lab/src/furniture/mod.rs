@@ -14,7 +14,7 @@ mod text;
 
 use phong::aov::Aov;
 use phong::film::{Film, LayerKind};
-use phong::finish::{Finished, Finishing};
+use phong::finish::{Finished, Finishing, Patch};
 use phong::part::Settings;
 use phong_scene::{Diagnostic, Furniture, Hidden, PointLabel, Scene};
 
@@ -23,6 +23,9 @@ use sheet::Group;
 use text::Font;
 
 pub use svg::svg;
+
+/// Pixels an inch where nobody says.
+pub const DPI: f64 = 96.0;
 
 /// The share of its distance by which a point may lie behind what is seen there without being hidden: it
 /// lies *on* something more often than not.
@@ -40,11 +43,16 @@ pub fn finish<'a>(film: &'a Film, settings: &Settings) -> Finished<'a> {
 pub fn finishing(film: &Film, settings: &Settings) -> Finishing {
     let mut finishing = settings.finishing();
     if let Some(scene) = settings.furniture() {
-        let groups = groups(&Font::new(), &scene, film, settings.size);
-        finishing.patches =
-            groups.iter().flat_map(|group| raster::patches(group, settings.size)).collect();
+        finishing.patches = patches(&scene, film, settings.size);
     }
     finishing
+}
+
+/// The furniture of a scene as [`furniture_of`](phong::part::furniture_of) has it, drawn for a picture of `size`
+/// pixels of which this is the film.
+pub fn patches(furniture: &Scene, film: &Film, size: [u32; 2]) -> Vec<Patch> {
+    let groups = groups(&Font::new(), furniture, film, size);
+    groups.iter().flat_map(|group| raster::patches(group, size)).collect()
 }
 
 /// The settings of a film's finished picture as a film of its own, whose furniture is still to be drawn: by

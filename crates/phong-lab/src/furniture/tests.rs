@@ -18,7 +18,7 @@ fn scene(furniture: &str) -> Scene {
 }
 
 fn drawn(scene: &Scene, window: Option<Window>) -> (Film, Settings) {
-    let options = RenderOptions::of(&scene.image).unwrap().with_finish(scene);
+    let options = RenderOptions::of(&scene.image).unwrap().with_finishing_of(scene);
     let options = match window {
         Some(window) => options.with_window(window).unwrap(),
         None => options,

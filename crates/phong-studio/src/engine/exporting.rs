@@ -8,6 +8,7 @@ use phong::image::{Content, Encoding, Format, write};
 use phong::part::Settings;
 use phong::render::{Cancel, render};
 use phong::terms::TermSet;
+use phong_lab::furniture;
 use phong_lab::tell::html;
 
 use super::opened::Opened;
@@ -79,7 +80,7 @@ pub(super) fn file(
     let (painting, film) = whole.ok_or("the picture is not finished yet")?;
     let scene = opened.scene()?;
     let encoding = Encoding::default();
-    let finishing = Settings::of(&scene, painting.options(), encoding).finishing();
+    let finishing = furniture::finishing(film, &Settings::of(&scene, painting.options(), encoding));
     let mut out = Cursor::new(Vec::new());
     write(&finish(film, &finishing), content, format, &encoding, &mut out)
         .map_err(|error| error.to_string())?;

@@ -1,4 +1,4 @@
-//! What is drawn onto a picture that is whole: lines around things, as `phong render` finishes a file.
+//! What is drawn onto a picture that is whole: lines around things, and a figure's furniture, as `phong render` finishes a file.
 
 use std::borrow::Cow;
 
@@ -8,6 +8,7 @@ use phong::image::{Encoding, srgb8};
 use phong::render::{Lines, RenderOptions};
 use phong::scene::Scene;
 use phong::terms::{Term, TermSet};
+use phong_lab::furniture;
 
 use crate::protocol::{PixelKind, frame};
 
@@ -21,7 +22,7 @@ pub(super) fn of_first_pass(options: RenderOptions, scene: &Scene, step: u8) -> 
         let whole = Lines::of(outline, &scene.image);
         Lines { width: (whole.width / f32::from(step)).max(LEAST_WIDTH), ..whole }
     });
-    options.with_lines(lines)
+    options.with_finishing_of(scene).with_lines(lines)
 }
 
 /// Where a picture is sent as one tile.
@@ -36,12 +37,26 @@ pub(super) struct Sent {
     pub(super) pixels: PixelKind,
 }
 
-/// The finished picture of a film as one tile, without the terms that are left out.
-pub(super) fn whole(film: &Film, options: &RenderOptions, off: TermSet, sent: Sent) -> Vec<u8> {
+/// The finished picture of a film as one tile, without the terms that are left out. `furniture` is a scene of
+/// what is drawn over it.
+pub(super) fn whole(
+    film: &Film,
+    options: &RenderOptions,
+    furniture: Option<&Scene>,
+    off: TermSet,
+    sent: Sent,
+) -> Vec<u8> {
     let film = shown(film, off);
-    let finished = finish(&film, &Finishing::of(options));
-    let [width, height] = options.size();
     let Sent { picture, pass, step, pixels } = sent;
+    let [width, height] = options.size();
+    let mut finishing = Finishing::of(options);
+    if let Some(furniture) = furniture {
+        let mut furniture = furniture.clone();
+        let dpi = furniture.image.dpi.unwrap_or(furniture::DPI);
+        furniture.image.dpi = Some(dpi / f64::from(step));
+        finishing.patches = furniture::patches(&furniture, &film, [width, height]);
+    }
+    let finished = finish(&film, &finishing);
     let head = frame::Head { picture, pass, step, x: 0, y: 0, width, height };
     let mut bytes = head.bytes(pixels);
     match pixels {

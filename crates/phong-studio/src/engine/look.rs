@@ -38,7 +38,7 @@ pub(super) struct Base {
 const NAME: &str = "scene.toml";
 
 /// What can be laid over a scene, by the first word of its keys.
-const PARTS: [&str; 11] = [
+const PARTS: [&str; 17] = [
     "image",
     "camera",
     "ambient",
@@ -47,6 +47,12 @@ const PARTS: [&str; 11] = [
     "fog",
     "clip",
     "outline",
+    "furniture",
+    "title",
+    "scale_bar",
+    "axes",
+    "legend",
+    "label",
     "light",
     "materials",
     "textures",

@@ -2,6 +2,7 @@
 
 use phong::film::{Film, Window};
 use phong::finish::Finishing;
+use phong::part::furniture_of;
 use phong::render::{Cancel, Event, Passes, RenderOptions, Rendering, render};
 use phong::scene::Scene;
 use phong::terms::TermSet;
@@ -26,6 +27,8 @@ pub(super) struct Painting {
     off: TermSet,
     /// Whether something is drawn onto the picture when a pass is whole.
     draws: bool,
+    /// A scene of the furniture that is; `None`: there is none.
+    furniture: Option<Box<Scene>>,
     /// What there is so far; `None`: nothing.
     film: Option<Film>,
     done: bool,
@@ -47,7 +50,8 @@ impl Painting {
         let image = &scene.image;
         let bare = RenderOptions::of(image).map_err(said)?.with_terms(terms);
         let whole = bare.clone().with_finishing_of(scene);
-        let draws = Finishing::of(&whole).draws();
+        let furniture = furniture_of(scene).map(Box::new);
+        let draws = Finishing::of(&whole).draws() || furniture.is_some();
         let mut options = whole.with_passes(Passes::Doubling);
         if options.film_bytes() > most {
             options = options.with_passes(Passes::One);
@@ -67,7 +71,8 @@ impl Painting {
             options = options.with_share(index, count).map_err(said)?;
             preview = preview.filter(|_| index == 0);
         }
-        Ok(Self { number, view, options, preview, off, draws, film: None, done: false })
+        let film = None;
+        Ok(Self { number, view, options, preview, off, draws, furniture, film, done: false })
     }
 
     pub(super) fn number(&self) -> u32 {
@@ -111,7 +116,13 @@ impl Painting {
         let (picture, samples) = (self.number, self.options.samples());
         let passes = self.passes();
         let sent = Sent { picture, pass: passes as u16 - 1, step: 1, pixels };
-        emit(Message::Frame(finishing::whole(film, &self.options, self.off, sent)));
+        emit(Message::Frame(finishing::whole(
+            film,
+            &self.options,
+            self.furniture.as_deref(),
+            self.off,
+            sent,
+        )));
         say(emit, &Reply::Pass { picture, pass: passes - 1, passes, samples });
     }
 
@@ -128,13 +139,14 @@ impl Painting {
         emit: Emit<'_>,
     ) -> Result<(), String> {
         let passes = self.passes();
-        let Self { number, view, options, off, .. } = self;
+        let Self { number, view, options, off, furniture, .. } = self;
+        let furniture = furniture.as_deref();
         let (picture, off) = (*number, *off);
         // What is drawn onto a picture needs all of it. Of a share, who puts it to the others has that.
         let draws = self.draws && options.share().is_none();
         let whole = |film: &Film, options: &RenderOptions, pass: u32, step| {
             let sent = Sent { picture, pass: pass as u16, step, pixels };
-            emit(Message::Frame(finishing::whole(film, options, off, sent)));
+            emit(Message::Frame(finishing::whole(film, options, furniture, off, sent)));
         };
         let tile = |pass: u32, window: Window, values: &[Vec<f32>]| {
             let [colors, alphas, terms @ ..] = values else { return true };

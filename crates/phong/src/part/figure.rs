@@ -5,8 +5,9 @@ use phong_scene::{Background, Furniture, Image, Limits, Memory, Rgb, Scene, read
 /// What a scene is called that holds nothing but furniture.
 const NAME: &str = "furniture.toml";
 
-/// A scene's furniture and all that it is drawn by, if there is any.
-pub(super) fn to_line(scene: &Scene) -> Option<String> {
+/// A scene of nothing but the furniture of this one, with the camera and the resolution that it is drawn by,
+/// and with all in itself that it takes from the rest of the scene; `None`: there is none.
+pub fn furniture_of(scene: &Scene) -> Option<Scene> {
     let mut furniture = scene.furniture.clone();
     if furniture.is_empty() {
         return None;
@@ -16,9 +17,13 @@ pub(super) fn to_line(scene: &Scene) -> Option<String> {
     }
     furniture.style.color.get_or_insert_with(|| ink(scene));
     let image = Image { dpi: scene.image.dpi, ..Image::default() };
-    let alone = Scene { image, camera: scene.camera.clone(), furniture, ..Scene::default() };
+    Some(Scene { image, camera: scene.camera.clone(), furniture, ..Scene::default() })
+}
+
+/// A scene's furniture and all that it is drawn by, if there is any.
+pub(super) fn to_line(scene: &Scene) -> Option<String> {
     // Numbers that no text holds are in no scene that was checked.
-    let text = alone.look_text().ok()?;
+    let text = furniture_of(scene)?.look_text().ok()?;
     Some(text.replace('\\', "\\\\").replace('\n', "\\n"))
 }
 

@@ -19,6 +19,7 @@ use crc32fast::hash as checksum;
 use thiserror::Error;
 
 use crate::film::{Film, FilmTile, LayerKind, Sums8, TileSums, eights_of};
+pub use figure::furniture_of;
 pub use fingerprint::fingerprint;
 pub use join::{Join, JoinError, ReadError};
 pub use settings::Settings;
