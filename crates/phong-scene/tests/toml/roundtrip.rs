@@ -35,6 +35,7 @@ pub(crate) fn written_and_read(scene: Scene) -> (String, Scene) {
 pub(crate) fn seen(mut scene: Scene) -> String {
     scene.lights.iter_mut().for_each(|light| light.place = Place::default());
     scene.clips.iter_mut().for_each(|clip| clip.place = Place::default());
+    scene.furniture.labels.iter_mut().for_each(|label| label.place = Place::default());
     scene.materials.iter_mut().for_each(|material| material.place = Place::default());
     for texture in &mut scene.textures {
         texture.place = Place::default();
