@@ -33,7 +33,6 @@ use glam::{DVec2, DVec3};
 use crate::color::Rgb;
 use crate::diagnostic::Place;
 use crate::limits::Range;
-use crate::texture::{Texture, TextureKind};
 use crate::wording::words;
 
 /// What a figure needs beside its picture, drawn when the picture is done: none of it is a term of the sum.
@@ -215,7 +214,8 @@ impl Default for Axes {
 /// What the colours of a map stand for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Legend {
-    /// The name of the texture whose colours they are, and whose range; empty: of none.
+    /// The name of the texture whose colours they are, and whose range; empty: the first with a range that a
+    /// material uses.
     pub texture: String,
     /// The colours from 0 to 1, never falling, linear; `None`: the texture's.
     pub map: Option<Vec<(f32, Rgb)>>,
@@ -236,29 +236,6 @@ pub struct Legend {
 impl Legend {
     /// The most numbers beside a legend.
     pub(crate) const MOST_TICKS: u64 = 20;
-}
-
-impl Legend {
-    /// The same, with colours and range in itself: what its texture, one of these, says of them.
-    #[must_use]
-    pub fn resolved(&self, textures: &[Texture]) -> Self {
-        let texture = textures.iter().find(|texture| texture.name == self.texture);
-        let ranged = match texture.map(|texture| &texture.kind) {
-            Some(TextureKind::Gradient { from, to, stops, .. }) => Some((*from, *to, stops)),
-            _ => None,
-        };
-        let (from, to, stops) = match ranged {
-            Some((from, to, stops)) => (from, to, Some(stops.clone())),
-            None => (0.0, 1.0, None),
-        };
-        Self {
-            texture: String::new(),
-            map: self.map.clone().or(stops),
-            from: Some(self.from.unwrap_or(from)),
-            to: Some(self.to.unwrap_or(to)),
-            ..self.clone()
-        }
-    }
 }
 
 impl Default for Legend {

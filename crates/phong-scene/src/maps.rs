@@ -7,6 +7,7 @@ use glam::{DAffine3, DVec3};
 use crate::bounds::Bounds;
 use crate::color::Rgb;
 use crate::diagnostic::{Diagnostic, Place, Span};
+use crate::furniture::Legend;
 use crate::material::MaterialId;
 use crate::mesh::Field;
 use crate::scene::{Object, Scene};
@@ -59,6 +60,34 @@ impl Scene {
         };
         let (texture, name) = (TextureId(number), texture.name.as_str());
         Some(ColorScale { texture, name, of, range, stops, unit })
+    }
+
+    /// The scene's legend with colours, range, words and unit in itself, also those that it takes from a texture;
+    /// `None`: it has none, or no texture has colours for it.
+    #[must_use]
+    pub fn legend(&self) -> Option<Legend> {
+        let legend = self.furniture.legend.as_ref()?;
+        let named = self.textures.iter().position(|texture| texture.name == legend.texture);
+        let scale = match named {
+            Some(number) => self.color_scale(number as u32),
+            None if legend.map.is_none() => self.color_scales().into_iter().next(),
+            None => None,
+        };
+        let said = |own: &str, other: Option<&str>| match own {
+            "" => other.unwrap_or_default().to_owned(),
+            own => own.to_owned(),
+        };
+        let [from, to] = scale.as_ref().map_or([0.0, 1.0], |scale| scale.range);
+        let stops = scale.as_ref().map(|scale| scale.stops.to_vec());
+        Some(Legend {
+            texture: String::new(),
+            map: Some(legend.map.clone().or(stops)?),
+            from: Some(legend.from.unwrap_or(from)),
+            to: Some(legend.to.unwrap_or(to)),
+            text: said(&legend.text, scale.as_ref().map(|scale| scale.of)),
+            unit: said(&legend.unit, scale.as_ref().and_then(|scale| scale.unit)),
+            ..legend.clone()
+        })
     }
 
     /// The textures, with numbers for every `range = "auto"` of what something has some of.

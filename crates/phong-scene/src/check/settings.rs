@@ -62,11 +62,6 @@ pub(crate) fn legend(legend: &Legend, faults: &mut Faults) {
     values(legend, None, faults);
     text("text", &legend.text, faults);
     text("unit", &legend.unit, faults);
-    if legend.texture.is_empty() && legend.map.is_none() {
-        let help = "`map = \"viridis\"`, or `texture` with the name of a gradient";
-        faults.say("map", "a legend needs colours: a `map` or a `texture`").help =
-            Some(help.to_owned());
-    }
     if let (Some(from), Some(to)) = (legend.from, legend.to)
         && from == to
         && faults.spare(&["from", "to"])
@@ -77,7 +72,16 @@ pub(crate) fn legend(legend: &Legend, faults: &mut Faults) {
 
 /// Judges what a legend takes from a texture of the scene's.
 pub(super) fn legend_texture(legend: &Legend, textures: &[Texture], faults: &mut Faults) {
+    let has_range = |texture: &Texture| {
+        matches!(texture.kind, TextureKind::Gradient { .. } | TextureKind::Map { .. })
+    };
     if legend.texture.is_empty() {
+        if legend.map.is_none() && !textures.iter().any(has_range) {
+            let message =
+                "a legend needs colours, and no texture has some from one number to another";
+            let help = "give it a `map`, like \"viridis\", with `from` and `to`";
+            faults.say("map", message).help = Some(help.to_owned());
+        }
         return;
     }
     let name = quoted(&legend.texture);
@@ -87,10 +91,10 @@ pub(super) fn legend_texture(legend: &Legend, textures: &[Texture], faults: &mut
         fault.help = near.map(|near| format!("did you mean {near:?}?"));
         return;
     };
-    let ranged = matches!(texture.kind, TextureKind::Gradient { .. });
-    if !ranged && legend.map.is_none() {
+    if !has_range(texture) && legend.map.is_none() {
         let message = format!("the texture {name} has no colours from one number to another");
-        faults.say("texture", message).help = Some("a legend shows a gradient's".to_owned());
+        faults.say("texture", message).help =
+            Some("a legend shows those of a `gradient` or a `map`".to_owned());
     }
 }
 

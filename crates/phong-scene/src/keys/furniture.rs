@@ -133,8 +133,8 @@ pub(crate) static LEGEND: Table = Table {
         Key::new(
             "texture",
             Kind::Texture,
-            Default::Said("none"),
-            "The texture whose colours and whose range they are.",
+            Default::Said("the first with a range that a material uses"),
+            "The texture whose colours and whose range they are: of kind `map` or `gradient`.",
         )
         .of(field!(Legend.texture)),
         Key::new("map", Kind::Stops, Default::Said("the texture's"), "The colours from 0 to 1.")
@@ -153,9 +153,9 @@ pub(crate) static LEGEND: Table = Table {
             "What the last colour stands for; another number than `from`.",
         )
         .of(field!(Legend.to)),
-        Key::new("text", Kind::Text, Default::Said("none"), "What is measured.")
+        Key::new("text", Kind::Text, Default::Said("what the texture is of"), "What is measured.")
             .of(field!(Legend.text)),
-        Key::new("unit", Kind::Text, Default::Said("none"), "In which unit.")
+        Key::new("unit", Kind::Text, Default::Said("the texture's"), "In which unit.")
             .of(field!(Legend.unit)),
         Key::new(
             "ticks",

@@ -138,7 +138,8 @@ pub fn srgb8(picture: &Finished<'_>, encoding: &Encoding) -> Vec<u8> {
     let film = picture.film();
     let values = picture.beneath(LayerKind::Picture).unwrap_or_default();
     let opaque = || vec![1.0; values.len() / 3].into();
-    let alpha: Cow<'_, [f32]> = picture.beneath(LayerKind::Alpha).map_or_else(opaque, Cow::Borrowed);
+    let alpha: Cow<'_, [f32]> =
+        picture.beneath(LayerKind::Alpha).map_or_else(opaque, Cow::Borrowed);
     let curve = (!encoding.linear).then(Curve::eight);
     let gain = libm::exp2(encoding.exposure) as f32;
     let tone = Tone { gain, bits: Bits::Eight, curve, alpha: Some(&alpha) };

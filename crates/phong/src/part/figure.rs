@@ -12,9 +12,7 @@ pub fn furniture_of(scene: &Scene) -> Option<Scene> {
     if furniture.is_empty() {
         return None;
     }
-    if let Some(legend) = &mut furniture.legend {
-        *legend = legend.resolved(&scene.textures);
-    }
+    furniture.legend = scene.legend();
     furniture.style.color.get_or_insert_with(|| ink(scene));
     let image = Image { dpi: scene.image.dpi, ..Image::default() };
     Some(Scene { image, camera: scene.camera.clone(), furniture, ..Scene::default() })
