@@ -177,7 +177,7 @@
 //! | key | value | default | meaning |
 //! |---|---|---|---|
 //! | `file` | the path of a file, in quotes | required | A file of atoms or particles: PDB, CIF, XYZ, GRO or LAMMPS. |
-//! | `style` | `spacefill`, `ball-and-stick` or `sticks` | `"ball-and-stick"` for up to 400 atoms with bonds, else `"spacefill"` | Spheres of the van der Waals radii; balls of a quarter of them, and sticks for bonds; sticks alone. |
+//! | `style` | `spacefill`, `ball-and-stick`, `sticks` or `tube` | `"ball-and-stick"` for up to 400 atoms with bonds, else `"spacefill"` | Spheres of the van der Waals radii; balls of a quarter of them, and sticks for bonds; sticks alone; a tube along the backbone of each chain, and balls and sticks for the rest. |
 //! | `select` | text | all but water, if there is anything else | What is drawn: `chain A and not water`, `residue ALA 10-20 or z < 5`. |
 //! | `color_by` | text | the file's colours, else `element`, else `type` | `element`, or a column of the file: `chain`, `residue`, `number`, `b-factor`, `charge`, `type`, …. |
 //! | `color_map` | `viridis`, `blue-white-red` or `grey` | `"viridis"`, for `charge` `"blue-white-red"` | The colours of a column of numbers. |
@@ -185,7 +185,12 @@
 //! | `radius` | a number above 0 | the file's own, else those of the elements, else neighbours touch | Radius of all spheres. |
 //! | `radius_by` | text | none | A column of numbers above 0, which are the radii. |
 //! | `radius_scale` | a number above 0 | `1` | What all radii of spheres are multiplied by. |
-//! | `bond_radius` | a number above 0 | 0.13, for sticks alone 0.22 | Radius of the sticks, in Å. |
+//! | `bond_radius` | a number above 0 | 0.13, for sticks alone 0.22, for tubes 0.5 | Radius of the sticks, or of the tubes, in Å. |
+//! | `vectors` | a list of names, in quotes | none | Three columns of numbers, like `["vx", "vy", "vz"]`: an arrow at every atom. |
+//! | `vector_scale` | a number above 0 | that at which the longest is 2.5 times as long as neighbours are apart | Length of the arrow of a vector of length 1. |
+//! | `vector_radius` | a number above 0 | 0.03 times the longest | Radius of the arrows' shafts. |
+//! | `images` | a number or a list of numbers | `[1, 1, 1]` | How many cells are drawn along each edge of the cell. |
+//! | `image_layer` | a number 0 or above | `0` | How far around the cells more images of atoms are drawn. |
 //! | `cell` | `true` or `false` | `false` | Whether the edges of the cell are drawn. |
 //! | `material` | the name of a material, in quotes | the file's own, else the default material | The name of its material; replaces the file's own. |
 //!
@@ -193,6 +198,10 @@
 //! `chain`, `name`, `residue` and the names of columns, each with one or more values (`chain A B`, `residue ALA 10-20`);
 //! of comparisons (`z < 5`, `b-factor >= 50`); joined by `not`, `and`, `or` and parentheses. Of alternate locations
 //! those of the highest occupancy are drawn, and of several models the first.
+//!
+//! A slice is `select = "z > 4 and z < 6"`, which keeps whole atoms, or a `[[clip]]`, which cuts through them. What is
+//! selected is what has images. A tube goes through the Cα atoms of proteins and the phosphorus atoms of nucleic acids,
+//! and ends where residues are too far apart to be bound.
 //!
 //! # `[[instance]]`
 //!

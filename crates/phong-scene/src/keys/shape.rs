@@ -355,7 +355,7 @@ pub(crate) static MOLECULE: Table = Table {
                     "`\"ball-and-stick\"` for up to 400 atoms with bonds, else `\"spacefill\"`",
                 ),
                 "Spheres of the van der Waals radii; balls of a quarter of them, and sticks for bonds; \
-                 sticks alone.",
+                 sticks alone; a tube along the backbone of each chain, and balls and sticks for the rest.",
             ),
             Key::new(
                 "select",
@@ -403,8 +403,40 @@ pub(crate) static MOLECULE: Table = Table {
             Key::new(
                 "bond_radius",
                 Kind::Number(Range::POSITIVE),
-                Default::Said("0.13, for sticks alone 0.22"),
-                "Radius of the sticks, in Å.",
+                Default::Said("0.13, for sticks alone 0.22, for tubes 0.5"),
+                "Radius of the sticks, or of the tubes, in Å.",
+            ),
+            Key::new(
+                "vectors",
+                Kind::Names,
+                Default::Said("none"),
+                "Three columns of numbers, like `[\"vx\", \"vy\", \"vz\"]`: an arrow at every atom.",
+            ),
+            Key::new(
+                "vector_scale",
+                Kind::Number(Range::POSITIVE),
+                Default::Said(
+                    "that at which the longest is 2.5 times as long as neighbours are apart",
+                ),
+                "Length of the arrow of a vector of length 1.",
+            ),
+            Key::new(
+                "vector_radius",
+                Kind::Number(Range::POSITIVE),
+                Default::Said("0.03 times the longest"),
+                "Radius of the arrows' shafts.",
+            ),
+            Key::new(
+                "images",
+                Kind::Numbers,
+                Default::Said("`[1, 1, 1]`"),
+                "How many cells are drawn along each edge of the cell.",
+            ),
+            Key::new(
+                "image_layer",
+                Kind::Number(Range::NOT_NEGATIVE),
+                Default::Number(0.0),
+                "How far around the cells more images of atoms are drawn.",
             ),
             Key::new(
                 "cell",

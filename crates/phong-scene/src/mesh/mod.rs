@@ -21,6 +21,7 @@ pub use fields::Field;
 pub(crate) use groups::FLAT;
 pub(crate) use polygon::cut_polygons;
 pub use shared::Shared;
+pub(crate) use spacing::radius_that_touches;
 pub(crate) use tidy::collapse_faces;
 pub(crate) use weld::{Hash, Weld};
 

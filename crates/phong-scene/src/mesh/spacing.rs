@@ -11,7 +11,7 @@ impl Points {
     /// Gives all points the radius at which neighbours just touch: half the median distance between
     /// a point and its nearest neighbour.
     pub(crate) fn guess_radius(&mut self) {
-        let radius = automatic(&self.spheres);
+        let radius = radius_that_touches(&self.spheres);
         self.set_radius(Some(radius));
         self.guessed = Some(radius);
     }
@@ -26,7 +26,7 @@ impl Points {
 
 /// Half the median distance from a point to its nearest neighbour elsewhere, over up to 512 points
 /// spread evenly over the file (fewer among millions); 1 if all are at one place.
-fn automatic(spheres: &[[f32; 4]]) -> f32 {
+pub(crate) fn radius_that_touches(spheres: &[[f32; 4]]) -> f32 {
     let xyz = |s: &[f32; 4]| [s[0], s[1], s[2]];
     let asked = (DISTANCES / spheres.len().max(1)).clamp(16, 512).min(spheres.len());
     let queries: Vec<[f32; 3]> =
@@ -70,14 +70,14 @@ mod tests {
                 .map(|i| [i % 20, i / 20 % 20, i / 400].map(|c| c as f32 * step))
                 .map(|[x, y, z]| [x, y, z, 0.0])
                 .collect();
-            let radius = automatic(&grid);
+            let radius = radius_that_touches(&grid);
             assert!((radius / step - 0.5).abs() < 1e-5, "{radius}");
         }
     }
 
     #[test]
     fn points_at_one_place_get_a_radius_too() {
-        assert_eq!(automatic(&[]), 1.0);
-        assert_eq!(automatic(&[[5.0, 5.0, 5.0, 0.0]; 3]), 1.0);
+        assert_eq!(radius_that_touches(&[]), 1.0);
+        assert_eq!(radius_that_touches(&[[5.0, 5.0, 5.0, 0.0]; 3]), 1.0);
     }
 }

@@ -40,7 +40,8 @@ impl Molecule {
     }
 }
 
-fn by_column(column: &Column, drawing: &Drawing) -> Vec<Rgb> {
+/// A colour for each value of a column.
+pub(super) fn by_column(column: &Column, drawing: &Drawing) -> Vec<Rgb> {
     match &column.values {
         Values::Words(words) => {
             // Types are numbered by many programs: then the first colour is that of 1.

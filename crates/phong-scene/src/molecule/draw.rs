@@ -3,12 +3,14 @@
 use glam::{DVec3, Vec3};
 
 use super::bonds::by_radii;
+use super::color::by_column;
 use super::style::{Drawing, Style};
 use super::wrong::Wrong;
-use super::{Molecule, Selection, Topology, names};
+use super::{Images, Molecule, Selection, Topology, names};
 use crate::color::Rgb;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::elements::van_der_waals_radius;
+use crate::limits::Limits;
 use crate::mesh::{Caps, Cylinders, Points};
 use crate::shape::Shape;
 
@@ -22,11 +24,20 @@ const BALL: f32 = 0.25;
 const BETWEEN_BALLS: f32 = 0.13;
 const ALONE: f32 = 0.22;
 
+/// Radius of tubes in Å.
+const TUBE: f32 = 0.5;
+
+/// Radii that are guessed, as a share of those at which neighbours touch, where atoms have arrows.
+const BESIDE_ARROWS: f32 = 0.5;
+
 /// Atoms of which balls and sticks can be told apart in a picture.
 const FEW: usize = 400;
 
 /// The cell's lines, as a share of the distance between its faces.
 const LINE: f64 = 1.0 / 150.0;
+
+/// A capsule and two colours.
+const BYTES_OF_A_PIECE: u64 = 56;
 
 /// A molecule as shapes.
 #[derive(Debug, Default)]
@@ -41,13 +52,14 @@ impl Molecule {
     /// Makes shapes of it.
     ///
     /// # Errors
-    /// What is wrong with the drawing, or that nothing is left to be drawn; `file` is the file as a whole.
-    /// Bonds by covalent radii are those of `topology`, if there is one.
+    /// What is wrong with the drawing, that nothing is left to be drawn, or that it would be more than the limits
+    /// allow; `file` is the file as a whole. Bonds by covalent radii are those of `topology`, if there is one.
     pub(crate) fn draw(
         mut self,
         drawing: &Drawing,
         file: &Span,
         topology: Option<&Topology>,
+        limits: &Limits,
     ) -> Result<Drawn, Box<Diagnostic>> {
         let error = |wrong: Wrong, span: &Option<Span>| {
             let error =
@@ -83,8 +95,41 @@ impl Molecule {
                 drawn.notes.push(format!("water is not drawn: {count} atoms"));
             }
         }
-        let colors =
+        let no_cell = |span: &Option<Span>| {
+            let message = "the file says nothing of a cell".to_owned();
+            error(Wrong { message, help: None }, span)
+        };
+        let cell = self.cell.filter(|_| drawing.cell);
+        if drawing.cell && cell.is_none() {
+            return Err(no_cell(&drawing.spans.cell));
+        }
+        if drawing.images != Images::ONE {
+            let of = &drawing.spans.images;
+            let cell = self.cell.ok_or_else(|| no_cell(of))?;
+            let beyond =
+                self.add_images(&cell, drawing.images, limits).map_err(|wrong| error(wrong, of))?;
+            if beyond > 0 {
+                drawn.notes.push(format!("bonds beyond the images are not drawn: {beyond}"));
+            }
+        }
+        let mut colors =
             self.colors_by(drawing).map_err(|wrong| error(wrong, &drawing.spans.color_by))?;
+        if let Some(arrows) = &drawing.vectors {
+            let (arrows, without) = self
+                .arrows(arrows, &colors)
+                .map_err(|wrong| error(wrong, &drawing.spans.vectors))?;
+            if without > 0 {
+                let message = "atoms without an arrow, as their vector is 0 or no number";
+                drawn.notes.push(format!("{message}: {without}"));
+            }
+            drawn.shapes.push(("vectors", arrows.into()));
+        }
+        if drawing.style == Some(Style::Tube) {
+            let tubes = self
+                .take_tubes(drawing, &mut colors, limits)
+                .map_err(|wrong| error(wrong, &drawing.spans.style))?;
+            drawn.shapes.push(("tube", tubes.into()));
+        }
         let bonds = match drawing.style {
             Some(Style::Spacefill) => Vec::new(),
             None if self.len() > FEW => Vec::new(),
@@ -100,26 +145,25 @@ impl Molecule {
                 self.all_bonds(found, &mut drawn.notes)
             }
         };
-        let style = drawing.style.unwrap_or(if 2 * bonds.len() >= self.len() && self.len() > 1 {
-            Style::BallAndStick
-        } else {
-            Style::Spacefill
-        });
-        if style != Style::Spacefill && bonds.is_empty() {
+        let style = match drawing.style {
+            Some(Style::Tube) => Style::BallAndStick,
+            Some(style) => style,
+            None if 2 * bonds.len() >= self.len() && self.len() > 1 => Style::BallAndStick,
+            None => Style::Spacefill,
+        };
+        let wants_bonds = matches!(drawing.style, Some(Style::BallAndStick | Style::Sticks));
+        if wants_bonds && bonds.is_empty() {
             drawn.notes.push("the atoms have no bonds".to_owned());
-        }
-        let cell = self.cell.filter(|_| drawing.cell);
-        if drawing.cell && cell.is_none() {
-            let message = "the file says nothing of a cell".to_owned();
-            return Err(error(Wrong { message, help: None }, &drawing.spans.cell));
         }
         let guessed = self
             .set_radii(drawing, style)
             .map_err(|wrong| error(wrong, &drawing.spans.radius_by))?;
 
-        let stick = drawing.bond_radius.unwrap_or(match style {
+        // A tube's radius is its own.
+        let width = drawing.bond_radius.filter(|_| drawing.style != Some(Style::Tube));
+        let stick = width.unwrap_or(match style {
             Style::Sticks => ALONE,
-            Style::BallAndStick | Style::Spacefill => BETWEEN_BALLS,
+            Style::BallAndStick | Style::Spacefill | Style::Tube => BETWEEN_BALLS,
         });
         let sticks = self.cylinders(&bonds, &colors, stick, style);
         let mut keep = vec![true; self.len()];
@@ -146,8 +190,11 @@ impl Molecule {
             };
             if guessed {
                 points.guess_radius();
-                if let Some(radius) = points.guessed.filter(|_| drawing.radius_scale != 1.0) {
-                    points.set_radius(Some(radius * drawing.radius_scale));
+                // Spheres that touch would hide the arrows.
+                let scale = if drawing.vectors.is_some() { BESIDE_ARROWS } else { 1.0 };
+                let scale = scale * drawing.radius_scale;
+                if let Some(radius) = points.guessed.filter(|_| scale != 1.0) {
+                    points.set_radius(Some(radius * scale));
                     points.guessed = None;
                 }
             }
@@ -162,18 +209,59 @@ impl Molecule {
                 let [x, y, z] = (place - self.origin).as_vec3().to_array();
                 [x, y, z, radius]
             };
-            let segments = cell.outline().into_iter().map(|edge| edge.map(end)).collect();
-            let color = [Rgb::from_srgb8([0x30; 3]); 2];
+            let edges = cell.outline(drawing.images.cells);
+            let segments: Vec<_> = edges.into_iter().map(|edge| edge.map(end)).collect();
+            let colors = vec![[Rgb::from_srgb8([0x30; 3]); 2]; segments.len()];
             let lines = Cylinders {
                 origin: self.origin,
-                segments,
-                colors: vec![color; 12].into(),
+                segments: segments.into(),
+                colors: colors.into(),
                 caps: Caps::Round,
                 ..Cylinders::default()
             };
             drawn.shapes.push(("cell", lines.into()));
         }
         Ok(drawn)
+    }
+
+    /// Makes tubes of the residues that are chained together, and keeps the other atoms with their colours.
+    fn take_tubes(
+        &mut self,
+        drawing: &Drawing,
+        colors: &mut Vec<Rgb>,
+        limits: &Limits,
+    ) -> Result<Cylinders, Wrong> {
+        let backbones = self.backbones();
+        let bytes = backbones.pieces() * BYTES_OF_A_PIECE;
+        let message = match backbones.pieces() {
+            0 => "no chain of residues is found: a tube goes through the CA atoms of a protein or the P atoms \
+                  of a nucleic acid"
+                .to_owned(),
+            _ if bytes > limits.bytes => {
+                format!("the tubes take more than the limit of {} bytes", limits.bytes)
+            }
+            _ => String::new(),
+        };
+        if !message.is_empty() {
+            let help = "the other styles draw atoms of any kind".to_owned();
+            return Err(Wrong { message, help: Some(help) });
+        }
+        let by = drawing.color_by.as_deref();
+        let blend = by.is_some_and(|name| self.numbers(name).is_some());
+        let of_chains = match self.column(names::CHAIN) {
+            // All its atoms are carbon or phosphorus.
+            Some(chains) if by.is_none() && self.colors.is_empty() => by_column(chains, drawing),
+            _ => Vec::new(),
+        };
+        let of_tube = if of_chains.is_empty() { &*colors } else { &of_chains };
+        let radius = drawing.bond_radius.unwrap_or(TUBE);
+        let tubes = self.tubes(&backbones, of_tube, blend, radius);
+        let rest: Vec<bool> = backbones.within.iter().map(|within| !within).collect();
+        self.retain(&rest);
+        if !colors.is_empty() {
+            super::filter(colors, &rest);
+        }
+        Ok(tubes)
     }
 
     /// Which atoms are of water.

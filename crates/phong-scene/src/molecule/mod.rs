@@ -5,23 +5,28 @@
 //! cylinders of the two. Places are in Å where the format says so, else in the file's own unit.
 
 mod alternate;
+mod arrows;
 mod bonds;
 mod color;
 mod column;
 mod draw;
 mod maps;
+mod periodic;
 mod residue;
 mod select;
 mod style;
 mod topology;
+mod tube;
 mod wrong;
 
 #[cfg(test)]
 mod tests;
 
 pub(crate) use alternate::Alternates;
+pub(crate) use arrows::Arrows;
 pub(crate) use column::{Column, Values, Words};
 pub(crate) use maps::ColorMap;
+pub(crate) use periodic::Images;
 pub(crate) use select::Selection;
 pub(crate) use style::{Drawing, Spans, Style};
 pub(crate) use topology::Topology;
@@ -128,12 +133,25 @@ impl Cell {
         volume / areas.into_iter().fold(0.0, f64::max).max(f64::MIN_POSITIVE)
     }
 
-    /// The ends of its twelve edges.
-    pub(crate) fn outline(&self) -> Vec<[DVec3; 2]> {
+    /// The ends of the edges of so many cells side by side, each once.
+    pub(crate) fn outline(&self, cells: [u32; 3]) -> Vec<[DVec3; 2]> {
+        let mut edges = Vec::new();
         let corner =
-            |i: usize| self.place(DVec3::from([0, 1, 2].map(|axis| ((i >> axis) & 1) as f64)));
-        let edges = (0..8).flat_map(|i| [0, 1, 2].map(|axis| (i, i | (1 << axis))));
-        edges.filter(|(i, j)| i != j).map(|(i, j)| [corner(i), corner(j)]).collect()
+            |[x, y, z]: [u32; 3]| self.place(DVec3::new(f64::from(x), f64::from(y), f64::from(z)));
+        let [a, b, c] = cells;
+        for z in 0..=c {
+            for y in 0..=b {
+                for x in 0..=a {
+                    let from = [x, y, z];
+                    for axis in (0..3).filter(|axis| from[*axis] < cells[*axis]) {
+                        let mut to = from;
+                        to[axis] += 1;
+                        edges.push([corner(from), corner(to)]);
+                    }
+                }
+            }
+        }
+        edges
     }
 }
 

@@ -1,7 +1,7 @@
 //! How atoms are drawn.
 
-use super::Selection;
 use super::maps::ColorMap;
+use super::{Arrows, Images, Selection};
 use crate::diagnostic::Span;
 use crate::wording::words;
 
@@ -9,6 +9,7 @@ words!(Style {
     "spacefill" = Spacefill,
     "ball-and-stick" = BallAndStick,
     "sticks" = Sticks,
+    "tube" = Tube,
 });
 
 /// What atoms and bonds become.
@@ -20,6 +21,8 @@ pub(crate) enum Style {
     BallAndStick,
     /// Bonds alone.
     Sticks,
+    /// Tubes along the backbones of proteins and nucleic acids; balls and sticks for what else there is.
+    Tube,
 }
 
 /// What of a molecule is drawn, and how.
@@ -41,8 +44,12 @@ pub(crate) struct Drawing {
     pub(crate) radius: Option<f32>,
     /// What all radii are multiplied by.
     pub(crate) radius_scale: f32,
-    /// The radius of bonds; `None`: as the style has it.
+    /// The radius of bonds and of tubes; `None`: as the style has it.
     pub(crate) bond_radius: Option<f32>,
+    /// The vectors that are drawn as arrows.
+    pub(crate) vectors: Option<Arrows>,
+    /// Which images of the cell are drawn.
+    pub(crate) images: Images,
     /// Whether the cell is drawn.
     pub(crate) cell: bool,
     /// Where the keys were written, for what is wrong with them.
@@ -55,6 +62,9 @@ pub(crate) struct Spans {
     pub(crate) select: Option<Span>,
     pub(crate) color_by: Option<Span>,
     pub(crate) radius_by: Option<Span>,
+    pub(crate) style: Option<Span>,
+    pub(crate) vectors: Option<Span>,
+    pub(crate) images: Option<Span>,
     pub(crate) cell: Option<Span>,
 }
 
@@ -70,6 +80,8 @@ impl Default for Drawing {
             radius: None,
             radius_scale: 1.0,
             bond_radius: None,
+            vectors: None,
+            images: Images::ONE,
             cell: false,
             spans: Spans::default(),
         }
@@ -82,6 +94,10 @@ impl Drawing {
         let by = |name: &Option<String>| name.as_deref() == Some(column);
         by(&self.color_by)
             || by(&self.radius_by)
+            || self
+                .vectors
+                .as_ref()
+                .is_some_and(|vectors| vectors.columns.iter().any(|c| c == column))
             || self.select.as_ref().is_some_and(|select| select.uses(column))
     }
 }

@@ -99,7 +99,12 @@ fn what_is_wrong_with_a_selection_is_said_at_its_place() {
 }
 
 fn drawn(drawing: &Drawing) -> draw::Drawn {
-    molecule().draw(drawing, &crate::diagnostic::Span::default(), None).unwrap()
+    draw(molecule(), drawing).unwrap()
+}
+
+fn draw(molecule: Molecule, drawing: &Drawing) -> Result<draw::Drawn, String> {
+    let (file, limits) = (crate::diagnostic::Span::default(), crate::limits::Limits::default());
+    molecule.draw(drawing, &file, None, &limits).map_err(|error| error.message)
 }
 
 #[test]
@@ -130,7 +135,7 @@ fn a_cell_of_angles_has_their_edges() {
     let cell = Cell::of_angles([2.0, 3.0, 4.0], [90.0, 90.0, 120.0]).unwrap();
     assert!(cell.edges[1].distance(DVec3::new(-1.5, 3.0 * 0.75_f64.sqrt(), 0.0)) < 1e-12);
     assert_eq!(cell.edges[2], DVec3::new(0.0, 0.0, 4.0));
-    assert_eq!((cell.outline().len(), Cell::of_angles([1.0; 3], [180.0; 3])), (12, None));
+    assert_eq!((cell.outline([1; 3]).len(), Cell::of_angles([1.0; 3], [180.0; 3])), (12, None));
     assert!((Cell::of_angles([2.0; 3], [90.0; 3]).unwrap().thickness() - 2.0).abs() < 1e-12);
 }
 
@@ -141,4 +146,137 @@ fn what_is_left_out_takes_its_bonds_along() {
     let keep: Vec<bool> = (0..9).map(|i| i != 1).collect();
     molecule.retain(&keep);
     assert_eq!((molecule.len(), molecule.bonds), (8, vec![[1, 3]]));
+}
+
+/// Atoms of these names, elements, residues and chains, at these places.
+fn chain(atoms: &[(&str, u8, &str, f32, &str, [f32; 3])]) -> Molecule {
+    let mut molecule = Molecule {
+        columns: vec![
+            Column::of_words(names::NAME),
+            Column::of_words(names::RESIDUE),
+            Column::of_numbers(names::NUMBER),
+            Column::of_words(names::CHAIN),
+        ],
+        ..Molecule::default()
+    };
+    for (name, element, residue, number, chain, [x, y, z]) in atoms {
+        molecule.spheres.push([*x, *y, *z, 0.0]);
+        molecule.elements.push(*element);
+        let [n, r, k, c] = &mut molecule.columns[..] else { panic!() };
+        n.values.push_word(name.as_bytes());
+        r.values.push_word(residue.as_bytes());
+        k.values.push_number(*number);
+        c.values.push_word(chain.as_bytes());
+    }
+    molecule
+}
+
+#[test]
+fn a_tube_goes_through_the_residues_of_a_chain_and_ends_where_it_breaks() {
+    let at = |x: f32| [x, x % 2.0, 0.0];
+    let atoms = [
+        ("CA", 6, "ALA", 1.0, "A", at(0.0)),
+        ("CB", 6, "ALA", 1.0, "A", at(1.0)),
+        ("CA", 6, "GLY", 2.0, "A", at(3.0)),
+        ("CA", 6, "GLY", 3.0, "A", at(6.0)),
+        // Too far, and the next of another chain.
+        ("CA", 6, "GLY", 9.0, "A", at(16.0)),
+        ("CA", 6, "GLY", 10.0, "A", at(19.0)),
+        ("CA", 6, "SER", 1.0, "B", at(22.0)),
+        ("CA", 20, "CA", 2.0, "B", at(25.0)),
+        ("P", 15, "DA", 1.0, "C", at(40.0)),
+        ("P", 15, "DG", 2.0, "C", at(46.0)),
+    ];
+    let tube = Drawing { style: Some(Style::Tube), ..Drawing::default() };
+    let drawn = draw(chain(&atoms), &tube).unwrap();
+    let [("tube", Shape::Cylinders(tubes)), ("atoms", Shape::Points(rest))] = &drawn.shapes[..]
+    else {
+        panic!("{drawn:?}")
+    };
+    assert_eq!(tubes.segments.len(), 12 * (2 + 1 + 1));
+    // A residue alone, and a calcium.
+    assert_eq!(rest.spheres.iter().map(|s| s[0]).collect::<Vec<_>>(), [22.0, 25.0]);
+    // It meets the atoms, without a gap between its pieces.
+    assert_eq!(tubes.segments[12][0], [3.0, 1.0, 0.0, 0.5]);
+    assert!(tubes.segments[..24].windows(2).all(|pair| pair[0][1] == pair[1][0]));
+    assert!(tubes.colors[0] == tubes.colors[47] || tubes.colors[0] != tubes.colors[40]);
+    let alone = draw(chain(&atoms[6..8]), &tube).unwrap_err();
+    assert!(alone.starts_with("no chain of residues is found"), "{alone}");
+}
+
+/// Two particles in a cell of 4 × 4 × 4, tilted, bound over its face.
+fn periodic() -> Molecule {
+    let mut molecule = Molecule {
+        spheres: vec![[0.5, 2.0, 2.0, 0.5], [3.5, 2.0, 2.0, 0.5]],
+        bonds: vec![[0, 1]],
+        all_bonds: true,
+        columns: vec![Column::of_numbers("vx"), Column::of_numbers("zero")],
+        ..Molecule::default()
+    };
+    molecule.columns[0].values.push_number(2.0);
+    molecule.columns[0].values.push_number(0.0);
+    molecule.columns[1].values.push_number(0.0);
+    molecule.columns[1].values.push_number(0.0);
+    let edges = [[4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [1.0, 0.0, 4.0]].map(DVec3::from);
+    molecule.cell = Some(Cell { origin: DVec3::ZERO, edges });
+    molecule
+}
+
+#[test]
+fn images_repeat_atoms_along_the_edges_and_bonds_lead_over_them() {
+    let images = |cells, layer| {
+        let images = Images { cells, layer };
+        let style = Some(Style::BallAndStick);
+        draw(periodic(), &Drawing { images, style, cell: true, ..Drawing::default() })
+    };
+    let drawn = images([2, 1, 2], 0.0).unwrap();
+    let [
+        ("atoms", Shape::Points(atoms)),
+        ("bonds", Shape::Cylinders(bonds)),
+        (_, Shape::Cylinders(cell)),
+    ] = &drawn.shapes[..]
+    else {
+        panic!("{drawn:?}")
+    };
+    assert_eq!((atoms.spheres.len(), bonds.segments.len()), (8, 2));
+    assert_eq!(atoms.spheres[6], [5.5, 2.0, 6.0, 0.5], "along the tilted edge as well");
+    let [from, to] = bonds.segments[0];
+    assert_eq!((from[0], to[0]), (3.5, 4.5), "to the nearest image");
+    assert_eq!(drawn.notes, ["bonds beyond the images are not drawn: 2"]);
+    assert_eq!(cell.segments.len(), 33, "each edge once");
+
+    let Ok(drawn) = images([1; 3], 1.0) else { panic!() };
+    let Shape::Points(atoms) = &drawn.shapes[0].1 else { panic!() };
+    let xs: Vec<f32> = atoms.spheres.iter().map(|s| s[0]).collect();
+    // One is 0.97 from the tilted face, and 1 along the edge.
+    assert_eq!(xs, [0.5, 3.5, -0.5, 4.5]);
+    assert!(images([1; 3], 1e9).unwrap_err().starts_with("the images are more than"));
+    let none = Molecule { cell: None, ..periodic() };
+    let images = Images { cells: [2, 1, 1], layer: 0.0 };
+    let none = draw(none, &Drawing { images, ..Drawing::default() }).unwrap_err();
+    assert_eq!(none, "the file says nothing of a cell");
+}
+
+#[test]
+fn arrows_have_a_shaft_and_a_head_and_are_as_long_as_their_vectors() {
+    let arrows = |columns: [&str; 3], scale| {
+        let columns = columns.map(str::to_owned);
+        let vectors = Some(Arrows { columns, scale, radius: None });
+        let style = Some(Style::Spacefill);
+        draw(periodic(), &Drawing { vectors, style, ..Drawing::default() })
+    };
+    let drawn = arrows(["vx", "zero", "zero"], Some(3.0)).unwrap();
+    let ("vectors", Shape::Cylinders(arrows_drawn)) = &drawn.shapes[0] else { panic!("{drawn:?}") };
+    let [[from, neck], [base, tip]] = arrows_drawn.segments[..] else { panic!() };
+    assert_eq!((from[..3].to_vec(), tip[..3].to_vec()), (vec![0.5, 2.0, 2.0], vec![6.5, 2.0, 2.0]));
+    assert!(base[..3] == neck[..3] && base[3] > neck[3] && tip[3] < 0.01 * neck[3]);
+    assert_eq!(drawn.notes, ["atoms without an arrow, as their vector is 0 or no number: 1"]);
+    // Neighbours are 3 apart, so that the longest is of 7.5.
+    let drawn = arrows(["vx", "zero", "zero"], None).unwrap();
+    let Shape::Cylinders(guessed) = &drawn.shapes[0].1 else { panic!() };
+    assert_eq!(guessed.segments[1][1][0], 8.0);
+    let nothing = arrows(["zero"; 3], None).unwrap_err();
+    assert_eq!(nothing, "no atom has a vector: all are 0, or no numbers");
+    assert!(arrows(["vx", "vy", "zero"], None).unwrap_err().contains("no column"));
+    assert!(arrows(["vx", "zero", "zero"], Some(1e18)).unwrap_err().contains("too long"));
 }

@@ -53,7 +53,7 @@ pub(crate) fn read_atoms(
     let failed = findings.any_error();
     let mut drawn = None;
     if let Some(molecule) = molecule.filter(|_| !failed) {
-        match molecule.draw(&drawing, &whole(&file), input.topology) {
+        match molecule.draw(&drawing, &whole(&file), input.topology, input.limits) {
             Ok(found) => {
                 for note in &found.notes {
                     findings.note("notes", || whole(&file), || note.clone());

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | columns 1–5, 6–10, 11–15 | the residue's number and name, the atom's name |
 //! | the coordinates | in nanometres, ten times that in Å; how wide they are is told by how far their points are apart |
-//! | velocities | not used |
+//! | velocities | in nanometres a picosecond, as they are: the columns `vx`, `vy` and `vz`, read where they are asked for |
 //! | the last line | the cell: three lengths, or nine numbers |
 //! | later frames | not drawn, which is told |
 //!
@@ -22,7 +22,7 @@ use super::text::{Decimal, Findings, Lines, Piece, Rows, head_of, open_text, who
 use crate::diagnostic::Diagnostic;
 use crate::elements::number_of;
 use crate::fragment::Fragment;
-use crate::molecule::{Cell, Column, Molecule, names};
+use crate::molecule::{Cell, Column, Drawing, Molecule, names};
 use crate::source::Blob;
 
 /// Å in a nanometre.
@@ -31,14 +31,17 @@ const NANOMETRE: f64 = 10.0;
 /// Bytes in which the title, the count and the first atom stand.
 const HEAD: usize = 16 << 10;
 
+/// The columns of velocities.
+const VELOCITY: [&str; 3] = ["vx", "vy", "vz"];
+
 /// Where coordinates begin.
 const FIRST: usize = 20;
 
 /// Reads a GRO file; `None` if a diagnostic is an error.
 pub(crate) fn read(input: &Input<'_>, out: &mut Vec<Diagnostic>) -> Option<Fragment> {
-    read_atoms(input, out, |file, _, findings| {
+    read_atoms(input, out, |file, drawing, findings| {
         let blob = open_text(input.source, input.path, input.limits)?;
-        atoms(blob.as_ref(), file, input, findings)
+        atoms(blob.as_ref(), file, input, drawing, findings)
     })
 }
 
@@ -57,6 +60,7 @@ fn atoms(
     blob: &dyn Blob,
     file: &Arc<str>,
     input: &Input<'_>,
+    drawing: &Drawing,
     findings: &mut Findings,
 ) -> io::Result<Option<Molecule>> {
     let head = head_of(blob, HEAD)?;
@@ -85,7 +89,9 @@ fn atoms(
     }
     let width = width_of(first);
     let columns = [names::NAME, names::RESIDUE].map(Column::of_words);
-    let columns = columns.into_iter().chain([Column::of_numbers(names::NUMBER)]).collect();
+    let numbers =
+        [names::NUMBER].into_iter().chain(VELOCITY.into_iter().filter(|v| drawing.uses(v)));
+    let columns = columns.into_iter().chain(numbers.map(Column::of_numbers)).collect();
     let mut all = Molecule { columns, ..Molecule::default() };
     let mut places: Vec<DVec3> = Vec::new();
     let mut more = false;
@@ -152,10 +158,17 @@ impl Block {
         self.places.push(place);
         self.molecule.spheres.push([0.0; 4]);
         self.molecule.elements.push(element_of(name, residue));
-        if let [names, residues, numbers] = &mut self.molecule.columns[..] {
+        if let [names, residues, numbers, velocities @ ..] = &mut self.molecule.columns[..] {
             names.values.push_word(name);
             residues.values.push_word(residue);
             numbers.values.push_number(line.number(0, 5).unwrap_or(f64::NAN) as f32);
+            for column in velocities {
+                // Behind the coordinates, and as wide.
+                let axis = VELOCITY.iter().position(|name| *name == column.name).unwrap_or(0);
+                let start = FIRST + width * (3 + axis);
+                let number = line.number(start, start + width).unwrap_or(f64::NAN);
+                column.values.push_number(number as f32);
+            }
         }
     }
 }

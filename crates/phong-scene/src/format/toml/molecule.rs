@@ -5,8 +5,11 @@ use super::reader::Reader;
 use super::table::Values;
 use crate::diagnostic::Diagnostic;
 use crate::format::input::Input;
-use crate::molecule::{ColorMap, Drawing, Selection, Spans, Style};
+use crate::molecule::{Arrows, ColorMap, Drawing, Images, Selection, Spans, Style};
 use crate::wording::{self, Word};
+
+/// Cells along an edge, at most.
+const MOST_CELLS: f64 = 1000.0;
 
 impl Reader<'_> {
     /// `[[molecule]]`: the atoms and bonds of its file.
@@ -21,7 +24,8 @@ impl Reader<'_> {
             ..Input::new(&file, self.source, self.limits)
         };
         let Some(mut fragment) = self.read_input(v, &input, read) else { return Vec::new() };
-        if !fragment.objects.iter().any(|object| ["atoms", "bonds"].contains(&&*object.name)) {
+        let drawn = ["atoms", "bonds", "tube"];
+        if !fragment.objects.iter().any(|object| drawn.contains(&&*object.name)) {
             let help = "atoms are read from PDB, CIF, XYZ, GRO and LAMMPS files";
             let message = format!("{} holds no atoms", wording::path(&file));
             self.notes.error(v.spot_of("file"), message).help = Some(help.to_owned());
@@ -41,6 +45,9 @@ impl Reader<'_> {
             select: span("select", &self.notes),
             color_by: span("color_by", &self.notes),
             radius_by: span("radius_by", &self.notes),
+            style: span("style", &self.notes),
+            vectors: span("vectors", &self.notes),
+            images: span("images", &self.notes).or_else(|| span("image_layer", &self.notes)),
             cell: span("cell", &self.notes),
         };
         let select = v.text("select").and_then(|text| match Selection::parse(&text) {
@@ -63,8 +70,45 @@ impl Reader<'_> {
                 None
             }
         });
+        let cells = v.numbers("images").map(|numbers| {
+            let whole = |n: &f64| n.fract() == 0.0 && (1.0..=MOST_CELLS).contains(n);
+            match numbers[..] {
+                [a, b, c] if numbers.iter().all(whole) => [a as u32, b as u32, c as u32],
+                _ => {
+                    sound = false;
+                    let message = format!(
+                        "`images` must be three whole numbers from 1 to {MOST_CELLS}: how many cells along \
+                         each edge"
+                    );
+                    self.notes.error(v.spot_of("images"), message);
+                    [1; 3]
+                }
+            }
+        });
+        let columns = v.texts("vectors").and_then(|names| {
+            let names: Vec<String> = names.into_iter().map(|(name, _)| name).collect();
+            <[String; 3]>::try_from(names).map_or_else(
+                |_| {
+                    sound = false;
+                    let message = "`vectors` must be the names of three columns, like `[\"vx\", \"vy\", \"vz\"]`";
+                    self.notes.error(v.spot_of("vectors"), message);
+                    None
+                },
+                Some,
+            )
+        });
+        for key in ["vector_scale", "vector_radius"].into_iter().filter(|key| v.has(key)) {
+            if !v.has("vectors") {
+                sound = false;
+                let message =
+                    format!("`{key}` is of arrows, of which there are none without `vectors`");
+                self.notes.error(v.spot_of(key), message);
+            }
+        }
         let number = |key: &str| v.number(key).map(|number| number as f32);
-        for key in ["style", "color_map", "radius", "radius_scale", "bond_radius"] {
+        let checked = ["style", "color_map", "radius", "radius_scale", "bond_radius"];
+        let more = ["vector_scale", "vector_radius", "image_layer"];
+        for key in checked.into_iter().chain(more) {
             // What is written wrongly has been said.
             sound &= !v.has(key) || v.number(key).is_some() || v.word(key).is_some();
         }
@@ -78,6 +122,15 @@ impl Reader<'_> {
             radius: number("radius"),
             radius_scale: number("radius_scale").unwrap_or(1.0),
             bond_radius: number("bond_radius"),
+            vectors: columns.map(|columns| Arrows {
+                columns,
+                scale: number("vector_scale"),
+                radius: number("vector_radius"),
+            }),
+            images: Images {
+                cells: cells.unwrap_or([1; 3]),
+                layer: v.number("image_layer").unwrap_or(0.0),
+            },
             cell: v.flag("cell").unwrap_or(false),
             spans,
         };
