@@ -3,6 +3,7 @@
 
 mod atoms;
 mod cif;
+mod dcd;
 pub(crate) mod export;
 mod faces;
 pub(crate) mod frames;
@@ -44,8 +45,10 @@ const OF_PROGRAMS: &str = "let the program that wrote it export the model as .ob
                        .dat for Tachyon, as VMD and OVITO do";
 
 /// What to do with frames that say nothing of their atoms.
-const OF_TRAJECTORIES: &str = "let the program that wrote it put atoms and places into one file of several models: \
-                               `gmx trjconv -f a.xtc -s a.tpr -o a.pdb`, or from VMD or MDAnalysis as .pdb or .xyz";
+const OF_TRAJECTORIES: &str = "a DCD is named beside the file of its atoms, as `trajectory` of a `[[molecule]]` \
+                               (`phong render a.pdb --set molecule.1.trajectory=a.dcd`); of others let the program that \
+                               wrote them make one file of several models: `gmx trjconv -f a.xtc -s a.tpr -o a.pdb`, or \
+                               VMD or MDAnalysis a .dcd, .pdb or .xyz";
 
 /// Reads a scene or a bare model, and everything there is to say about it.
 ///
@@ -120,14 +123,28 @@ fn read_known(
         Some(Read::Scene(read)) => return read(&input, &MODELS),
         Some(Read::Model(read)) => read,
     };
-    if let Some(change) = changes.first() {
+    let of_atoms = [Format::Pdb, Format::Cif, Format::Xyz, Format::Gro, Format::Lammps];
+    let of_molecule = |change: &&Change| change.path().starts_with("molecule.1.");
+    let molecule = of_atoms.contains(&format) && changes.iter().any(|c| of_molecule(&c));
+    if let Some(change) = changes.iter().find(|change| !molecule || !of_molecule(change)) {
         let message =
             format!("this is a bare model, which has no text for {} to change", change.path());
-        let help = "write a scene that names it as `file` of a `[[mesh]]`, and set that one's keys";
+        let help = match of_atoms.contains(&format) {
+            true => {
+                "the keys of a `[[molecule]]` can be set, like `molecule.1.style=sticks`; others in a scene"
+            }
+            false => {
+                "write a scene that names it as `file` of a `[[mesh]]`, and set that one's keys"
+            }
+        };
         return refused(message, help.to_owned(), true);
     }
     let mut diagnostics = Vec::new();
-    let fragment = read(&input, &mut diagnostics);
+    let fragment = if molecule {
+        toml::read_molecule(&input, read, &MODELS, &mut diagnostics)
+    } else {
+        read(&input, &mut diagnostics)
+    };
     let sound = !diagnostics.iter().any(Diagnostic::is_error);
     let Some(fragment) = fragment.filter(|_| sound) else {
         return Reading { scene: None, bare: true, diagnostics };

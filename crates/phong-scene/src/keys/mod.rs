@@ -34,7 +34,7 @@ pub(crate) use material::MATERIAL;
 pub use reference::{batch_reference_markdown, reference_markdown};
 pub(crate) use scene::{BACKGROUND, CLIP, INCLUDE, SCENE};
 pub use schema::{batch_schema_json, schema_json};
-pub(crate) use shape::GROUP;
+pub(crate) use shape::{GROUP, MOLECULE};
 pub(crate) use texture::{TEXTURE, TEXTURED};
 pub(crate) use value::{Stored, Value, short};
 

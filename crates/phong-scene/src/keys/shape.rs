@@ -349,6 +349,12 @@ pub(crate) static MOLECULE: Table = Table {
                 "A file of atoms or particles: PDB, CIF, XYZ, GRO or LAMMPS.",
             ),
             Key::new(
+                "trajectory",
+                Kind::File,
+                Default::Said("none: the file's own places"),
+                "A DCD file of the same atoms, whose places are drawn: its first frame, or those of `--frames`.",
+            ),
+            Key::new(
                 "style",
                 Kind::Word(Style::WORDS),
                 Default::Said(

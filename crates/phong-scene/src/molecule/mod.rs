@@ -201,6 +201,24 @@ impl Molecule {
         }
     }
 
+    /// Sorts the atoms by a column of numbers, if there is one. Bonds are not known yet.
+    pub(crate) fn sort_by_column(&mut self, name: &str) {
+        let Some(numbers) = self.numbers(name).filter(|numbers| !numbers.is_sorted()) else {
+            return;
+        };
+        let mut order: Vec<u32> = (0..numbers.len() as u32).collect();
+        order.sort_by(|a, b| numbers[*a as usize].total_cmp(&numbers[*b as usize]));
+        sort(&mut self.spheres, &order);
+        sort(&mut self.elements, &order);
+        sort(&mut self.colors, &order);
+        for column in &mut self.columns {
+            match &mut column.values {
+                Values::Numbers(numbers) => sort(numbers, &order),
+                Values::Words(words) => sort(&mut words.numbers, &order),
+            }
+        }
+    }
+
     /// Keeps the atoms that `keep` says, and the bonds between them.
     pub(crate) fn retain(&mut self, keep: &[bool]) {
         if keep.iter().all(|keep| *keep) {
@@ -238,4 +256,11 @@ impl Molecule {
 fn filter<T>(values: &mut Vec<T>, keep: &[bool]) {
     let mut kept = keep.iter();
     values.retain(|_| kept.next().copied().unwrap_or(false));
+}
+
+/// Puts values in this order, if there are any.
+fn sort<T: Copy>(values: &mut Vec<T>, order: &[u32]) {
+    if !values.is_empty() {
+        *values = order.iter().map(|i| values[*i as usize]).collect();
+    }
 }

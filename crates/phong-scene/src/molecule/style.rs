@@ -46,6 +46,8 @@ pub(crate) struct Drawing {
     pub(crate) radius_scale: f32,
     /// The radius of bonds and of tubes; `None`: as the style has it.
     pub(crate) bond_radius: Option<f32>,
+    /// The trajectory whose places are drawn in place of the file's own.
+    pub(crate) trajectory: Option<String>,
     /// The vectors that are drawn as arrows.
     pub(crate) vectors: Option<Arrows>,
     /// Which images of the cell are drawn.
@@ -62,6 +64,7 @@ pub(crate) struct Spans {
     pub(crate) select: Option<Span>,
     pub(crate) color_by: Option<Span>,
     pub(crate) radius_by: Option<Span>,
+    pub(crate) trajectory: Option<Span>,
     pub(crate) style: Option<Span>,
     pub(crate) vectors: Option<Span>,
     pub(crate) images: Option<Span>,
@@ -80,6 +83,7 @@ impl Default for Drawing {
             radius: None,
             radius_scale: 1.0,
             bond_radius: None,
+            trajectory: None,
             vectors: None,
             images: Images::ONE,
             cell: false,

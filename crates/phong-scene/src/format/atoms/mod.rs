@@ -11,15 +11,17 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::dcd;
 use super::input::{Input, Wanted};
 use super::origin::origin_of;
 use super::text::{Findings, whole};
 use crate::diagnostic::Diagnostic;
 use crate::fragment::Fragment;
-use crate::limits::Limits;
+use crate::limits::{LARGEST, Limits};
 use crate::molecule::{Alternates, Drawing, Molecule, Style, names};
 use crate::scene::Object;
 use crate::source::trouble;
+use crate::wording;
 
 /// Atoms from the beginning that say where the molecule is.
 const SAMPLED: usize = 4096;
@@ -49,6 +51,22 @@ pub(crate) fn read_atoms(
             None
         }
     };
+    let molecule = match (molecule, &drawing.trajectory) {
+        (Some(molecule), Some(path)) if !findings.any_error() => {
+            match follow(molecule, path, &drawing, input) {
+                Ok((molecule, said)) => {
+                    out.extend(said);
+                    Some(molecule)
+                }
+                Err(error) => {
+                    findings.tell(&file, out);
+                    out.push(*error);
+                    return None;
+                }
+            }
+        }
+        (molecule, _) => molecule,
+    };
     let molecule = molecule.and_then(|molecule| sound(molecule, &file, &mut findings));
     let failed = findings.any_error();
     let mut drawn = None;
@@ -71,6 +89,55 @@ pub(crate) fn read_atoms(
     let shapes = drawn?.shapes;
     let object = |(name, shape): (&str, _)| Object { name: name.to_owned(), ..Object::from(shape) };
     Some(Fragment { objects: shapes.into_iter().map(object).collect(), ..Fragment::default() })
+}
+
+/// Puts the atoms where a frame of their trajectory has them; and what there is to say of it.
+fn follow(
+    mut molecule: Molecule,
+    path: &str,
+    drawing: &Drawing,
+    input: &Input<'_>,
+) -> Result<(Molecule, Option<Diagnostic>), Box<Diagnostic>> {
+    let at: Arc<str> = path.into();
+    let error = |message: String| {
+        let span = drawing.spans.trajectory.clone().unwrap_or_else(|| whole(&at));
+        let named = format!("the trajectory {}: {message}", wording::path(path));
+        Box::new(Diagnostic::error(named, span))
+    };
+    let read = || {
+        let blob = input.source.open(path)?;
+        // Of the frames of a film, the source has one at a time, behind the first if atoms are fixed.
+        dcd::read(&*blob, input.topology.is_some(), molecule.len() as u64)
+    };
+    let frame = read().map_err(|fault| match fault {
+        dcd::Fault::Io(fault) => error(format!("it cannot be read: {}", trouble(&fault))),
+        dcd::Fault::Broken(message) => error(message),
+    })?;
+    let held = |place: &DVec3| place.is_finite() && place.abs().max_element() <= LARGEST;
+    let lost = frame.places.iter().filter(|place| !held(place)).count();
+    molecule.place_all(&frame.places);
+    for (sphere, place) in molecule.spheres.iter_mut().zip(&frame.places) {
+        if !held(place) {
+            sphere[0] = f32::NAN;
+        }
+    }
+    molecule.cell = frame.cell.or(molecule.cell);
+    let one = input.topology.is_none();
+    let said = if lost > 0 {
+        let message =
+            format!("places of the trajectory that are none: {lost}; the atoms are left out");
+        Some(Diagnostic::warning(message, whole(&at)))
+    } else if one && frame.said != 0 && frame.said != frame.count {
+        let (said, count) = (frame.said, frame.count);
+        let message = format!("the trajectory says that it has {said} frames, but it has {count}");
+        Some(Diagnostic::warning(message, whole(&at)))
+    } else if one && frame.count > 1 {
+        let message = "the first frame of the trajectory is drawn; others follow it";
+        Some(Diagnostic::note(message, whole(&at)))
+    } else {
+        None
+    };
+    Ok((molecule, said))
 }
 
 /// Leaves out what has no place; `None` if nothing is left, which is said.

@@ -2,6 +2,8 @@
 
 mod excerpt;
 mod scan;
+#[cfg(test)]
+mod tests;
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -33,7 +35,7 @@ pub struct FrameRange {
 
 /// A source whose trajectories have one frame at a time.
 ///
-/// A trajectory is a file of several frames: XYZ, PDB with several models, GRO, or a LAMMPS dump. It is
+/// A trajectory is a file of several frames: XYZ, PDB with several models, GRO, a LAMMPS dump, or a DCD. It is
 /// looked through once, where its frames begin is kept, and then each is read by itself; files of one
 /// frame, and all others, are read as they are. Bonds that are found by covalent radii are those of the
 /// first frame that is read, as long as the atoms are the same.
@@ -159,7 +161,7 @@ impl<'a> Frames<'a> {
                 return state.fault.take().map_or(Ok(vec![0]), |fault| Err(Box::new(fault)));
             }
             let message = "no file that is read has several frames";
-            let help = "frames are read of XYZ, PDB, GRO and LAMMPS dump files";
+            let help = "frames are read of XYZ, PDB, GRO, LAMMPS dump and DCD files";
             return Err(Box::new(Diagnostic::error(message, None).with_help(help)));
         };
         let end = end.map_or(count, |end| end.min(count));
@@ -174,7 +176,7 @@ impl<'a> Frames<'a> {
     fn look_through(&self, path: &str, state: &mut State) -> io::Result<Option<Trajectory>> {
         let given = state.given.as_ref().filter(|(of, _)| of == path).map(|(_, format)| *format);
         let format = given.or_else(|| Format::of_file(path, &self.source));
-        let kinds = [Format::Xyz, Format::Pdb, Format::Gro, Format::Lammps];
+        let kinds = [Format::Xyz, Format::Pdb, Format::Gro, Format::Lammps, Format::Trajectory];
         let Some(format) = format.filter(|format| kinds.contains(format)) else { return Ok(None) };
         let blob: Arc<dyn Blob> = Arc::from(self.source.open(path)?);
         let FrameRange { start, end, step } = self.range;
@@ -221,6 +223,10 @@ impl State {
             let Some((sections, trajectory)) = sections_of(&span.place.file) else { continue };
             any = true;
             let place = &mut span.place;
+            // A binary file has no lines.
+            if place.line == 0 && sections.iter().all(|section| section.lines == 0) {
+                continue;
+            }
             place.column = place.column.max(1);
             place.line = line_of(match place.line {
                 // The frame as a whole.
@@ -245,8 +251,9 @@ impl Trajectory {
     /// What is read of the file for it.
     fn sections(&self, range: FrameRange, number: u64) -> Option<Vec<Section>> {
         let frame = self.frame(range, number)?;
-        let Around { head, tail } = self.around;
-        Some(head.into_iter().chain([frame]).chain(tail).collect())
+        let Around { head, tail, first } = self.around;
+        let first = first.filter(|first| *first != frame);
+        Some(head.into_iter().chain(first).chain([frame]).chain(tail).collect())
     }
 }
 

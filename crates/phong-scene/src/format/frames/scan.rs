@@ -3,6 +3,7 @@
 
 use std::io;
 
+use crate::format::dcd::{Fault, Header};
 use crate::format::lammps::is_dump;
 use crate::format::table::Format;
 use crate::source::Blob;
@@ -40,6 +41,8 @@ pub(super) struct Broken {
 pub(super) struct Around {
     pub(super) head: Option<Section>,
     pub(super) tail: Option<Section>,
+    /// The first frame, where others are told by it.
+    pub(super) first: Option<Section>,
 }
 
 /// Finds the frames of a file, and hands them over in order, until `take` says `false`. A file that is no
@@ -55,6 +58,7 @@ pub(super) fn scan(
         Format::Gro => counted(&mut lines, true, take),
         Format::Pdb => models(&mut lines, take),
         Format::Lammps => time_steps(&mut lines, take),
+        Format::Trajectory => of_dcd(blob, take),
         _ => Ok(Ok(Around::default())),
     }
 }
@@ -175,6 +179,30 @@ fn time_steps(
     }
     let _ = step.is_some_and(take);
     Ok(Ok(Around::default()))
+}
+
+/// Frames of a DCD file, which are where its header says.
+fn of_dcd(
+    blob: &dyn Blob,
+    take: &mut dyn FnMut(Section) -> bool,
+) -> io::Result<Result<Around, Broken>> {
+    let header = match Header::read(blob) {
+        Ok(header) => header,
+        Err(Fault::Io(error)) => return Err(error),
+        // The reader says it.
+        Err(Fault::Broken(_)) => return Ok(Ok(Around::default())),
+    };
+    let bytes = |start, end| Section { start, end, line: 0, lines: 0 };
+    let first = bytes(header.start, header.start + header.first_bytes());
+    let mut next = first;
+    for _ in 0..header.count(blob.len()) {
+        if !take(next) {
+            break;
+        }
+        next = bytes(next.end, next.end + header.other_bytes());
+    }
+    let first = header.has_fixed().then_some(first);
+    Ok(Ok(Around { head: Some(bytes(0, header.start)), tail: None, first }))
 }
 
 impl Section {

@@ -88,6 +88,10 @@ fn atoms(
         Table { blob, file, limits, start, line, count: Some(count), layout, shares: false };
     let (mut molecule, _) = table.read(findings)?;
     molecule.cell = header.cell();
+    if input.drawing.is_some_and(|drawing| drawing.trajectory.is_some()) {
+        // A trajectory has the atoms in the order of their numbers.
+        molecule.sort_by_column("id");
+    }
     if let Some(masses) = section("Masses") {
         give_elements(&mut molecule, &rows::<2>(blob, masses, header.types)?);
     }

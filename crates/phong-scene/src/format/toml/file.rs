@@ -282,7 +282,7 @@ impl Reader<'_> {
                     "{format} scenes are no part of another scene; `phong convert` makes a .toml"
                 )
             }
-            Named::Refused(format) => format!("{format} files are programs, which are not read"),
+            Named::Refused(format) => format!("{format} files are not read as models"),
             Named::Unknown => {
                 format!("the name {} does not say what the file is", wording::path(&name))
             }

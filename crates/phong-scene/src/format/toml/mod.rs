@@ -30,7 +30,9 @@ mod value;
 pub(crate) mod write;
 
 use crate::change::Change;
-use crate::format::input::{Input, Models};
+use crate::diagnostic::Diagnostic;
+use crate::format::input::{Input, Models, ReadModel};
+use crate::fragment::Fragment;
 use crate::scene::Reading;
 
 /// Reads a scene and what it includes.
@@ -48,4 +50,19 @@ pub(crate) fn read(input: &Input<'_>, models: &'static Models) -> Reading {
             Reading { diagnostics: vec![text::unreadable(path, &message)], ..Reading::default() }
         }
     }
+}
+
+/// Reads a bare file of atoms as a `[[molecule]]` that has nothing but this file, and over which the input's changes
+/// lie; `None` if a diagnostic is an error.
+pub(crate) fn read_molecule(
+    input: &Input<'_>,
+    read: ReadModel,
+    models: &'static Models,
+    out: &mut Vec<Diagnostic>,
+) -> Option<Fragment> {
+    let Input { source, limits, changes, topology, .. } = *input;
+    let values: Vec<String> = changes.iter().map(Change::document).collect();
+    let mut reader = reader::Reader::new(source, limits, models);
+    reader.topology = topology;
+    reader.bare_molecule(input, read, changes, &values, out)
 }

@@ -1,20 +1,29 @@
 //! `[[molecule]]`: the atoms of a file, as its keys say.
 
+use std::sync::Arc;
+
+use super::change::Changes;
 use super::draft::Part;
+use super::path::join;
 use super::reader::Reader;
+use super::syntax;
 use super::table::Values;
+use super::text::{Spot, Text};
+use crate::change::{Change, toml_string};
 use crate::diagnostic::Diagnostic;
-use crate::format::input::Input;
+use crate::format::input::{Input, ReadModel};
+use crate::fragment::Fragment;
+use crate::keys;
 use crate::molecule::{Arrows, ColorMap, Drawing, Images, Selection, Spans, Style};
 use crate::wording::{self, Word};
 
 /// Cells along an edge, at most.
 const MOST_CELLS: f64 = 1000.0;
 
-impl Reader<'_> {
+impl<'a> Reader<'a> {
     /// `[[molecule]]`: the atoms and bonds of its file.
     pub(super) fn molecule(&mut self, v: &Values, path: &str) -> Vec<Part> {
-        let drawing = self.drawing(v);
+        let drawing = self.drawing(v, path);
         let (Some((file, read)), Some(drawing)) = (self.reader_of(v, path), drawing) else {
             return Vec::new();
         };
@@ -35,9 +44,46 @@ impl Reader<'_> {
         self.parts(fragment, number, v, Some)
     }
 
+    /// The atoms of a bare file, drawn as these changes say; their values are in `values`.
+    pub(super) fn bare_molecule(
+        mut self,
+        input: &Input<'_>,
+        read: ReadModel,
+        changes: &'a [Change],
+        values: &'a [String],
+        out: &mut Vec<Diagnostic>,
+    ) -> Option<Fragment> {
+        let path = input.path;
+        let name = path.rsplit(['/', '\\']).next().unwrap_or(path);
+        let text = format!("file = {}", toml_string(name));
+        let number = self.notes.add(Arc::new(Text::new(path.into(), text.clone(), Vec::new())));
+        self.changes = Changes::new(changes, values, &mut self.notes);
+        let mut mended = String::new();
+        let document = syntax::parse(&text, number, &mut mended, &mut self.notes);
+        let over = self.changes.over("molecule", &["1"]);
+        let spot = Spot::new(number, 0..0);
+        let table = document.get_ref();
+        let v = Values::read_changed(&keys::MOLECULE, table, spot, &over, &mut self.notes);
+        let others = ["file", "name", "material", "scale", "rotate", "translate", "matrix"];
+        for key in others.into_iter().filter(|key| over.iter().any(|l| l.target.key.name == *key)) {
+            let message = format!("`{key}` means nothing to a bare model");
+            self.notes.error(v.spot_of(key), message).help =
+                Some("write a scene that names the file in a `[[molecule]]`".to_owned());
+        }
+        let drawing = self.drawing(&v, path);
+        let mut said = Vec::new();
+        let drawing = drawing.filter(|_| !self.notes.has_errors());
+        let found = drawing.and_then(|drawing| {
+            read(&Input { drawing: Some(&drawing), changes: &[], ..*input }, &mut said)
+        });
+        out.extend(self.notes.into_diagnostics());
+        out.append(&mut said);
+        found
+    }
+
     /// How the keys say that atoms are drawn; `None`: something is wrong with them, which has been
     /// said.
-    fn drawing(&mut self, v: &Values) -> Option<Drawing> {
+    fn drawing(&mut self, v: &Values, path: &str) -> Option<Drawing> {
         let mut sound = true;
         let span =
             |key: &str, notes: &super::notes::Notes| v.has(key).then(|| notes.span(v.spot_of(key)));
@@ -45,6 +91,7 @@ impl Reader<'_> {
             select: span("select", &self.notes),
             color_by: span("color_by", &self.notes),
             radius_by: span("radius_by", &self.notes),
+            trajectory: span("trajectory", &self.notes),
             style: span("style", &self.notes),
             vectors: span("vectors", &self.notes),
             images: span("images", &self.notes).or_else(|| span("image_layer", &self.notes)),
@@ -122,6 +169,7 @@ impl Reader<'_> {
             radius: number("radius"),
             radius_scale: number("radius_scale").unwrap_or(1.0),
             bond_radius: number("bond_radius"),
+            trajectory: v.text("trajectory").map(|name| join(path, &name)),
             vectors: columns.map(|columns| Arrows {
                 columns,
                 scale: number("vector_scale"),

@@ -46,7 +46,7 @@ pub(super) struct Reader<'a> {
     pub(super) models: &'static Models,
     pub(super) notes: Notes,
     /// What is laid over the text.
-    changes: Changes<'a>,
+    pub(super) changes: Changes<'a>,
     pub(super) image: Image,
     pub(super) camera: Option<Camera>,
     pub(super) ambient: Rgb,
