@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 import re
 from typing import Any
 
@@ -265,3 +266,37 @@ def test_later_changes_of_an_array_change_nothing() -> None:
     before = scene.digest()
     centers[:] = 7
     assert scene.digest() == before
+
+
+def test_fields_of_points_are_shown_by_maps_and_stay_with_them() -> None:
+    heat = phong.Texture("heat", kind="map", of="T", stops=[(0, 0), (1, 1)])
+    material = phong.Material(color=heat, k_a=1, k_d=0, k_s=0)
+    scene = phong.Scene(phong.Camera(eye=(0, 0, 9), look_at=(0, 0, 0), fov=30))
+    centers = np.array([(-1, 0, 0), (1, 0, 0)])
+    part = scene.add_spheres(centers, 0.9, material=material, fields={"T": [10.0, 20.0]})
+
+    def seen() -> list[float]:
+        picture = np.asarray(phong.render(scene, size=(24, 12), samples=1))
+        return [float(picture[6, x, 0]) for x in (7, 16)]
+
+    # The range is that of the numbers.
+    assert seen() == [0.0, 1.0]
+    scene.update_spheres(part, fields={"T": [4, 3]})
+    assert seen() == [1.0, 0.0]
+    scene.update_spheres(part, centers=centers + 1e-3)
+    assert seen() == [1.0, 0.0]
+    assert pickle.loads(pickle.dumps(scene)).digest() == scene.digest()
+    with pytest.raises(ValueError, match="fields must be given"):
+        scene.update_spheres(part, centers=np.zeros((3, 3)))
+    with pytest.raises(ValueError, match=r'fields\["T"\]: fields must be one number'):
+        scene.add_spheres(centers, 1, fields={"T": [1, 2, 3]})
+    rods = scene.add_cylinders(np.zeros((1, 3)), np.eye(1, 3), 0.1, fields={"T": [[3, 4]]})
+    scene.remove(rods)
+
+
+def test_a_map_of_what_points_have_not_is_refused() -> None:
+    cold = phong.Texture("cold", kind="map", of="S", stops="viridis")
+    scene = phong.Scene()
+    scene.add_mesh(np.eye(3), [[0, 1, 2]], material=phong.Material(color=cold), fields={"T": 1.0})
+    with pytest.raises(phong.SceneError, match="cold"):
+        phong.render(scene, size=(4, 4), samples=1)

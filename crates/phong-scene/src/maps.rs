@@ -6,9 +6,9 @@ use glam::{DAffine3, DVec3};
 
 use crate::bounds::Bounds;
 use crate::color::Rgb;
-use crate::diagnostic::{Diagnostic, Place, Span};
+use crate::diagnostic::{Diagnostic, Place, Severity, Span};
 use crate::furniture::Legend;
-use crate::material::MaterialId;
+use crate::material::{Material, MaterialId};
 use crate::mesh::Field;
 use crate::scene::{Object, Scene};
 use crate::shape::Shape;
@@ -39,7 +39,7 @@ impl Scene {
         let used: BTreeSet<u32> = self
             .materials
             .iter()
-            .flat_map(|material| material.textured())
+            .flat_map(Material::textured)
             .map(|(_, by)| by.texture.0)
             .collect();
         used.into_iter().filter_map(|number| self.color_scale(number)).collect()
@@ -261,7 +261,17 @@ pub(crate) fn check(scene: &Scene, say: &mut dyn FnMut(Diagnostic)) {
                     "the texture {called} shows the property {name}, which no points have that it is on: {objects}"
                 );
                 let help = "properties are those of the vertices of PLY files; or one of `height`, `radius`, `x`, `y`, `z`, `depth` and `normal`";
-                say(Diagnostic::error(message, at(&texture.place)).with_help(help));
+                // Solids have none anyway; a file that was to bring some is a mistake.
+                let is_of_file = |object: &Object| {
+                    matches!(object.shape, Shape::Mesh(_) | Shape::Points(_) | Shape::Cylinders(_))
+                };
+                let severity = if users.objects().any(is_of_file) {
+                    Severity::Error
+                } else {
+                    Severity::Warning
+                };
+                let told = Diagnostic::warning(message, at(&texture.place)).with_help(help);
+                say(Diagnostic { severity, ..told });
                 continue;
             }
             if !without.is_empty() {

@@ -51,21 +51,31 @@ impl Scene {
         let name = said.name.clone().unwrap_or_else(|| "material".to_owned());
         let mut text = Text::default();
         let table = text.table(&said.keys)?;
-        if table.values().any(Value::is_table) {
+        let is_textured = table.values().any(Value::is_table);
+        if is_textured {
             let known = self.text()?.remove("textures");
             if let Some(Value::Table(known)) = known {
                 text.know_textures(known, &table);
             }
         }
         text.name("materials", &name, table);
-        // Something is made of it, or it would be told as unused.
-        let ball = [
-            ("center", Value::Array(vec![0.0.into(); 3])),
-            ("radius", 1.0.into()),
-            ("material", name.clone().into()),
-        ];
-        text.push("sphere", Table::from_iter(ball.map(|(key, value)| (key.to_owned(), value))));
-        let (read, warnings) = text.read(py, "Material", &Folder)?;
+        // Something is made of it, or it would be told as unused: of textures something that has no numbers
+        // for maps to find, which are those of the objects it will be of.
+        let origin = || Value::Array(vec![0.0.into(); 3]);
+        let (kind, shape) = if is_textured {
+            let up = Value::Array(vec![0.0.into(), 1.0.into(), 0.0.into()]);
+            ("plane", [("point", origin()), ("normal", up), ("material", name.clone().into())])
+        } else {
+            let radius = 1.0.into();
+            (
+                "sphere",
+                [("center", origin()), ("radius", radius), ("material", name.clone().into())],
+            )
+        };
+        text.push(kind, Table::from_iter(shape.map(|(key, value)| (key.to_owned(), value))));
+        let (read, mut warnings) = text.read(py, "Material", &Folder)?;
+        // What maps find is told when the scene is checked.
+        warnings.retain(|warning| !warning.message.starts_with("the texture "));
         let material = read.materials.into_iter().find(|material| material.name == name);
         Ok((material.unwrap_or_default(), read.textures, warnings))
     }

@@ -40,14 +40,18 @@ pub fn batch_schema_json() -> String {
 
 /// A table: its keys and no others, and which of them go with which kind.
 fn object(table: &Table) -> Map<String, Value> {
-    let mut properties = Map::new();
+    let mut values: Vec<(&str, Vec<Value>)> = Vec::new();
     for key in table.keys() {
-        let schema = value(key);
-        match properties.get_mut(key.name) {
-            // The same name for other kinds: either will do here, the conditions below tell.
-            Some(known) => *known = json!({ "anyOf": [known.take(), schema] }),
-            None => drop(properties.insert(key.name.into(), schema)),
+        match values.iter_mut().find(|(name, _)| *name == key.name) {
+            Some((_, known)) => known.push(value(key)),
+            None => values.push((key.name, vec![value(key)])),
         }
+    }
+    let mut properties = Map::new();
+    for (name, mut all) in values {
+        // The same name for other kinds: any will do here, the conditions below tell.
+        let schema = if all.len() == 1 { all.swap_remove(0) } else { json!({ "anyOf": all }) };
+        properties.insert(name.into(), schema);
     }
     let mut schema = Map::new();
     schema.insert("type".into(), json!("object"));

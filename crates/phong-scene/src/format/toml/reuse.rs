@@ -6,12 +6,14 @@ use crate::format::input::Wanted;
 use crate::fragment::Fragment;
 use crate::mesh::{Mesh, Shared};
 
+/// A lexically normal path, what was wanted and how many fields were, and the bits of the radius of what
+/// brings none.
+type Asked = (String, (Wanted, usize), Option<u32>);
+
 /// What was read of model files, and what was made of it.
 #[derive(Debug, Default)]
 pub(super) struct Models {
-    /// By lexically normal path, what was wanted and how many fields were, and the bits of the radius of
-    /// what brings none.
-    fragments: BTreeMap<(String, (Wanted, usize), Option<u32>), Fragment>,
+    fragments: BTreeMap<Asked, Fragment>,
     /// Meshes that were made smooth, with their normals.
     smooth: Vec<(Mesh, u64)>,
 }
