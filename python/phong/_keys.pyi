@@ -216,27 +216,56 @@ class Texture(Keys):
 
     ``kind``: What it is.
     ``colors``: A where ⌊x⌋ + ⌊y⌋ + ⌊z⌋ is even, B where it is odd; a coordinate less than 1e-4
-        below a border counts as above it.
-    ``scale``: Squares a unit. / First of its place: a factor, or one along each axis.
-    ``by``: What it runs by: the distance along `axis`, or that from the place where the texture
-        is. Default: "axis".
-    ``axis``: Along which it runs; any length. Default: [0.0, 1.0, 0.0].
+        below a border counts as above it. / That of the lines, and that of what is between
+        them. / A where the stripes are counted even from 0, B where odd; what is less than 1e-4
+        of a stripe below a border counts as above it.
+    ``scale``: Squares a unit. / How many cells, stripes, veins, rings or points a unit there
+        are. / First of its place: a factor, or one along each axis.
+    ``width``: How wide the lines are, in units; their middles are where a coordinate is a whole
+        number of cells. Default: 0.05.
+    ``axes``: Along which axes cells are counted; `auto`: x and z, as on a floor, and in `uv`
+        both. Default: "auto".
+    ``by``: What stripes are counted by: the distance along `axis`, or that from the place where
+        the texture is. / What t is: the distance to the nearest point in cells, how much
+        farther away the next one is (0 where two cells meet), or a number of each cell's own. /
+        What it runs by: the distance along `axis`, or that from the place where the texture is.
+    ``axis``: Across stripes and veins; any length. / About which the rings lie; any length. /
+        Along which heights are, and to which normals are held; any length. / Along which it
+        runs; any length.
+    ``turbulence``: How many veins they are moved by noise, about. / How many rings they are
+        moved by noise, about.
+    ``octaves``: How many noises are added up, each finer and weaker than the one before. / How
+        many noises are added up, each finer and weaker than the one before.
+    ``lacunarity``: How many times as fine each noise is as the one before. Default: 2.0.
+    ``gain``: How many times as strong. Default: 0.5.
+    ``stops``: As a gradient's: the colours that t runs through from 0 to 1. / The colours, a
+        colour map by name or a list as a gradient's; beyond the range they stay. / Its colours;
+        between two stops they run linearly, beyond the last they stay. A colour map has 33 of
+        them.
+    ``of``: Which number is shown: `height` (along `axis`), `radius` (from the place where the
+        texture is), `x`, `y`, `z`, `depth` (in front of the camera), `normal` (the cosine to
+        `axis`), or the name of a property that the vertices of a PLY file have.
+    ``range``: The numbers of the first colour and of the last; `auto`: the least and the
+        largest of what the map is on. Default: "auto".
+    ``nan``: The colour of what has no number. Default: 0.5.
+    ``unit``: The unit of the numbers, for legends.
+    ``seed``: Which of many textures that are alike. Default: 0.
     ``from_``: Where t is 0: a distance. Default: 0.0.
     ``to``: Where t is 1. Default: 1.0.
-    ``stops``: Its colours; between two stops they run linearly, beyond the last they stay. A
-        colour map has 33 of them.
     ``file``: The image: PNG, JPEG, Radiance HDR or OpenEXR. Its left edge lies at 0 of the
         first coordinate and its right edge at 1, its lower edge at 0 of the second and its
         upper edge at 1.
     ``wrap``: What is beside it: the image again, the image mirrored, its edge, or `border`.
         Default: "repeat".
+    ``wrap_v``: What is above and below it.
     ``border``: The colour beside it with `wrap = "border"`; its opacity is 0. Default: 0.0.
     ``tint``: What its colours are multiplied by. Default: 1.0.
     ``filter``: `nearest`: the pixel there; `linear`: between pixels; `auto`: that, and the mean
         of all that a sample of the picture covers. Default: "auto".
     ``encoding``: What its numbers mean; `auto`: colours of bytes and 16-bit numbers are sRGB,
         all else is linear. Default: "auto".
-    ``space``: The space it lies in. / The space it lies in; `object` and `world`: along z.
+    ``space``: The space it lies in. / The space it lies in; `object` and `world`: along z. /
+        The space that heights, radii and coordinates are in.
     ``rotate``: Turns it: right-handed about an axis; or a list of them, in order.
     ``translate``: Then: shifts it. Default: [0.0, 0.0, 0.0].
     ``matrix``: Instead of all that place it: four rows of four, for column vectors.
@@ -247,16 +276,28 @@ class Texture(Keys):
         called: str | None = None,
         /,
         *,
-        kind: Literal["checker", "gradient", "image"],
+        kind: Literal["checker", "gradient", "image", "map", "grid", "stripes", "noise", "marble", "wood", "cells"],
         colors: ArrayLike | None = None,
         scale: float | ArrayLike | None = None,
-        by: Literal["axis", "radius"] | None = None,
+        width: float | None = None,
+        axes: Literal["auto", "x", "y", "z", "xy", "xz", "yz", "xyz"] | None = None,
+        by: Literal["axis", "radius"] | Literal["distance", "border", "cell"] | None = None,
         axis: ArrayLike | None = None,
+        turbulence: float | None = None,
+        octaves: int | None = None,
+        lacunarity: float | None = None,
+        gain: float | None = None,
+        stops: Literal["viridis", "cividis", "plasma", "inferno", "magma", "turbo", "coolwarm"] | ArrayLike | None = None,
+        of: str | None = None,
+        range: Literal["auto"] | ArrayLike | None = None,
+        nan: _Color | None = None,
+        unit: str | None = None,
+        seed: int | None = None,
         from_: float | None = None,
         to: float | None = None,
-        stops: Literal["viridis", "cividis", "plasma", "inferno", "magma", "turbo", "coolwarm"] | ArrayLike | None = None,
         file: str | None = None,
         wrap: Literal["repeat", "mirror", "clamp", "border"] | None = None,
+        wrap_v: Literal["repeat", "mirror", "clamp", "border"] | None = None,
         border: _Color | None = None,
         tint: _Color | None = None,
         filter: Literal["auto", "nearest", "linear"] | None = None,
