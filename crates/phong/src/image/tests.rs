@@ -111,9 +111,8 @@ fn a_wide_png_has_every_row_with_and_without_alpha() {
     let (width, height) = (5000, 21);
     let picture: Vec<f32> = (0..3 * width * height).map(|i| (i % 1009) as f32 / 1008.0).collect();
     let size = [width as u32, height as u32];
-    let levels = |scale: f32| -> Vec<u8> {
-        picture.iter().map(|value| srgb_level(value * scale)).collect()
-    };
+    let levels =
+        |scale: f32| -> Vec<u8> { picture.iter().map(|value| srgb_level(value * scale)).collect() };
     let (info, data) = png_of(&film(size, &[(PICTURE, &picture)]), PICTURE, &Encoding::default());
     assert_eq!(info.color_type, ::png::ColorType::Rgb);
     assert_eq!(data, levels(1.0));
