@@ -97,6 +97,7 @@ def walk(browser, url, scene):
     page = context.new_page()
     page.on("pageerror", lambda error: faults.append(str(error)))
     page.on("console", lambda line: faults.append(line.text) if line.type == "error" else None)
+    page.on("dialog", lambda dialog: dialog.accept())  # another file is opened, unsaved as the text is
     page.goto(url)
     done(page)
     page.screenshot(path=SHOTS / "1-light.png")

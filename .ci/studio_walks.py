@@ -191,6 +191,58 @@ def files(walk):
     assert program.startswith("import phong\n") and 'phong.Scene.read("walk.toml")' in program, program
 
 
+def looks(walk):
+    """A look is put on by the keyboard, drawn with its lines as the program draws it, and taken back."""
+    page = walk.page
+    walk.newer(lambda: page.select_option("#look", "ink"))
+    written = walk.written()
+    assert "[outline]" in written and "shininess = 60   # a dull plastic" not in written, written
+    kept = [line for line in walk.text.splitlines() if "center" in line or line.startswith("#")]
+    assert all(line in written for line in kept), written
+    assert page.locator("#unsaved").is_visible()
+    walk.shot("14-ink")
+    with page.expect_download() as download:
+        page.click("#png")
+    download.value.save_as(walk.shots / "ink.png")
+    subprocess.run([walk.phong, "render", walk.scene, "--look", "ink", "-o", walk.shots / "ink-rendered.png", "--quiet"], check=True)
+    assert (walk.shots / "ink.png").read_bytes() == (walk.shots / "ink-rendered.png").read_bytes(), "not the program's ink"
+    walk.newer(lambda: page.keyboard.press("Control+z"))
+    assert walk.written() == walk.text
+    assert page.locator("#unsaved").is_hidden()
+    walk.start()
+
+
+def saving(walk):
+    """The text is saved in its file; what somebody else writes there is told, and taken or written over."""
+    page = walk.page
+    number = page.locator('input[type="number"][aria-label^="materials.plastic.shininess"]')
+    walk.newer(lambda: number.fill("21") or page.keyboard.press("Enter"))
+    assert page.locator("#unsaved").is_visible() and page.title().startswith("•")
+    page.keyboard.press("Control+s")
+    walk.wait("document.getElementById('unsaved').hidden")
+    assert walk.scene.read_text() == walk.written() != walk.text
+    # Somebody else writes: the page says so by itself, and takes it; that is undone, too.
+    theirs = walk.text.replace("shininess = 60", "shininess = 7")
+    walk.scene.write_text(theirs)
+    walk.wait("!document.getElementById('changed').hidden", 20)
+    walk.shot("15-changed")
+    walk.newer(lambda: page.locator("#changed button").first.click())
+    assert walk.written() == theirs and page.locator("#unsaved").is_hidden()
+    # Nothing is written over what somebody else has written without asking.
+    walk.newer(lambda: number.fill("8") or page.keyboard.press("Enter"))
+    walk.scene.write_text(walk.text)
+    page.keyboard.press("Control+s")
+    walk.wait("!document.getElementById('changed').hidden", 20)
+    assert walk.scene.read_text() == walk.text
+    page.locator("#changed button").nth(1).click()
+    walk.wait("document.getElementById('changed').hidden")
+    assert "shininess = 8 " in walk.scene.read_text()
+    walk.scene.write_text(walk.text)
+    walk.wait("!document.getElementById('changed').hidden", 20)
+    walk.newer(lambda: page.locator("#changed button").first.click())
+    walk.start()
+
+
 def teaching(walk):
     """A mistake is found, and a picture that is dropped on the page is graded."""
     page = walk.page
@@ -241,7 +293,7 @@ def manners(walk):
     for _ in range(400):
         page.keyboard.press("Tab")
         reached.add(page.evaluate("document.activeElement.id || document.activeElement.dataset.path || ''"))
-    missed = {"file", "frame", "stop", "png", "text", "x", "follow", "sphere.1.center"} - reached
+    missed = {"file", "look", "frame", "stop", "png", "text", "x", "follow", "sphere.1.center"} - reached
     assert not missed, f"not reached by Tab: {missed}"
     for scheme in ["light", "dark"]:
         page.emulate_media(color_scheme=scheme)
@@ -285,7 +337,7 @@ CONTRAST = """(() => {
     return faint;
 })()"""
 
-ALL = [writing, typing, handles, seeing, files, teaching, manners]
+ALL = [writing, typing, handles, seeing, files, looks, saving, teaching, manners]
 
 
 def pictures_a_second(page, seconds=3):

@@ -13,6 +13,7 @@ export class OpenFile {
     Object.assign(this, { send, text, said, download });
     this.button = document.getElementById("save-file");
     this.mark = document.getElementById("unsaved");
+    this.hint = document.getElementById("once-saved");
     this.notice = document.getElementById("changed");
     this.saves = false;
     this.start(null, null);
@@ -44,7 +45,7 @@ export class OpenFile {
   // Marks whether there is something to save.
   show() {
     const unsaved = this.unsaved;
-    this.mark.hidden = !unsaved;
+    this.mark.hidden = this.hint.hidden = !unsaved;
     this.button.disabled = !unsaved;
     document.title = `${unsaved ? "• " : ""}${this.path ? `${this.path} – ` : ""}${words.title}`;
   }

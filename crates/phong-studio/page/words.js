@@ -18,6 +18,7 @@ export const words = {
   saveFile: "Save",
   saveFileHelp: "Writes the text into the file that it was opened from (Ctrl and S).",
   unsaved: "not saved",
+  onceSaved: "The command draws the file, so save the text first.",
   saved: (path) => `${path} is saved.`,
   taken: "The text is that of the file.",
   leaveUnsaved: (path) => `The text of ${path} is not saved. Open another file all the same?`,
