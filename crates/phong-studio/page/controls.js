@@ -9,6 +9,9 @@ const REACH = { shininess: 200, k_a: 1, k_d: 1, k_s: 2, k_e: 2, fov: 120, sample
 // Keys that have no slider here: they are set by turning, or in the text.
 const LEFT_OUT = new Set(["eye", "look_at", "up", "size", "seed", "name", "attenuation"]);
 
+// Tables that have controls where the scene has them.
+const WHERE_THERE = ["ambient_occlusion", "sky", "fog", "outline", "tone", "title", "scale_bar", "axes", "legend"];
+
 export class Controls {
   // `set` is called while a value is moved, `keep` when it is let go of.
   constructor(root, { set, keep }) {
@@ -56,7 +59,7 @@ export class Controls {
       ...list("materials", words.groups.materials),
       ...list("light", words.groups.light),
       one("ambient", words.groups.ambient),
-      ...(values.ambient_occlusion ? [one("ambient_occlusion", words.groups.ambient_occlusion)] : []),
+      ...WHERE_THERE.filter((name) => values[name] && table(name)).map((name) => one(name, words.groups[name])),
       one("camera", words.groups.camera),
       one("image", words.groups.image),
     ];

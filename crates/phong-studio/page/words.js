@@ -24,6 +24,7 @@ export const words = {
   leaveUnsaved: (path) => `The text of ${path} is not saved. Open another file all the same?`,
   fileChanged: (path) => `Somebody else has changed ${path} since it was opened here.`,
   fileGone: (path) => `${path} is no longer there, or cannot be read.`,
+  changed: "The file has changed",
   takeFile: "Take the file",
   saveOver: "Save over it",
   later: "Later",
@@ -122,7 +123,7 @@ export const words = {
   done: (samples) => `Done: ${samples} samples a pixel`,
   stopped: "Stopped",
   broken: "The text cannot be drawn as it is; the picture is the last that could.",
-  groups: { image: "Picture", camera: "Camera", ambient: "Ambient light", ambient_occlusion: "Ambient occlusion", light: "Light", materials: "Material" },
+  groups: { image: "Picture", camera: "Camera", ambient: "Ambient light", ambient_occlusion: "Ambient occlusion", sky: "Sky", fog: "Fog", outline: "Lines", tone: "Tone", title: "Title", scale_bar: "Scale bar", axes: "Axes", legend: "Legend", light: "Light", materials: "Material" },
 };
 
 // Puts the words in their places.
