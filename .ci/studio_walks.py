@@ -224,6 +224,7 @@ def saving(walk):
     # Somebody else writes: the page says so by itself, and takes it; that is undone, too.
     theirs = walk.text.replace("shininess = 60", "shininess = 7")
     walk.scene.write_text(theirs)
+    page.evaluate("dispatchEvent(new Event('focus'))")  # it looks every few seconds, and when it is come back to
     walk.wait("!document.getElementById('changed').hidden", 20)
     walk.shot("15-changed")
     walk.newer(lambda: page.locator("#changed button").first.click())
@@ -238,6 +239,7 @@ def saving(walk):
     walk.wait("document.getElementById('changed').hidden")
     assert "shininess = 8 " in walk.scene.read_text()
     walk.scene.write_text(walk.text)
+    page.evaluate("dispatchEvent(new Event('focus'))")
     walk.wait("!document.getElementById('changed').hidden", 20)
     walk.newer(lambda: page.locator("#changed button").first.click())
     walk.start()
