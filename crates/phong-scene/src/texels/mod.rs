@@ -169,6 +169,31 @@ impl Texels {
         }
     }
 
+    /// [`Texels::get`] of four pixels, in the upper row from the left, then in the lower one.
+    ///
+    /// # Panics
+    /// If there is no such pixel.
+    #[inline]
+    pub fn four(&self, [left, right]: [u32; 2], rows: [u32; 2], srgb: bool) -> [[f32; 4]; 4] {
+        let [upper, lower] = rows;
+        let TexelValues::Bytes(values) = &self.values else {
+            let [a, b] = [self.get([left, upper], srgb), self.get([right, upper], srgb)];
+            return [a, b, self.get([left, lower], srgb), self.get([right, lower], srgb)];
+        };
+        // Most images: the kind of their numbers is asked for once, and not for each pixel.
+        let tables = decoded();
+        let (color, plain) = (&tables.bytes[usize::from(srgb)], &tables.bytes[0]);
+        let [upper, lower] = [upper, lower].map(|y| y as usize * self.size[0] as usize);
+        let [left, right] = [left as usize, right as usize];
+        [upper + left, upper + right, lower + left, lower + right].map(|pixel| {
+            let at = pixel * self.channels;
+            Self::pixel(&values[at..][..self.channels], |byte, is_color| {
+                let table = if is_color { color } else { plain };
+                table[usize::from(byte)]
+            })
+        })
+    }
+
     #[inline]
     fn pixel<T: Copy>(of: &[T], value: impl Fn(T, bool) -> f32) -> [f32; 4] {
         match *of {

@@ -24,7 +24,7 @@ impl Geometry {
     /// # Panics
     /// If `hit` is none.
     pub fn uv_changes(&self, ray: &Ray, hit: &Hit, along: [DVec3; 2]) -> [DVec2; 2] {
-        let [Some(a), Some(b)] = along.map(|along| self.weights_change(hit, along)) else {
+        let Some([a, b]) = self.weights_changes(hit, along) else {
             return self.measured(ray, hit, along);
         };
         let corners = self.corners(hit.part, hit.prim);
@@ -34,23 +34,29 @@ impl Geometry {
         }
     }
 
-    /// How the weights of a triangle's second and third corner change along a vector; `None`: it is none.
-    fn weights_change(&self, hit: &Hit, along: DVec3) -> Option<DVec2> {
+    /// How the weights of a triangle's second and third corner change along two vectors; `None`: it is none.
+    fn weights_changes(&self, hit: &Hit, along: [DVec3; 2]) -> Option<[DVec2; 2]> {
         match self.world.primitives(hit.part) {
             Primitives::Triangles { positions, indices } => {
                 let at = |i: u32| positions[i as usize].as_dvec3();
                 let [a, b, c] = indices[hit.prim as usize].map(at);
                 let (ab, ac) = (b - a, c - a);
                 let bulk = self.batch(hit.part).is_bulk();
-                let along = if bulk { self.own_vector(hit, along) } else { along };
                 let (bb, bc, cc) = (ab.dot(ab), ab.dot(ac), ac.dot(ac));
-                let (b, c) = (ab.dot(along), ac.dot(along));
-                let change = DVec2::new(cc * b - bc * c, bb * c - bc * b) / (bb * cc - bc * bc);
-                Some(if change.is_finite() { change } else { DVec2::ZERO })
+                let area = bb * cc - bc * bc;
+                Some(along.map(|along| {
+                    let along = if bulk { self.own_vector(hit, along) } else { along };
+                    let (b, c) = (ab.dot(along), ac.dot(along));
+                    let change = DVec2::new(cc * b - bc * c, bb * c - bc * b) / area;
+                    if change.is_finite() { change } else { DVec2::ZERO }
+                }))
             }
             Primitives::Solid(solid) if solid.shape == Canonical::Triangle => {
-                let change = (solid.to_world.matrix3.inverse() * along).truncate();
-                Some(if change.is_finite() { change } else { DVec2::ZERO })
+                let to_own = solid.to_world.matrix3.inverse();
+                Some(along.map(|along| {
+                    let change = (to_own * along).truncate();
+                    if change.is_finite() { change } else { DVec2::ZERO }
+                }))
             }
             _ => None,
         }

@@ -63,7 +63,8 @@ impl Geometry {
 
 fn made(positions: &[Vec3], indices: &[[u32; 3]], mesh: &MeshAttributes) -> Tangents {
     let none = vec![[[0.0; 4]; 3]; indices.len()];
-    let mut corners = Corners { positions, indices, mesh, out: none };
+    let units = mesh.normals.iter().map(|n| n.try_normalize().unwrap_or(Vec3::ZERO)).collect();
+    let mut corners = Corners { positions, indices, mesh, units, out: none };
     // It has no way to fail.
     let _ = bevy_mikktspace::generate_tangents(&mut corners);
     corners.out
@@ -74,6 +75,8 @@ struct Corners<'a> {
     positions: &'a [Vec3],
     indices: &'a [[u32; 3]],
     mesh: &'a MeshAttributes,
+    /// The mesh's normals, each made unit once, for each is asked for many times; 0 where it has no direction.
+    units: Vec<Vec3>,
     out: Tangents,
 }
 
@@ -104,10 +107,9 @@ impl bevy_mikktspace::Geometry<SameEverywhere> for Corners<'_> {
     }
 
     fn normal(&self, face: usize, corner: usize) -> [f32; 3] {
-        let MeshAttributes { normals, normal_indices, .. } = self.mesh;
         let corners = self.indices[face];
-        let own = at_corners(normals, normal_indices, face as u32, corners);
-        let own = own.and_then(|normals| normals[corner].try_normalize());
+        let own = at_corners(&self.units, &self.mesh.normal_indices, face as u32, corners);
+        let own = own.map(|normals| normals[corner]).filter(|normal| *normal != Vec3::ZERO);
         let flat = || {
             let [a, b, c] = corners.map(|i| self.positions[i as usize]);
             (b - a).cross(c - a).normalize_or(Vec3::Z)

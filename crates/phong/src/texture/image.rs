@@ -96,8 +96,7 @@ impl ImageTexture {
             let place = at + along * ((f64::from(tap) + 0.5) / f64::from(taps) - 0.5);
             let mut value = self.between(near, place, srgb);
             if part > 0.0 {
-                let further = self.between(far, place, srgb);
-                value = std::array::from_fn(|c| value[c] + part * (further[c] - value[c]));
+                value = mix(value, self.between(far, place, srgb), part);
             }
             sum = std::array::from_fn(|c| sum[c] + value[c]);
         }
@@ -139,24 +138,27 @@ impl ImageTexture {
 
     fn nearest(&self, at: DVec2, srgb: bool) -> [f32; 4] {
         let place = at * DVec2::from(self.texels.size().map(f64::from));
-        self.texel(&self.texels, [place.x, place.y].map(|x| x.floor() as i64), srgb)
+        self.texel(&self.texels, [place.x, place.y].map(|x| whole(x) as i64), srgb)
     }
 
     /// The value between the four pixels about a place.
     fn between(&self, texels: &Texels, at: DVec2, srgb: bool) -> [f32; 4] {
-        let place = at * DVec2::from(texels.size().map(f64::from)) - 0.5;
-        let corner = place.floor();
+        let [width, height] = texels.size();
+        let place = at * DVec2::new(f64::from(width), f64::from(height)) - 0.5;
+        let corner = DVec2::new(whole(place.x), whole(place.y));
         let part = (place - corner).as_vec2();
         let [x, y] = [corner.x as i64, corner.y as i64];
-        let texel = |right: i64, down: i64| {
-            self.texel(texels, [x.saturating_add(right), y.saturating_add(down)], srgb)
+        let [right, lower] = [x.saturating_add(1), y.saturating_add(1)];
+        let column = |x: i64| wrapped(x, width, self.wrap[0]);
+        let row = |y: i64| wrapped(y, height, self.wrap[1]);
+        let [a, b, c, d] = match (column(x), column(right), row(y), row(lower)) {
+            (Some(x), Some(right), Some(y), Some(lower)) => {
+                texels.four([x, right], [y, lower], srgb)
+            }
+            _ => [[x, y], [right, y], [x, lower], [right, lower]]
+                .map(|place| self.texel(texels, place, srgb)),
         };
-        let mix = |a: [f32; 4], b: [f32; 4], part: f32| -> [f32; 4] {
-            std::array::from_fn(|c| a[c] + part * (b[c] - a[c]))
-        };
-        let upper = mix(texel(0, 0), texel(1, 0), part.x);
-        let lower = mix(texel(0, 1), texel(1, 1), part.x);
-        mix(upper, lower, part.y)
+        mix(mix(a, b, part.x), mix(c, d, part.x), part.y)
     }
 
     /// A pixel of the image or beside it.
@@ -167,6 +169,25 @@ impl ImageTexture {
             _ => self.border,
         }
     }
+}
+
+/// From `a` towards `b`, a part of the way.
+#[inline(always)]
+fn mix(a: [f32; 4], b: [f32; 4], part: f32) -> [f32; 4] {
+    std::array::from_fn(|c| a[c] + part * (b[c] - a[c]))
+}
+
+/// The largest whole number that is not above `x`, which is finite: `f64::floor`, which is a call where the
+/// processor is not known to have an instruction for it.
+#[inline(always)]
+fn whole(x: f64) -> f64 {
+    /// From here on all numbers are whole.
+    const ALL_WHOLE: f64 = (1_u64 << 52) as f64;
+    if x.abs() >= ALL_WHOLE {
+        return x;
+    }
+    let toward_zero = x as i64 as f64;
+    if toward_zero > x { toward_zero - 1.0 } else { toward_zero }
 }
 
 /// How a footprint is covered.
@@ -185,6 +206,8 @@ fn wrapped(i: i64, count: u32, wrap: Wrap) -> Option<u32> {
     let n = i64::from(count);
     Some(match wrap {
         _ if (0..n).contains(&i) => i,
+        // Without a division where it does.
+        Wrap::Repeat if count.is_power_of_two() => i & (n - 1),
         Wrap::Repeat => i.rem_euclid(n),
         Wrap::Mirror => {
             let i = i.rem_euclid(2 * n);
@@ -292,6 +315,14 @@ mod tests {
         assert_eq!(image.look_up(narrow), ImageLookUp { level: 0.0, taps: 1 });
         let long = [side(1.0, 0.0), side(0.0, 0.25)];
         assert_eq!(image.look_up(long), ImageLookUp { level: 1.0, taps: 4 });
+    }
+
+    #[test]
+    fn the_largest_whole_number_below_is_that_of_the_standard_library() {
+        let far = (1_u64 << 52) as f64;
+        for x in [0.0, 0.5, 1.0, 2.999, 1e9 + 0.5, far - 0.5, far, far + 1.0, 1e300] {
+            assert_eq!([whole(x), whole(-x)], [x.floor(), (-x).floor()], "{x}");
+        }
     }
 
     #[test]
