@@ -264,7 +264,8 @@ impl Light {
         let aim = match (self.rectangle(), place) {
             (_, None) => Aim::Middle,
             (Some(rectangle), Some([u, v])) => {
-                let [u, v] = [u, v].map(|place| f32x8::load_array_ref(simd, place).widen());
+                let u = f32x8::load_array_ref(simd, u).widen();
+                let v = f32x8::load_array_ref(simd, v).widen();
                 let low = rectangle.choose(low, [u.0, v.0]);
                 Aim::Way(narrow(low, rectangle.choose(high, [u.1, v.1])))
             }
@@ -307,29 +308,27 @@ impl Light {
     #[inline(always)]
     fn arrive<F: Lanes<Scalar = f32>>(&self, mut toward: [F; 3], aim: Aim<F>) -> Reach<[F; 3], F> {
         let width = toward[0];
-        let like = |v: f32| width.splat(v);
-        let all = |v: [f32; 3]| splat3(width, v);
         match &self.kind {
             Kind::Distant { to_light, half_angle_tan } => {
-                let mut l = all(to_light.to_array());
+                let mut l = splat3(width, to_light.to_array());
                 if let Aim::Place(place) = aim {
-                    l = normalize(add(l, across(like(*half_angle_tan), l, place)));
+                    l = normalize(add(l, across(width.splat(*half_angle_tan), l, place)));
                 }
-                Reach { l, distance: like(f32::INFINITY), share: like(1.0) }
+                Reach { l, distance: width.splat(f32::INFINITY), share: width.splat(1.0) }
             }
             Kind::Point { attenuation, radius, cone, .. } => {
                 let middle = toward;
                 if let Aim::Place(place) = aim {
                     let axis = normalize(toward);
-                    let aside = across(like(*radius), axis, place);
+                    let aside = across(width.splat(*radius), axis, place);
                     // Where the light is there is no way aside.
-                    let (zero, length) = (like(0.0), dot(axis, axis));
+                    let (zero, length) = (width.splat(0.0), dot(axis, axis));
                     let aside = select3(zero.lt(length), aside, [zero; 3]);
                     toward = add(toward, aside);
                 }
                 let Reach { l, distance, mut share } = arrival(toward, *attenuation);
                 if let Some(cone) = cone {
-                    let along = dot(all(cone.axis.to_array()), l);
+                    let along = dot(splat3(width, cone.axis.to_array()), l);
                     share = share * along.map(|cos| cone.share(-cos));
                 }
                 Reach { l, distance, share: self.within(middle, share) }
@@ -342,14 +341,14 @@ impl Light {
                     (&Area::Disc { facing, radius }, Aim::Place(place)) => {
                         choose_of_disc((facing, radius), toward, place)
                     }
-                    (_, Aim::Way(way)) => Chosen { toward: way, weight: like(1.0) },
-                    _ => Chosen { toward, weight: like(1.0) },
+                    (_, Aim::Way(way)) => Chosen { toward: way, weight: width.splat(1.0) },
+                    _ => Chosen { toward, weight: width.splat(1.0) },
                 };
                 let Reach { l, distance, share } = arrival(chosen.toward, *attenuation);
                 let mut share = share * chosen.weight;
                 if let Some(facing) = area.facing() {
-                    let lit = dot(toward, all(facing.to_array())).lt(like(0.0));
-                    share = F::select(lit, share, like(0.0));
+                    let lit = dot(toward, splat3(width, facing.to_array())).lt(width.splat(0.0));
+                    share = F::select(lit, share, width.splat(0.0));
                 }
                 Reach { l, distance, share: self.within(toward, share) }
             }

@@ -134,13 +134,25 @@ impl Interactions {
 
     /// A box around all surfaces, by its middle and half its size; `None`: there are none.
     pub(super) fn bounds(&self) -> Option<[DVec3; 2]> {
-        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        // Lane by lane: straight code, which the compiler makes vector code of.
+        let (mut low, mut high) = ([[f64::INFINITY; 8]; 3], [[f64::NEG_INFINITY; 8]; 3]);
         for (hits, surfaces) in self.hits.iter().zip(&self.surfaces) {
-            for lane in lanes(hits.met) {
-                let p = DVec3::from_array(surfaces.p.map(|all| all[lane]));
-                (low, high) = (low.min(p), high.max(p));
+            if hits.met == 0 {
+                continue;
+            }
+            for axis in 0..3 {
+                let (p, low, high) = (&surfaces.p[axis], &mut low[axis], &mut high[axis]);
+                for lane in 0..8 {
+                    let is_met = hits.met >> lane & 1 != 0;
+                    let least = if is_met { p[lane] } else { f64::INFINITY };
+                    let most = if is_met { p[lane] } else { f64::NEG_INFINITY };
+                    low[lane] = if least < low[lane] { least } else { low[lane] };
+                    high[lane] = if most > high[lane] { most } else { high[lane] };
+                }
             }
         }
+        let low = DVec3::from(low.map(|all| all.into_iter().fold(f64::INFINITY, f64::min)));
+        let high = DVec3::from(high.map(|all| all.into_iter().fold(f64::NEG_INFINITY, f64::max)));
         (low.x <= high.x).then(|| [(low + high) / 2.0, (high - low) / 2.0])
     }
 

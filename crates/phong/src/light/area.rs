@@ -4,7 +4,7 @@
 //! point light over all directions to it. The middle of the square of places is the light's own middle.
 
 use glam::{DVec3, Vec3};
-use phong_bvh::Lanes;
+use phong_bvh::{Lanes, lanes::cross};
 
 use super::across;
 use crate::math::lanes::{add, dot, normalize, scale, select3, splat3, sub};
@@ -65,25 +65,16 @@ impl Area {
     #[inline(always)]
     pub(super) fn meet<F: Lanes<Scalar = f32>>(&self, toward: [F; 3], dir: [F; 3]) -> F {
         let (zero, none) = (dir[0].splat(0.0), dir[0].splat(f32::INFINITY));
-        let all = |v: Vec3| splat3(zero, v.to_array());
-        let plane = |facing: Vec3| {
-            let facing = all(facing);
-            let (along, slope) = (dot(toward, facing), dot(dir, facing));
-            let t = along / slope;
-            // It is seen only from its front.
-            let seen = along.lt(zero) & slope.lt(zero);
-            (F::select(seen, t, none), sub(scale(F::select(seen, t, zero), dir), toward))
-        };
         match self {
             Self::Rectangle(Rectangle { axes: [width, height, facing], half }) => {
-                let (t, from_middle) = plane(facing.as_vec3());
-                let [x, y] =
-                    [width, height].map(|axis| dot(from_middle, all(axis.as_vec3())).abs());
-                let [across, up] = half.map(|half| zero.splat(half as f32));
+                let (t, from_middle) = meet_plane(facing.as_vec3(), toward, dir);
+                let x = dot(from_middle, splat3(zero, width.as_vec3().to_array())).abs();
+                let y = dot(from_middle, splat3(zero, height.as_vec3().to_array())).abs();
+                let (across, up) = (zero.splat(half[0] as f32), zero.splat(half[1] as f32));
                 F::select(x.gt(across) | y.gt(up), none, t)
             }
             Self::Disc { facing, radius } => {
-                let (t, from_middle) = plane(*facing);
+                let (t, from_middle) = meet_plane(*facing, toward, dir);
                 F::select(dot(from_middle, from_middle).gt(zero.splat(radius * radius)), none, t)
             }
             Self::Sphere { radius } => {
@@ -97,6 +88,22 @@ impl Area {
             }
         }
     }
+}
+
+// What follows is vector code: a closure called more than once, or by `array::map`, may become a call, and is then
+// compiled without the level's instructions. So what is needed more than once is a function that is always inlined.
+
+/// How far a ray goes until it meets a plane from the side to which it faces, +∞ where it does not; and where that
+/// is, from the point of the plane to which `toward` leads.
+#[inline(always)]
+fn meet_plane<F: Lanes<Scalar = f32>>(facing: Vec3, toward: [F; 3], dir: [F; 3]) -> (F, [F; 3]) {
+    let (zero, none) = (dir[0].splat(0.0), dir[0].splat(f32::INFINITY));
+    let facing = splat3(zero, facing.to_array());
+    let (along, slope) = (dot(toward, facing), dot(dir, facing));
+    let t = along / slope;
+    // It is seen only from its front.
+    let seen = along.lt(zero) & slope.lt(zero);
+    (F::select(seen, t, none), sub(scale(F::select(seen, t, zero), dir), toward))
 }
 
 /// A point of a light that was chosen, seen from a point.
@@ -117,13 +124,9 @@ impl Rectangle {
     pub(super) fn choose<F: Lanes<Scalar = f64>>(&self, toward: [F; 3], place: [F; 2]) -> [F; 3] {
         /// Below this solid angle a spherical rectangle is a flat one to rounding.
         const FLAT: f64 = 1e-8;
-        let like = |v: f64| place[0].splat(v);
-        let (zero, one) = (like(0.0), like(1.0));
-        let along = |axis: DVec3| {
-            let [x, y, z] = axis.to_array();
-            toward[0] * x + toward[1] * y + toward[2] * z
-        };
-        let [x, y, z] = self.axes.map(along);
+        let (zero, one) = (place[0].splat(0.0), place[0].splat(1.0));
+        let [right, up, facing] = self.axes;
+        let (x, y, z) = (along(toward, right), along(toward, up), along(toward, facing));
         let [half_width, half_height] = self.half;
         let (x0, x1) = (x - half_width, x + half_width);
         let (y0, y1) = (y - half_height, y + half_height);
@@ -131,22 +134,14 @@ impl Rectangle {
         let depth = -z.abs().at_least(1e-12 * (half_width + half_height));
         let square = depth * depth;
         // Normals of the planes through the edges: (0, a, b) for those along x, (c, 0, d) for those along y.
-        let normal = |edge: F| {
-            let length = (square + edge * edge).sqrt();
-            [depth / length, edge / length]
-        };
-        let ([a0, b0], [c1, d1]) = (normal(y0), normal(x1));
-        let ([a2, b2], [c3, d3]) = (normal(y1), normal(x0));
+        let (c1, d1) = edge_normal(depth, square, x1);
+        let (c3, d3) = edge_normal(depth, square, x0);
+        let (a0, b0) = edge_normal(depth, square, y0);
+        let (a2, b2) = edge_normal(depth, square, y1);
         let (b0, d3) = (-b0, -d3);
         let (a2, c1) = (-a2, -c1);
-        // The angle between the planes of (0, a, b) and (c, 0, d): cosine and sine.
-        let angle = |[a, b]: [F; 2], [c, d]: [F; 2]| {
-            let (p, q, r) = (a * d, b * c, a * c);
-            [-(b * d), (p * p + q * q + r * r).sqrt()]
-        };
-        let [g0, g1] = [angle([a0, b0], [c1, d1]), angle([a2, b2], [c1, d1])];
-        let [g2, g3] = [angle([a2, b2], [c3, d3]), angle([a0, b0], [c3, d3])];
-        let times = |[a, b]: [F; 2], [c, d]: [F; 2]| [a * c - b * d, a * d + b * c];
+        let (g0, g1) = (between_edges([a0, b0], [c1, d1]), between_edges([a2, b2], [c1, d1]));
+        let (g2, g3) = (between_edges([a2, b2], [c3, d3]), between_edges([a0, b0], [c3, d3]));
         let far = times(g2, g3);
         let solid_angle = turn(times(times(g0, g1), far));
         // The angle of the paper's slice: k + u S, with k = −(g2 + g3).
@@ -154,25 +149,58 @@ impl Rectangle {
         let slope = (cos * b0 - b2) / sin;
         let size = one / (slope * slope + b0 * b0).sqrt();
         let cu = F::select(slope.gt(zero), size, -size);
-        let within = |v: F, low: F, high: F| {
-            let v = v.max(low);
-            F::select(v.gt(high), high, v)
-        };
         let rest = (one - cu * cu).at_least(1e-30).sqrt();
         let xu = within(-(cu * depth) / rest, x0, x1);
         let distance = (xu * xu + square).sqrt();
-        let height = |y: F| y / (xu * xu + square + y * y).sqrt();
-        let (h0, h1) = (height(y0), height(y1));
+        let h0 = y0 / (xu * xu + square + y0 * y0).sqrt();
+        let h1 = y1 / (xu * xu + square + y1 * y1).sqrt();
         let h = h0 + place[1] * (h1 - h0);
         let yv = within(h * distance / (one - h * h).at_least(1e-30).sqrt(), y0, y1);
-        let flat = solid_angle.lt(like(FLAT));
+        let flat = solid_angle.lt(zero.splat(FLAT));
         let xu = F::select(flat, x0 + place[0] * (2.0 * half_width), xu);
         let yv = F::select(flat, y0 + place[1] * (2.0 * half_height), yv);
-        let middle = place[0].eq(like(0.5)) & place[1].eq(like(0.5));
+        let middle = place[0].eq(zero.splat(0.5)) & place[1].eq(zero.splat(0.5));
         let (xu, yv) = (F::select(middle, x, xu), F::select(middle, y, yv));
-        let axes = self.axes.map(|axis| axis.to_array());
-        std::array::from_fn(|k| xu * axes[0][k] + yv * axes[1][k] + z * axes[2][k])
+        [
+            xu * right.x + yv * up.x + z * facing.x,
+            xu * right.y + yv * up.y + z * facing.y,
+            xu * right.z + yv * up.z + z * facing.z,
+        ]
     }
+}
+
+/// How far a way leads along an axis.
+#[inline(always)]
+fn along<F: Lanes<Scalar = f64>>(way: [F; 3], axis: DVec3) -> F {
+    way[0] * axis.x + way[1] * axis.y + way[2] * axis.z
+}
+
+/// The two numbers that a normal of the plane through an edge has: `edge` is where that is, `square` the square
+/// of `depth`.
+#[inline(always)]
+fn edge_normal<F: Lanes<Scalar = f64>>(depth: F, square: F, edge: F) -> (F, F) {
+    let length = (square + edge * edge).sqrt();
+    (depth / length, edge / length)
+}
+
+/// The angle between the planes of (0, a, b) and (c, 0, d): cosine and sine.
+#[inline(always)]
+fn between_edges<F: Lanes<Scalar = f64>>([a, b]: [F; 2], [c, d]: [F; 2]) -> [F; 2] {
+    let (p, q, r) = (a * d, b * c, a * c);
+    [-(b * d), (p * p + q * q + r * r).sqrt()]
+}
+
+/// The sum of two angles, each by its cosine and sine.
+#[inline(always)]
+fn times<F: Lanes<Scalar = f64>>([a, b]: [F; 2], [c, d]: [F; 2]) -> [F; 2] {
+    [a * c - b * d, a * d + b * c]
+}
+
+/// The nearest number between two.
+#[inline(always)]
+fn within<F: Lanes<Scalar = f64>>(v: F, low: F, high: F) -> F {
+    let v = v.max(low);
+    F::select(v.gt(high), high, v)
 }
 
 /// The angle of a point of the unit circle, given by cosine and sine, in [0, 2π); a hair below 0 is 0.
@@ -250,8 +278,7 @@ pub(super) fn choose_of_disc<F: Lanes<Scalar = f32>>(
     const WIDEST: f32 = 1e6;
     /// Cosines of the odd multiples of π/16: the mean over ψ is that of 16 values evenly spread.
     const SPREAD: [f32; 4] = [0.980_785_28, 0.831_469_6, 0.555_570_24, 0.195_090_32];
-    let like = |v: f32| place[0].splat(v);
-    let (zero, one) = (like(0.0), like(1.0));
+    let (zero, one, widest) = (place[0].splat(0.0), place[0].splat(1.0), place[0].splat(WIDEST));
     let n = splat3(zero, facing.to_array());
     let depth = dot(toward, n);
     let aside = sub(toward, scale(depth, n));
@@ -265,8 +292,9 @@ pub(super) fn choose_of_disc<F: Lanes<Scalar = f32>>(
     let offset = F::select(is_aside, length, zero);
     // The nearest and the farthest point of the rim.
     let square = depth * depth;
-    let [near, far] = [offset - radius, offset + radius];
-    let [near_length, far_length] = [near, far].map(|y| (square + y * y).sqrt());
+    let (near, far) = (offset - radius, offset + radius);
+    let near_length = (square + near * near).sqrt();
+    let far_length = (square + far * far).sqrt();
     let sum = near_length + far_length;
     // Where the cone's axis meets the disc, from its middle, and half the chord there.
     let shift = -(offset / (sum * sum)) * (4.0 * radius * radius);
@@ -274,33 +302,27 @@ pub(super) fn choose_of_disc<F: Lanes<Scalar = f32>>(
     let axis = add(toward, scale(shift, away));
     let axis_length = dot(axis, axis).at_least(1e-30).sqrt();
     let axis = scale(one / axis_length, axis);
-    let at_most = |v: F| F::select(v.lt(like(WIDEST)), v, like(WIDEST));
-    let a = at_most(chord / axis_length);
+    let a = chord / axis_length;
+    let a = F::select(a.lt(widest), a, widest);
     // Half the angle between the two points of the rim: by its sine and cosine, in the form that does not
     // cancel.
     let (lengths, cosine) = (near_length * far_length, near * far + square);
     let sine = (depth.abs() * (2.0 * radius)).at_least(1e-30);
-    let b =
-        at_most(F::select(cosine.gt(zero), sine / (lengths + cosine), (lengths - cosine) / sine));
-    let cross =
-        |[a, b, c]: [F; 3], [x, y, z]: [F; 3]| [b * z - c * y, c * x - a * z, a * y - b * x];
+    let b = F::select(cosine.gt(zero), sine / (lengths + cosine), (lengths - cosine) / sine);
+    let b = F::select(b.lt(widest), b, widest);
     let wide = cross(n, away);
     let narrow = cross(axis, wide);
-    let g = |q: F| {
-        let root = (q + one).sqrt();
-        one / (root * (root + one))
-    };
     let (a2, b2) = (a * a, b * b);
-    let [x2, y2] = place.map(|v| v * v);
+    let (x2, y2) = (place[0] * place[0], place[1] * place[1]);
     let share = x2 + y2;
     let is_off = share.gt(zero);
     let q = (a2 * x2 + b2 * y2) / F::select(is_off, share, one);
     let (middle, swing) = ((a2 + b2) * 0.5, (a2 - b2) * 0.5);
     let mut mean = zero;
     for cos in SPREAD {
-        mean = mean + g(middle + swing * cos) + g(middle - swing * cos);
+        mean = mean + per_sector(middle + swing * cos) + per_sector(middle - swing * cos);
     }
-    let own = g(q);
+    let own = per_sector(q);
     let w = one - share * q * own;
     let stretch = (own * (w + one)).sqrt() / w;
     let dir =
@@ -313,6 +335,14 @@ pub(super) fn choose_of_disc<F: Lanes<Scalar = f32>>(
         toward: select3(is_off & is_seen, scale(t, dir), toward),
         weight: F::select(is_off, own * 8.0 / mean, one),
     }
+}
+
+/// What a sector of a disc's cone holds: g of [`choose_of_disc`].
+#[inline(always)]
+fn per_sector<F: Lanes<Scalar = f32>>(q: F) -> F {
+    let one = q.splat(1.0);
+    let root = (q + one).sqrt();
+    one / (root * (root + one))
 }
 
 #[cfg(test)]
