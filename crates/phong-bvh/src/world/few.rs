@@ -39,13 +39,13 @@ impl Few<'_> {
     /// on, if some rays may be too far away to be taken to them as they are. `starts` are set to where the
     /// rays start about the frame's origin.
     #[inline(always)]
-    fn near<S: Simd>(&self, simd: S, rays: &[Rays8], starts: &mut [Lanes3], all: &mut bool) -> u32 {
+    fn near<S: Simd>(&self, simd: S, rays: &[Rays8], starts: &mut [Start8], all: &mut bool) -> u32 {
         if self.planes.is_empty() && self.spheres.is_none() {
             return 0;
         }
         for (rays, starts) in rays.iter().zip(&mut *starts).filter(|(rays, _)| rays.there != 0) {
             let [x, y, z] = self.frame.load_origins(simd, rays);
-            *starts = [x.into(), y.into(), z.into()];
+            starts.0 = [x.into(), y.into(), z.into()];
         }
         let Some(Spheres { block, .. }) = self.spheres else { return 0 };
         if !*all {
@@ -231,17 +231,22 @@ impl Kernel for Any<'_> {
 /// So many eights are tested together first for whether any of them can hit a sphere.
 const TOGETHER: usize = 16;
 
-/// Three numbers of each of eight rays.
-type Lanes3 = [[f32; 8]; 3];
+/// Where eight rays start, about the frame's origin.
+///
+/// It asks for the alignment of a vector: so the compiler aligns all that a kernel keeps on the stack, and no vector
+/// that it puts there lies across two lines of the cache or two pages.
+#[derive(Clone, Copy)]
+#[repr(align(32))]
+struct Start8([[f32; 8]; 3]);
 
 /// Room for where the rays start.
-const NO_STARTS: [Lanes3; TOGETHER] = [[[0.0; 8]; 3]; TOGETHER];
+const NO_STARTS: [Start8; TOGETHER] = [Start8([[0.0; 8]; 3]); TOGETHER];
 
 /// Eight rays that start there.
 #[inline(always)]
-fn loaded<S: Simd>(simd: S, starts: &Lanes3, rays: &Rays8) -> Loaded<S> {
+fn loaded<S: Simd>(simd: S, start: &Start8, rays: &Rays8) -> Loaded<S> {
     Loaded {
-        origin: load3(simd, starts),
+        origin: load3(simd, &start.0),
         dir: load3(simd, &rays.dir),
         t_min: f32x8::load_array_ref(simd, &rays.t_min),
         t_max: f32x8::load_array_ref(simd, &rays.t_max),
@@ -259,7 +264,7 @@ fn near<S: Simd>(
     simd: S,
     frame: &Frame,
     rays: &[Rays8],
-    starts: &[Lanes3],
+    starts: &[Start8],
     block: &[Row; BLOCK],
 ) -> Option<u32> {
     let used = block[BLOCK - 1].0.iter().filter(|n| n.to_bits() != u32::MAX).count();
@@ -286,7 +291,7 @@ fn near<S: Simd>(
 
 /// The bounds of origins and directions; `None` without rays.
 #[inline(always)]
-fn bounds<S: Simd>(simd: S, rays: &[Rays8], starts: &[Lanes3]) -> Option<[[f32; 2]; 6]> {
+fn bounds<S: Simd>(simd: S, rays: &[Rays8], starts: &[Start8]) -> Option<[[f32; 2]; 6]> {
     let most = f32x8::splat(simd, f32::INFINITY);
     let (mut low, mut high) = ([most; 6], [-most; 6]);
     let mut any = 0;
@@ -295,7 +300,7 @@ fn bounds<S: Simd>(simd: S, rays: &[Rays8], starts: &[Lanes3]) -> Option<[[f32; 
             continue;
         }
         any |= rays.there;
-        let ([ox, oy, oz], [dx, dy, dz]) = (load3(simd, starts), load3(simd, &rays.dir));
+        let ([ox, oy, oz], [dx, dy, dz]) = (load3(simd, &starts.0), load3(simd, &rays.dir));
         let columns = [ox, oy, oz, dx, dy, dz];
         // In this order a NaN, which no ray should hold, changes nothing.
         if rays.there == 0xff {
