@@ -28,7 +28,7 @@ from collections import OrderedDict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, Literal
 
 import phong
 
@@ -154,7 +154,7 @@ def render_frames(
     progress: Progress = None,
     timeout: float | None = 300.0,
     bits: int = 8,
-    exposure: float = 0.0,
+    exposure: float | Literal["auto"] | None = None,
     **options: Any,
 ) -> list[Path]:
     """Renders the frames of a film, each a task, and writes each to a file as it comes.
@@ -312,7 +312,7 @@ def _file(
     packed: bytes,
     suffix: str,
     bits: int,
-    exposure: float,
+    exposure: float | Literal["auto"] | None,
     threads: int | None,
     options: dict[str, Any],
 ) -> bytes:

@@ -45,6 +45,7 @@ def test_every_shape_of_the_text_has_a_class() -> None:
         "axes",
         "legend",
         "label",
+        "tone",
         "groups",
         "include",
         "instance",

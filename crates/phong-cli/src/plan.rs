@@ -90,11 +90,16 @@ impl Outputs {
         part.into_iter().chain(files.into_iter().flatten().map(|(_, output)| output))
     }
 
-    /// Writes everything, under no name yet.
-    pub(crate) fn write(&mut self, film: &Film, settings: &Settings) -> Result<(), Failure> {
+    /// Writes everything, under no name yet; tells the stops of exposure of what is a picture.
+    pub(crate) fn write(
+        &mut self,
+        film: &Film,
+        settings: &Settings,
+    ) -> Result<Option<f64>, Failure> {
         match self {
             Self::Part(output) => {
-                output.write(|mut out| part::write(film.film_tiles(), settings, &mut out))
+                output.write(|mut out| part::write(film.film_tiles(), settings, &mut out))?;
+                Ok(None)
             }
             Self::Picture(format, files) => {
                 let finishing = furniture::finishing(film, settings);
@@ -109,7 +114,11 @@ impl Outputs {
     }
 
     /// The same, where the files are to say which picture they are.
-    pub(crate) fn write_marked(&mut self, film: &Film, settings: &Settings) -> Result<(), Failure> {
+    pub(crate) fn write_marked(
+        &mut self,
+        film: &Film,
+        settings: &Settings,
+    ) -> Result<Option<f64>, Failure> {
         match self {
             Self::Part(_) | Self::Figure(_) => self.write(film, settings),
             Self::Picture(format, files) => {
@@ -135,11 +144,12 @@ fn write_files(
     film: &Film,
     settings: &Settings,
     finishing: &Finishing,
-) -> Result<(), Failure> {
+) -> Result<Option<f64>, Failure> {
     let (picture, encoding) = (finish(film, finishing), &settings.encoding);
-    files.iter_mut().try_for_each(|(content, output)| {
-        output.write(|mut out| image::write(&picture, *content, format, encoding, &mut out))
-    })
+    for (content, output) in files {
+        output.write(|mut out| image::write(&picture, *content, format, encoding, &mut out))?;
+    }
+    Ok((format == Format::Png).then(|| picture.tone().stops()))
 }
 
 /// What there is to say of pixels that are no finite colour; `None`: there are none.
@@ -204,6 +214,7 @@ impl Plan {
         input: &mut Input,
     ) -> Result<RenderOptions, Failure> {
         let options = settle(&args.image, &args.view, input)?;
+        args.tone.over_scene(&mut input.scene);
         let terms = if self.terms { TermSet::of_scene(&input.scene) } else { TermSet::NONE };
         let passes = if args.work.passes { Passes::CoarseToFine } else { Passes::One };
         let options = options.with_terms(terms).with_aovs(&self.aovs).with_passes(passes);
@@ -248,11 +259,7 @@ pub(crate) fn settle(
 
 /// How the command line wants a picture written.
 pub(crate) fn encoding(args: &EncodingArgs) -> Encoding {
-    Encoding {
-        bits: args.bits.map_or(Bits::Eight, Bits::from),
-        linear: args.linear,
-        exposure: args.exposure.unwrap_or(0.0),
-    }
+    Encoding { bits: args.bits.map_or(Bits::Eight, Bits::from), linear: args.linear }
 }
 
 impl From<args::Bits> for Bits {

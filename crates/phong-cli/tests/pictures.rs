@@ -90,6 +90,62 @@ fn lines_are_drawn_onto_the_picture_alike_in_parts_and_shares() {
 }
 
 #[test]
+fn tone_is_the_same_in_shares_of_a_crop_that_of_the_crop_and_typed_as_it_is_written() {
+    let written = "[tone]\nexposure = \"auto\"\nwhite_balance = 3200\ncurve = \"filmic\"\n";
+    let folder = given(&[("a.toml", BALLS), ("toned.toml", &format!("{BALLS}{written}"))]);
+    let how = "--exposure auto --white-balance 3200 --tone filmic";
+    let told = folder.done(&format!("render a.toml {how} -o whole.png --json")).json();
+    let stops = told["exposure"].as_f64().unwrap();
+    assert!(stops != 0.0, "{told}");
+    folder.done("render toned.toml -o written.png");
+    assert_eq!(folder.bytes("whole.png"), folder.bytes("written.png"));
+    for i in 0..2 {
+        folder.done(&format!("render toned.toml -o {i}.part --tile {i}/2"));
+    }
+    folder.done("merge 1.part 0.part -o merged.png");
+    assert_eq!(folder.bytes("whole.png"), folder.bytes("merged.png"));
+    // What auto has found, typed, gives the same; and a part of the picture is exposed by itself.
+    folder.done(&format!("merge 0.part 1.part --exposure {stops} -o typed.png"));
+    assert_eq!(folder.bytes("whole.png"), folder.bytes("typed.png"));
+    let part = folder.done("render toned.toml --crop 0,0,20,12 -o part.png --json").json();
+    assert_ne!(part["exposure"], told["exposure"]);
+    // No other file has it.
+    folder.done("render a.toml -o plain.pfm");
+    folder.done("render toned.toml -o toned.pfm");
+    assert_eq!(folder.bytes("plain.pfm"), folder.bytes("toned.pfm"));
+    folder.when("merge 0.part 1.part -o b.png --tone filmc").is_refused(&["--tone", "reinhard"]);
+    folder.when("render a.toml --white-balance 300").is_refused(&["1700"]);
+    folder.when("render a.toml --white-balance black").is_refused(&["black"]);
+    folder.when("render a.toml --exposure lots").is_refused(&["auto"]);
+    folder.when("render a.toml --tone reinhard:0").is_refused(&["above 0"]);
+}
+
+#[test]
+fn what_explain_says_of_tone_ends_in_the_bytes_of_the_picture() {
+    let tone = "[tone]\nexposure = \"auto\"\nneutral = \"#ffd0a0\"\ncurve = \"reinhard\"\n";
+    let outline = "[outline]\nwidth = 1.5\n";
+    let folder = given(&[("a.toml", &format!("{BALLS}{outline}{tone}"))]);
+    folder.done("render a.toml --samples 2 -o a.png");
+    let drawn = phong::image::Picture::read(&folder.bytes("a.png")).unwrap();
+    for [x, y] in [[20, 15], [17, 14], [3, 25]] {
+        let told = folder.done(&format!("explain a.toml {x} {y} --samples 2 --json")).json();
+        let steps: Vec<_> = told["tone"].as_array().unwrap().iter().map(|s| &s["step"]).collect();
+        assert_eq!(steps, ["exposed", "balanced", "toned"]);
+        for (c, name) in ["R", "G", "B"].into_iter().enumerate() {
+            let level = drawn.plane(name).unwrap()[y * 40 + x] * 255.0;
+            assert_eq!(told["srgb8"][c], level.round() as u64, "{name} of {x}, {y}");
+        }
+    }
+    let text = String::from_utf8(folder.done("explain a.toml 20 15 --samples 2").out).unwrap();
+    for words in ["exposed", "= linear × 2^", "balanced", "Reinhard's curve, white at 4"] {
+        assert!(text.contains(words), "{words} in {text}");
+    }
+    let latex = folder.done("explain a.toml 20 15 --samples 2 --latex --exposure 1").out;
+    assert!(String::from_utf8(latex).unwrap().contains("xrightarrow{\\text{toned}}"));
+    folder.done("explain a.toml --html page.html --size 8x6");
+}
+
+#[test]
 fn a_look_is_put_on_and_printed_as_text() {
     let folder = balls();
     let then = folder.done("render a.toml --look ink --toml");

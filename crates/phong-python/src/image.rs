@@ -1,5 +1,6 @@
 //! `phong.Image`: a picture that was rendered.
 
+use std::borrow::Cow;
 use std::io::Cursor;
 use std::path::Path;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -13,7 +14,7 @@ use phong::image::{
 use phong::part::{self, Join, Part, ReadError, Settings};
 use phong::render::RenderOptions;
 use phong_lab::furniture;
-use phong_scene::{Diagnostic, Scene};
+use phong_scene::{Diagnostic, Exposure, Scene, Tone};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyBytes, PyDict, PyList, PyTuple};
@@ -97,9 +98,18 @@ impl Image {
         }
     }
 
-    /// Its film, finished as files hold it.
-    fn finished(&self) -> Finished<'_> {
-        furniture::finish(&self.film, self.settings())
+    /// Its settings, exposed so, or as its scene says.
+    fn exposed(&self, exposure: Option<Exposure>) -> Cow<'_, Settings> {
+        let mut settings = Cow::Borrowed(self.settings());
+        if let Some(exposure) = exposure {
+            settings.to_mut().tone.exposure = exposure;
+        }
+        settings
+    }
+
+    /// Its film, finished as files hold it; exposed so, or as its scene says.
+    fn finished(&self, exposure: Option<Exposure>) -> Finished<'_> {
+        furniture::finish(&self.film, &self.exposed(exposure))
     }
 
     fn sides(&self) -> [usize; 2] {
@@ -116,10 +126,16 @@ impl Image {
         }
     }
 
-    fn save_svg(&self, path: &Path, encoding: &Encoding) -> Result<(), SaveError> {
+    fn save_svg(
+        &self,
+        path: &Path,
+        encoding: &Encoding,
+        exposure: Option<Exposure>,
+    ) -> Result<(), SaveError> {
+        let settings = self.exposed(exposure);
         let mut draft = Draft::create(path)?;
         draft.write(|out| {
-            let text = furniture::svg(&self.film, self.settings(), encoding)?;
+            let text = furniture::svg(&self.film, &settings, encoding)?;
             out.write_all(text.as_bytes())?;
             Ok::<_, WriteError>(())
         })?;
@@ -129,7 +145,7 @@ impl Image {
     fn png(&self, encoding: &Encoding) -> PyResult<Vec<u8>> {
         let mut out = Cursor::new(Vec::new());
         let content = Content::Layer(LayerKind::Picture);
-        write(&self.finished(), content, Format::Png, encoding, &mut out)
+        write(&self.finished(None), content, Format::Png, encoding, &mut out)
             .map_err(|error| value_error(error.to_string()))?;
         Ok(out.into_inner())
     }
@@ -142,18 +158,25 @@ fn finished(film: &Film, settings: Settings) -> (Film, Settings) {
 }
 
 /// Encoding of a PNG by its keywords.
-fn encoding(bits: u32, exposure: f64, linear: bool) -> PyResult<Encoding> {
+fn encoding(bits: u32, linear: bool) -> PyResult<Encoding> {
     let bits = match bits {
         8 => Bits::Eight,
         16 => Bits::Sixteen,
         _ => return Err(value_error(format!("bits = {bits}: it must be 8 or 16"))),
     };
-    if !exposure.is_finite() || exposure.abs() > 100.0 {
-        return Err(value_error(format!(
-            "exposure = {exposure}: it must be from -100 to 100 stops"
-        )));
+    Ok(Encoding { bits, linear })
+}
+
+/// Exposure by its keyword; `None`: the scene's.
+fn exposure(value: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Exposure>> {
+    let Some(value) = value else { return Ok(None) };
+    if value.extract::<&str>().is_ok_and(|word| word == "auto") {
+        return Ok(Some(Exposure::Auto));
     }
-    Ok(Encoding { bits, linear, exposure })
+    let stops = value.extract::<f64>().ok().filter(|stops| stops.abs() <= Tone::MOST_STOPS);
+    let wanted = "it must be from -100 to 100 stops, or \"auto\"";
+    let wrong = || value_error(format!("exposure = {value}: {wanted}"));
+    Ok(Some(Exposure::Stops(stops.ok_or_else(wrong)?)))
 }
 
 /// Red, green, blue and alpha of every pixel, side by side.
@@ -255,23 +278,24 @@ impl Image {
     /// title, scale bar, axes, legend and labels as outlines, sharp at any size.
     ///
     /// Layers lie beside it where the format does not hold them (`a.depth.png` for `a.png`). `bits`: 8
-    /// or 16, of a PNG. `exposure`: stops by which a PNG is brighter. `linear`: no sRGB curve in a PNG.
+    /// or 16, of a PNG. `exposure`: stops by which a PNG is brighter, or "auto"; None: as the scene's `[tone]`
+    /// says, whose curve and white balance a PNG has in any case. `linear`: no sRGB curve in a PNG.
     /// The bytes are those of the program. Raises `OSError`, and `ValueError` for a name it cannot be.
-    #[pyo3(signature = (path, bits = 8, exposure = 0.0, *, linear = false))]
+    #[pyo3(signature = (path, bits = 8, exposure = None, *, linear = false))]
     fn save(
         &self,
         py: Python<'_>,
         path: &Bound<'_, PyAny>,
         bits: u32,
-        exposure: f64,
+        exposure: Option<&Bound<'_, PyAny>>,
         linear: bool,
     ) -> PyResult<()> {
-        let encoding = encoding(bits, exposure, linear)?;
+        let (encoding, exposure) = (encoding(bits, linear)?, self::exposure(exposure)?);
         let path = phong_scene::path_of(&path_of(path)?);
         let is_svg = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("svg"));
         let saved = py.detach(|| match is_svg {
-            true => self.save_svg(&path, &encoding),
-            false => save(&self.finished(), &path, &encoding),
+            true => self.save_svg(&path, &encoding, exposure),
+            false => save(&self.finished(exposure), &path, &encoding),
         });
         saved.map_err(|error| match error {
             SaveError::Unsuitable(message) => {
@@ -281,11 +305,16 @@ impl Image {
         })
     }
 
-    /// What a PNG of 8 bits holds: (H, W, 4) uint8, the sRGB curve, straight alpha.
-    #[pyo3(signature = (exposure = 0.0))]
-    fn to_srgb8<'py>(&self, py: Python<'py>, exposure: f64) -> PyResult<Bound<'py, PyAny>> {
-        let encoding = encoding(8, exposure, false)?;
-        let bytes = py.detach(|| phong::image::srgb8(&self.finished(), &encoding));
+    /// What a PNG of 8 bits holds: (H, W, 4) uint8, the sRGB curve, straight alpha. `exposure` as in `save`.
+    #[pyo3(signature = (exposure = None))]
+    fn to_srgb8<'py>(
+        &self,
+        py: Python<'py>,
+        exposure: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let exposure = self::exposure(exposure)?;
+        let finished = || self.finished(exposure);
+        let bytes = py.detach(|| phong::image::srgb8(&finished(), &Encoding::default()));
         let [height, width] = self.sides();
         Ok(numpy::PyArray1::from_vec(py, bytes).reshape([height, width, 4])?.into_any())
     }

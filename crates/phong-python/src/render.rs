@@ -4,6 +4,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use phong::aov::Aov;
+use phong::explain::tone_of;
 use phong::film::{Film, Window};
 use phong::image::Encoding;
 use phong::part::Settings;
@@ -344,11 +345,12 @@ pub(crate) fn _explain(
         || value_error(format!("pixel ({x}, {y}) is outside the picture of {width} × {height}"));
     let pixel = [u32::try_from(x), u32::try_from(y)];
     let [Ok(x), Ok(y)] = pixel else { return Err(outside()) };
-    let work = move |_: &Cancel| {
+    let work = move |cancel: &Cancel| {
         let Asked { snapshot, options, image, max_bytes, .. } = asked;
         let ready = snapshot.prepare(image, max_bytes)?;
         let told = phong::explain::explain(&ready.view, &options, [x, y]);
-        let told = told.map(|told| {
+        let told = told.map(|mut told| {
+            told.tone = tone_of(&ready.scene, &ready.view, &options, cancel);
             use phong_lab::tell::{Telling, json, latex, text};
             let telling = Telling::default();
             (json(&told).to_string(), text(&told, &telling), latex(&told, &telling))

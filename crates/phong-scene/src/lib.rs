@@ -40,6 +40,7 @@ mod sky;
 mod source;
 mod texels;
 mod texture;
+mod tone;
 mod transform;
 mod unpack;
 mod wording;
@@ -87,5 +88,6 @@ pub use texture::{
     CellsBy, Channel, Encoding, GradientBy, GridAxes, MapRange, MapSource, Param, TexelFilter,
     Texture, TextureId, TextureKind, TextureRef, TextureSpace, TextureUse, Textured, Wrap,
 };
+pub use tone::{Exposure, Tone, ToneCurve};
 pub use transform::{cofactor, even_scale};
 pub use wording::closest;

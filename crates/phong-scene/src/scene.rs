@@ -48,6 +48,7 @@
 //! | `axes` | a table | none | Three arrows that show which ways x, y and z point. |
 //! | `legend` | a table | none | What the colours of a map stand for. |
 //! | `label` | a list of tables | none | Words at points of the scene. |
+//! | `tone` | a table | light as it is | How light becomes what a PNG shows. |
 //! | `clip` | a list of tables | none | What is cut away. |
 //! | `light` | a list of tables | none | The lights. |
 //! | `materials` | tables by name | none | The materials, by name. |
@@ -117,6 +118,7 @@ use crate::outline::Outline;
 use crate::shape::Shape;
 use crate::sky::Sky;
 use crate::texture::Texture;
+use crate::tone::Tone;
 use crate::wording::words;
 
 /// A whole scene, resolved: what the renderer takes.
@@ -150,6 +152,8 @@ pub struct Scene {
     pub outline: Option<Outline>,
     /// Title, scale bar, axes, legend and labels, drawn when the picture is done; by default nothing.
     pub furniture: Furniture,
+    /// How light becomes what a PNG shows; `None`: as it is.
+    pub tone: Option<Tone>,
     /// What the ambient light comes from, and what rays see that hit nothing unless the background is
     /// transparent. `None`: ambient light comes from everywhere alike.
     pub sky: Option<Sky>,
@@ -179,6 +183,7 @@ impl Default for Scene {
             fog: None,
             outline: None,
             furniture: Furniture::default(),
+            tone: None,
             sky: None,
             clips: Vec::new(),
             lights: Vec::new(),

@@ -12,7 +12,7 @@ use phong::image::{self, Bits, Content, Encoding, Format, Picture};
 use phong::part::Settings;
 use phong::render::{Cancel, RenderOptions, render};
 use phong::view::View;
-use phong_scene::{Folder, Limits};
+use phong_scene::{Folder, Limits, Tone};
 
 /// One test for each scene, named `group::name` as its file is.
 macro_rules! golden {
@@ -31,7 +31,7 @@ macro_rules! golden {
 golden! {
     cameras: fisheye landscape lens orthographic panorama perspective up wide;
     film: background empty filter_box filter_gaussian filter_mitchell filter_tent gradient odd_size
-        one_pixel outline seed transparent transparent_mirror;
+        one_pixel outline seed tone_filmic tone_reinhard transparent transparent_mirror;
     lights: attenuation below_horizon colored disc distant enclosed point range rectangle shadow shadow_off
         shadow_touching specular_color sphere spot spot_hard;
     materials: blinn_phong cook_torrance default ggx lambert normalize opacity oren_nayar per_light phong
@@ -79,13 +79,14 @@ fn drawn(path: &Path) -> Vec<u8> {
     let compiled = View::of(&scene).expect("compiles");
     let film = render(&compiled, &options, &|_| {}, &Cancel::new()).film;
     let settings = Settings::of(&scene, &options, Encoding::default());
-    encoded(&finish(&film, &settings.finishing()).into_film(), false)
+    let film = finish(&film, &settings.finishing()).into_film();
+    encoded(&film, false, settings.tone)
 }
 
-fn encoded(film: &Film, linear: bool) -> Vec<u8> {
-    let encoding = Encoding { bits: Bits::Sixteen, linear, ..Encoding::default() };
+fn encoded(film: &Film, linear: bool, tone: Tone) -> Vec<u8> {
+    let encoding = Encoding { bits: Bits::Sixteen, linear };
     let mut bytes = Cursor::new(Vec::new());
-    let film = finish(film, &Finishing::default());
+    let film = finish(film, &Finishing::default().with_tone(tone));
     image::write(&film, Content::Layer(LayerKind::Picture), Format::Png, &encoding, &mut bytes)
         .expect("memory takes it");
     bytes.into_inner()
@@ -126,7 +127,8 @@ fn difference(group: &str, name: &str, actual: &[u8], expected: &[u8]) -> String
         .flat_map(|pixel| &pixel[..3])
         .map(|d| f32::from(*d) / f32::from(most))
         .collect();
-    fs::write(kept.join(format!("{name}.diff.png")), encoded(&diff, true)).expect("writable");
+    fs::write(kept.join(format!("{name}.diff.png")), encoded(&diff, true, Tone::default()))
+        .expect("writable");
     format!(
         "{group}/{name}: {count} values differ, by {most}/65535 at most, at ({}, {}): {:?}, not {:?}; see {}",
         worst as u32 % width,
@@ -168,7 +170,7 @@ fn a_difference_of_one_step_is_found_and_told() {
         let mut film = Film::new(size, Window::full(size), 64, &[LayerKind::Picture]);
         let levels = [0, 1, 2, 3, green, 5];
         film.layers[0].values = levels.iter().map(|&v| f32::from(v) / 65535.0).collect();
-        encoded(&film, true)
+        encoded(&film, true, Tone::default())
     };
     assert_ne!(decoded(&picture(4)), decoded(&picture(5)));
     let said = difference("harness", "one_step", &picture(5), &picture(4));

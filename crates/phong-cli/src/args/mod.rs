@@ -10,7 +10,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use phong::image::Format;
-use phong_scene::Change;
+use phong_scene::{Change, Exposure, Rgb, Scene, Tone, ToneCurve};
 
 pub(crate) use picture::{ImageArgs, RenderArgs};
 pub(crate) use values::{
@@ -94,7 +94,7 @@ pub(crate) struct ViewArgs {
 
     /// Colour of a bare model: "#rrggbb", a CSS name (both sRGB, decoded), or r,g,b (linear)
     #[arg(long, value_name = "COLOR", value_parser = values::color, allow_hyphen_values = true)]
-    pub(crate) color: Option<phong_scene::Rgb>,
+    pub(crate) color: Option<Rgb>,
 }
 
 /// The side a bare model is seen from.
@@ -121,13 +121,57 @@ pub(crate) struct EncodingArgs {
     #[arg(long, value_name = "8|16")]
     pub(crate) bits: Option<Bits>,
 
-    /// Stops of exposure in a PNG: every one doubles the light (EXR and PFM keep the light as it is)
-    #[arg(long, value_name = "EV", value_parser = values::exposure, allow_hyphen_values = true)]
-    pub(crate) exposure: Option<f64>,
-
     /// What OUT is, whatever its name says
     #[arg(long, value_name = "NAME")]
     pub(crate) output_format: Option<OutputFormat>,
+}
+
+/// How light becomes what a PNG shows; EXR and PFM keep it as it is.
+#[derive(Args, Clone, Debug, Default)]
+#[command(next_help_heading = "File")]
+pub(crate) struct ToneArgs {
+    /// Stops of exposure in a PNG: every one doubles the light; `auto` makes the mean of what is lit 0.18
+    #[arg(long, value_name = "EV|auto", value_parser = values::exposure, allow_hyphen_values = true)]
+    pub(crate) exposure: Option<Exposure>,
+
+    /// How a PNG brings light beyond white into range: clamp, reinhard, reinhard:WHITE or filmic
+    #[arg(long, value_name = "CURVE", value_parser = values::curve)]
+    pub(crate) tone: Option<ToneCurve>,
+
+    /// The light that a PNG shows as white: its temperature in kelvin, or its colour
+    #[arg(long, value_name = "KELVIN|COLOR", value_parser = values::white_balance)]
+    #[arg(allow_hyphen_values = true)]
+    pub(crate) white_balance: Option<White>,
+}
+
+/// The light that is to look white.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum White {
+    Kelvin(f64),
+    Color(Rgb),
+}
+
+impl ToneArgs {
+    /// What is typed, over what is written.
+    pub(crate) fn over(&self, tone: &mut Tone) {
+        tone.exposure = self.exposure.unwrap_or(tone.exposure);
+        tone.curve = self.tone.unwrap_or(tone.curve);
+        if let Some(white) = self.white_balance {
+            (tone.white_balance, tone.neutral) = match white {
+                White::Kelvin(kelvin) => (Some(kelvin), None),
+                White::Color(color) => (None, Some(color)),
+            };
+        }
+    }
+
+    /// The same of a scene, which may have none.
+    pub(crate) fn over_scene(&self, scene: &mut Scene) {
+        let mut tone = scene.tone.unwrap_or_default();
+        self.over(&mut tone);
+        if tone != scene.tone.unwrap_or_default() {
+            scene.tone = Some(tone);
+        }
+    }
 }
 
 /// Bits a channel in a PNG.

@@ -6,7 +6,7 @@ use phong::render::RenderOptions;
 use phong_scene::Image;
 
 use super::values::{self, Crop, PictureSize, ShareOf};
-use super::{EncodingArgs, InputArgs, ViewArgs};
+use super::{EncodingArgs, InputArgs, ToneArgs, ViewArgs};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -42,6 +42,9 @@ pub(crate) struct RenderArgs {
 
     #[command(flatten)]
     pub(crate) encoding: EncodingArgs,
+
+    #[command(flatten)]
+    pub(crate) tone: ToneArgs,
 
     /// Print what the scene looks like (camera, lights, materials, and what --look has set) as scene
     /// text on standard output, and draw nothing

@@ -5,7 +5,11 @@ use std::str::FromStr;
 
 use clap::builder::{OsStringValueParser, TypedValueParser};
 use phong::aov::Aov;
-use phong_scene::{Background, ColorError, Format, FrameRange, Rgb, closest};
+use phong_scene::{
+    Background, ColorError, Exposure, Format, FrameRange, Rgb, Tone, ToneCurve, closest,
+};
+
+use super::White;
 
 /// Three numbers.
 pub(crate) type Vec3Arg = [f64; 3];
@@ -105,11 +109,45 @@ pub(crate) fn fov(text: &str) -> Result<f64, String> {
     })
 }
 
-/// Stops within what f32 can hold.
-pub(crate) fn exposure(text: &str) -> Result<f64, String> {
-    finite(text)
-        .filter(|stops| stops.abs() <= 100.0)
-        .ok_or_else(|| "write a number of stops from -100 to 100, like 1 or -0.5".to_owned())
+/// Stops within what f32 can hold, or `auto`.
+pub(crate) fn exposure(text: &str) -> Result<Exposure, String> {
+    if text == "auto" {
+        return Ok(Exposure::Auto);
+    }
+    let stops = finite(text).filter(|stops| stops.abs() <= Tone::MOST_STOPS).ok_or_else(|| {
+        "write auto, or a number of stops from -100 to 100, like 1 or -0.5".to_owned()
+    })?;
+    Ok(Exposure::Stops(stops))
+}
+
+/// A tone curve by its name, Reinhard's with its white if that is said.
+pub(crate) fn curve(text: &str) -> Result<ToneCurve, String> {
+    let (name, white) = text.split_once(':').map_or((text, None), |(name, w)| (name, Some(w)));
+    match (name, white) {
+        ("clamp", None) => Ok(ToneCurve::Clamp),
+        ("filmic", None) => Ok(ToneCurve::Filmic),
+        ("reinhard", white) => finite(white.unwrap_or("4"))
+            .filter(|white| *white > 0.0 && *white <= LARGEST)
+            .map(|white| ToneCurve::Reinhard { white })
+            .ok_or_else(|| "reinhard:WHITE takes a luminance above 0, like reinhard:4".to_owned()),
+        _ => Err("write clamp, reinhard, reinhard:WHITE or filmic".to_owned()),
+    }
+}
+
+/// A colour temperature in kelvin, or a colour.
+pub(crate) fn white_balance(text: &str) -> Result<White, String> {
+    let [low, high] = Tone::TEMPERATURES;
+    if let Some(kelvin) = finite(text) {
+        let kelvin = Some(kelvin).filter(|kelvin| (low..=high).contains(kelvin));
+        let wrong = || format!("write kelvin from {low} to {high}, or a colour");
+        return kelvin.map(White::Kelvin).ok_or_else(wrong);
+    }
+    let color =
+        color(text).map_err(|why| format!("kelvin from {low} to {high}, or a colour: {why}"))?;
+    if color.is_black() {
+        return Err("black is no colour of a light".to_owned());
+    }
+    Ok(White::Color(color))
 }
 
 /// A plain number of bytes, or one with `k`, `M`, `G` or `T`.

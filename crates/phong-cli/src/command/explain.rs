@@ -3,7 +3,7 @@
 use std::io::{self, Cursor};
 use std::path::{Path, PathBuf};
 
-use phong::explain::{Explanation, explain};
+use phong::explain::{Explanation, explain, tone_of};
 use phong::film::{LayerKind, Window};
 use phong::finish::{Finishing, finish};
 use phong::image::{self, Content, Encoding, Format};
@@ -11,8 +11,9 @@ use phong::render::{Cancel, RenderOptions, render};
 use phong::view::View;
 use phong_lab::tell::html::{MAX_PIXELS, page};
 use phong_lab::tell::{self, Telling};
+use phong_scene::Tone;
 
-use crate::args::{self, ImageArgs, InputArgs, ViewArgs};
+use crate::args::{self, ImageArgs, InputArgs, ToneArgs, ViewArgs};
 use crate::compile::compile;
 use crate::failure::Failure;
 use crate::output::{Output, keep_inputs_safe};
@@ -85,6 +86,9 @@ pub(crate) struct Args {
 
     #[command(flatten)]
     pub(crate) view: ViewArgs,
+
+    #[command(flatten)]
+    pub(crate) tone: ToneArgs,
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
@@ -94,13 +98,14 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut input = input::open(&args.input, false)?;
     keep_inputs_safe(svg.iter().chain(&html), input.files())?;
     let options = plan::settle(&args.image, &args.view, &mut input)?;
+    args.tone.over_scene(&mut input.scene);
     if let Some(sample) = args.sample.filter(|&sample| sample > options.samples()) {
         let samples = options.samples();
         return Err(Failure::usage(format!("--sample {sample}: the pixel has {samples} samples")));
     }
     let scene = compile(&input.scene, &args.input, 0)?;
     if let (Some(x), Some(y)) = (args.x, args.y) {
-        let told = explain(&scene, &options, [x, y]).map_err(|outside| {
+        let mut told = explain(&scene, &options, [x, y]).map_err(|outside| {
             let [width, height] = outside.size;
             Failure::usage(outside.to_string()).with_help(format!(
                 "x is from 0 to {}, y from 0 to {}",
@@ -108,6 +113,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
                 height - 1
             ))
         })?;
+        told.tone = tone_of(&input.scene, &scene, &options, &Cancel::new());
         if let Some(output) = &mut svg {
             let drawing = tell::svg(&told, chosen(args)).ok_or_else(|| {
                 Failure::usage("--svg: the ray meets nothing, so there are no vectors to draw")
@@ -117,7 +123,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         tell(args, &told)?;
     }
     if let (Some(output), Some(path)) = (&mut html, &args.html) {
-        write_page(args, &scene, options, output, path)?;
+        let tone = input.scene.tone.unwrap_or_default();
+        write_page(args, (&scene, tone), options, output, path)?;
     }
     Output::commit(svg.into_iter().chain(html).collect())
 }
@@ -153,7 +160,7 @@ fn tell(args: &Args, told: &Explanation) -> Result<(), Failure> {
 
 fn write_page(
     args: &Args,
-    scene: &View,
+    (scene, tone): (&View, Tone),
     options: RenderOptions,
     output: &mut Output,
     path: &Path,
@@ -179,11 +186,12 @@ fn write_page(
     let film = render(scene, &options, &|_| {}, &cancel).film;
     let mut png = Cursor::new(Vec::new());
     let picture = Content::Layer(LayerKind::Picture);
-    let film = finish(&film, &Finishing::default());
+    let film = finish(&film, &Finishing::default().with_tone(tone));
     image::write(&film, picture, Format::Png, &Encoding::default(), &mut png)
         .map_err(|error| Failure::System(error.to_string()))?;
     let title = input::stem(&args.input.input);
-    let html = page(scene, &options, &title, png.get_ref(), &|_| {}, &cancel).map_err(cancelled)?;
+    let html = page(scene, &options, &title, (png.get_ref(), film.tone()), &|_| {}, &cancel)
+        .map_err(cancelled)?;
     output.write(|out| io::Write::write_all(out, html.as_bytes()))?;
     let [width, height] = options.size();
     report::say(&format!(

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use phong::part::{Join, PartError, ReadError};
 
-use crate::args::EncodingArgs;
+use crate::args::{EncodingArgs, ToneArgs};
 use crate::failure::Failure;
 use crate::input::open_file;
 use crate::memory;
@@ -33,6 +33,9 @@ pub(crate) struct Args {
 
     #[command(flatten)]
     pub(crate) encoding: EncodingArgs,
+
+    #[command(flatten)]
+    pub(crate) tone: ToneArgs,
 }
 
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
@@ -55,11 +58,11 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(unsound) = not_finite(&film) {
         report::diagnostics(&[unsound]);
     }
-    let EncodingArgs { linear, bits, exposure, output_format } = &args.encoding;
+    let EncodingArgs { linear, bits, output_format } = &args.encoding;
     let encoding = &mut settings.encoding;
     encoding.linear |= linear;
     encoding.bits = bits.map_or(encoding.bits, Into::into);
-    encoding.exposure = exposure.unwrap_or(encoding.exposure);
+    args.tone.over(&mut settings.tone);
     let mut outputs = Outputs::picture(&args.output, *output_format, &settings.shown_layers())?;
     keep_inputs_safe(outputs.iter(), &args.parts)?;
     outputs.write(&film, &settings)?;

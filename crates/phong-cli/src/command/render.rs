@@ -75,7 +75,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
         report::diagnostics(std::slice::from_ref(unsound));
     }
     input.warnings.extend(unsound);
-    outputs.write(&film, &settings)?;
+    let exposure = outputs.write(&film, &settings)?;
     outputs.commit()?;
     if let Some(checkpoint) = checkpoint {
         checkpoint.remove();
@@ -103,6 +103,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
                 "secondary": rays.secondary,
             },
             "peak_bytes": peak(),
+            "exposure": exposure,
             "warnings": input.warnings.iter().map(diagnostic).collect::<Vec<_>>(),
         }))?;
     } else if report::is_watched() && !quiet {

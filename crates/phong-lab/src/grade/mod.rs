@@ -26,7 +26,7 @@ mod tone;
 mod verdict;
 mod wrong;
 
-use phong_scene::{Material, Scene, ShadowRule};
+use phong_scene::{Material, Scene, ShadowRule, Tone};
 use thiserror::Error;
 
 pub use json::json;
@@ -128,6 +128,11 @@ impl Grader {
         }
         if scene.fog.is_some() {
             return Err(GradeError::NotYet("fog"));
+        }
+        if scene.tone.is_some_and(|tone| tone != Tone::default()) {
+            return Err(GradeError::NotYet(
+                "exposure, white balance or a curve of their own (`[tone]`)",
+            ));
         }
         if !scene.clips.is_empty() {
             return Err(GradeError::NotYet("what is cut away"));

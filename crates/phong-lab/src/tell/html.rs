@@ -6,6 +6,7 @@
 
 use glam::DVec3;
 use phong::explain::{End, Explanation, Lit, Onward, RayTold, Surface, explain};
+use phong::finish::ToneMap;
 use phong::render::{Cancel, Cancelled, RenderOptions};
 use phong::terms::Term;
 use phong::view::View;
@@ -16,7 +17,7 @@ use serde_json::{Map, Value, json};
 use super::json::{dir, list, number, rgb};
 use super::packed::pack;
 use super::product::{self, Number, Product};
-use super::text::{NOTICED, cut, described, hidden, named};
+use super::text::{NOTICED, cut, described, hidden, named, toned};
 use crate::markup::{data_url, escaped};
 
 const PAGE: &str = include_str!("page.html");
@@ -28,7 +29,7 @@ const BAND: u32 = 12;
 pub const MAX_PIXELS: u32 = 65_536;
 
 /// Every pixel of a picture of at most [`MAX_PIXELS`] explained in one HTML file. `png` is the
-/// picture rendered with the same options. `watch` is called with the rows done, by any thread.
+/// picture rendered with the same options, and `tone` its own. `watch` is called with the rows done, by any thread.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -39,7 +40,7 @@ pub fn page(
     scene: &View,
     options: &RenderOptions,
     title: &str,
-    png: &[u8],
+    (png, tone): (&[u8], &ToneMap),
     watch: &(dyn Fn(u32) + Sync),
     cancel: &Cancel,
 ) -> Result<String, Cancelled> {
@@ -52,6 +53,7 @@ pub fn page(
         }
         // Within the picture, so there is nothing that can be outside.
         let pixels = (0..width).filter_map(|x| explain(scene, options, [x, y]).ok());
+        let pixels = pixels.map(|told| Explanation { tone: *tone, ..told });
         let row: Vec<Value> = pixels.map(|told| shared.pixel(&told)).collect();
         watch(1);
         Ok(row)
@@ -113,7 +115,7 @@ impl Shared<'_> {
 
     fn pixel(&self, told: &Explanation) -> Value {
         let term = |c: Rgb| if c.is_black() { json!(0) } else { rgb(c) };
-        json!({
+        let mut out = json!({
             "samples": told
                 .samples
                 .iter()
@@ -121,8 +123,13 @@ impl Shared<'_> {
                 .collect::<Vec<_>>(),
             "terms": told.terms.iter().map(|(_, value)| term(value)).collect::<Vec<_>>(),
             "linear": rgb(told.linear),
-            "bytes": told.encoded(0.0).bytes,
-        })
+            "bytes": told.encoded().bytes,
+        });
+        let steps = toned(told);
+        if !steps.is_empty() {
+            out["tone"] = steps.iter().map(|step| json!([step.name, rgb(step.color)])).collect();
+        }
+        out
     }
 
     /// A ray that weighs `weight` in its sample.

@@ -11,7 +11,7 @@ use phong::witness::{CutReason, Faded};
 use phong_scene::{ConstantMaterial, Place, Rgb, TextureSpace};
 use serde_json::{Map, Value, json};
 
-use super::text::hidden;
+use super::text::{Toned, hidden, toned};
 
 /// The explanation as one JSON object. Numbers are f32 with all their digits: read as f64 and
 /// rounded to f32 they are the very bits. What is infinite, or not there, is null.
@@ -24,7 +24,8 @@ pub fn json(told: &Explanation) -> Value {
         "terms": terms(told.terms),
         "linear": rgb(told.linear),
         "alpha": number(told.alpha),
-        "srgb8": told.encoded(0.0).bytes,
+        "tone": toned(told).iter().map(tone).collect::<Vec<_>>(),
+        "srgb8": told.encoded().bytes,
     });
     if let [only] = told.samples.as_slice()
         && let Some(RayTold { end: End::Surface(surface), .. }) = &only.ray
@@ -32,6 +33,10 @@ pub fn json(told: &Explanation) -> Value {
         out["material"] = material(&surface.material);
     }
     out
+}
+
+pub(super) fn tone(step: &Toned) -> Value {
+    json!({ "step": step.name, "how": step.how, "linear": rgb(step.color) })
 }
 
 fn sample(sample: &Sample) -> Value {

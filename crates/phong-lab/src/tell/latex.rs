@@ -9,7 +9,7 @@ use phong_scene::{Model, Rgb};
 
 use super::Telling;
 use super::product::{self, Number, Power, Product};
-use super::text::{NOTICED, cut, hidden, named};
+use super::text::{NOTICED, Toned, cut, hidden, named, toned};
 
 /// What all the rest stands in: narrow margins, and equations that may go on over the page's end.
 const HEAD: &str = "\\documentclass[10pt]{article}\n\\usepackage[a4paper,margin=20mm]{geometry}\n\
@@ -39,10 +39,15 @@ pub fn latex(told: &Explanation, telling: &Telling) -> String {
         Some(ray) => out.ray(ray),
         None => out.line(format_args!("The sample lies outside the image circle: it is black.")),
     }
-    let [r, g, b] = told.encoded(0.0).bytes;
+    let [r, g, b] = told.encoded().bytes;
     let linear = out.color(told.linear);
+    let mut steps = String::new();
+    for Toned { name, color, .. } in toned(told) {
+        // Writing to a string cannot fail.
+        let _ = write!(steps, " \\;\\xrightarrow{{\\text{{{name}}}}}\\; {}", out.color(color));
+    }
     out.line(format_args!(
-        "\\[ \\text{{pixel}} = {linear} \\;\\to\\; \\text{{sRGB bytes }} ({r}, {g}, {b}) \\]"
+        "\\[ \\text{{pixel}} = {linear}{steps} \\;\\to\\; \\text{{sRGB bytes }} ({r}, {g}, {b}) \\]"
     ));
     out.line(format_args!("\\end{{document}}"));
     out.text

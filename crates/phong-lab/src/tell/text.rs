@@ -10,7 +10,7 @@ use phong::explain::{
 use phong::terms::Terms;
 use phong::texture::ImageLookUp;
 use phong::witness::{CutReason, Faded};
-use phong_scene::{AmbientRule, ConstantMaterial, Model, Rgb, TextureSpace, Viewer};
+use phong_scene::{AmbientRule, ConstantMaterial, Model, Rgb, TextureSpace, ToneCurve, Viewer};
 
 use super::Telling;
 use super::numbers::{Numbers, columns};
@@ -369,13 +369,42 @@ impl Page {
         if e.alpha < 1.0 {
             self.line(format_args!("{:<12} {}", "alpha", e.alpha));
         }
-        let Encoded { clamped, curve, bytes: [r, g, b] } = e.encoded(0.0);
+        for Toned { name, how, color } in toned(e) {
+            self.line(format_args!("{name:<12} {}   {how}", self.numbers.color(color)));
+        }
+        let Encoded { clamped, curve, bytes: [r, g, b], .. } = e.encoded();
         self.line(format_args!("{:<12} {}", "clamped", self.numbers.color(clamped)));
         let [x, y, z] = curve;
         self.line(format_args!("{:<12} ({x:.6}, {y:.6}, {z:.6})", "sRGB"));
         self.line(format_args!("{:<12} ({r}, {g}, {b})  #{r:02x}{g:02x}{b:02x}", "bytes"));
         self.indent -= 2;
     }
+}
+
+/// A step of a pixel's light on its way into a PNG.
+pub(super) struct Toned {
+    pub(super) name: &'static str,
+    /// What was done to what was there before.
+    pub(super) how: String,
+    /// What came of it. Linear.
+    pub(super) color: Rgb,
+}
+
+/// What tone does to a pixel, step by step; nothing where light stays as it is.
+pub(super) fn toned(told: &Explanation) -> Vec<Toned> {
+    let steps = told.encoded().tone;
+    let stops = told.tone.stops();
+    let exposed =
+        (stops != 0.0).then(|| ("exposed", format!("= linear × 2^{stops}"), steps.exposed));
+    let balanced = steps.balanced.map(|color| ("balanced", "white balance".to_owned(), color));
+    let curve = match told.tone.curve() {
+        ToneCurve::Clamp => String::new(),
+        ToneCurve::Reinhard { white } => format!("Reinhard's curve, white at {white}"),
+        ToneCurve::Filmic => "filmic curve".to_owned(),
+    };
+    let curved = steps.curved.map(|color| ("toned", curve, color));
+    let steps = exposed.into_iter().chain(balanced).chain(curved);
+    steps.map(|(name, how, color)| Toned { name, how, color }).collect()
 }
 
 /// Why a light adds nothing; `None` if it does.

@@ -173,6 +173,9 @@ impl<'s> Judge<'s> {
             self.judge(&nowhere, || "outline".into(), |f| settings::outline(outline, f));
         }
         self.furniture();
+        if let Some(tone) = &scene.tone {
+            self.judge(&nowhere, || "tone".into(), |f| settings::tone(tone, f));
+        }
         for (i, clip) in scene.clips.iter().enumerate() {
             let name = || named("clips", i, "clip", &clip.place);
             self.judge(&clip.place, name, |f| settings::clip(clip, f));

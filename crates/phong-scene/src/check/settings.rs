@@ -16,6 +16,7 @@ use crate::outline::Outline;
 use crate::scene::Image;
 use crate::sky::{Sky, SkyKind};
 use crate::texture::{Texture, TextureKind};
+use crate::tone::Tone;
 use crate::wording::{closest, quoted};
 
 /// Below this sine of the angle to the view, a millionth of a degree, "up" is decided by rounding.
@@ -109,6 +110,19 @@ fn text(name: &'static str, text: &str, faults: &mut Faults) {
     let (most, count) = (Furniture::LONGEST_TEXT, text.chars().count());
     if count > most {
         faults.say(name, format!("`{name}` has at most {most} characters; this has {count}"));
+    }
+}
+
+/// Judges tone.
+pub(crate) fn tone(tone: &Tone, faults: &mut Faults) {
+    values(tone, None, faults);
+    let Some(neutral) = tone.neutral.filter(|_| faults.spare(&["neutral"])) else { return };
+    if tone.white_balance.is_some() {
+        let help = "both say which colour is to look grey: leave one out";
+        faults.say("neutral", "`neutral` stands beside `white_balance`").help =
+            Some(help.to_owned());
+    } else if neutral.is_black() {
+        faults.say("neutral", "`neutral` is black, which is no colour of a light");
     }
 }
 

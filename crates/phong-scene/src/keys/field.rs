@@ -17,6 +17,7 @@ use crate::scene::Image;
 use crate::shape::Shape;
 use crate::sky::Sky;
 use crate::texture::Texture;
+use crate::tone::Tone;
 
 /// Where a key's value is kept.
 #[derive(Clone, Copy, Debug)]
@@ -35,6 +36,7 @@ pub(crate) enum Field {
     Axes(Access<Axes>),
     Legend(Access<Legend>),
     PointLabel(Access<PointLabel>),
+    Tone(Access<Tone>),
     Camera(Access<Camera>),
     Light(Access<Light>),
     Texture(Access<Texture>),

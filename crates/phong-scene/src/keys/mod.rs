@@ -21,6 +21,7 @@ mod schema;
 mod shape;
 mod sky;
 mod texture;
+mod tone;
 mod value;
 
 pub(crate) use batch::{BATCH, FILES, RANGE};

@@ -147,9 +147,10 @@ mod tests {
     use crate::keys::camera::CAMERA;
     use crate::keys::scene::{AMBIENT, IMAGE};
     use crate::keys::shape::SHAPES;
+    use crate::keys::tone::TONE;
     use crate::keys::{CLIP, INCLUDE, LIGHT, MATERIAL, TEXTURE};
 
-    const CONCEPTS: [(&str, &str); 11] = [
+    const CONCEPTS: [(&str, &str); 12] = [
         ("ambient_occlusion.rs", include_str!("../ambient_occlusion.rs")),
         ("camera.rs", include_str!("../camera.rs")),
         ("clip.rs", include_str!("../clip.rs")),
@@ -161,6 +162,7 @@ mod tests {
         ("scene.rs", include_str!("../scene.rs")),
         ("shape.rs", include_str!("../shape.rs")),
         ("texture.rs", include_str!("../texture.rs")),
+        ("tone.rs", include_str!("../tone.rs")),
     ];
 
     /// The module's doc, as Markdown.
@@ -185,6 +187,7 @@ mod tests {
         assert_doc_holds("texture.rs", &own_keys(&TEXTURE));
         assert_doc_holds("texture.rs", &own_keys(&TEXTURED));
         assert_doc_holds("clip.rs", &own_keys(&CLIP));
+        assert_doc_holds("tone.rs", &own_keys(&TONE));
         for table in [&SCENE, &IMAGE, &BACKGROUND, &AMBIENT, &INCLUDE] {
             assert_doc_holds("scene.rs", &own_keys(table));
         }

@@ -8,6 +8,7 @@ use super::material::MATERIAL;
 use super::shape::{GROUP, SHAPES};
 use super::sky::SKY;
 use super::texture::TEXTURE;
+use super::tone::TONE;
 use super::{Default, Key, Kind, Table, VERSION};
 use crate::ambient_occlusion::AmbientOcclusion;
 use crate::clip::{Clip, ClipKind, Keep};
@@ -102,6 +103,12 @@ pub(crate) static SCENE: Table = Table {
                 Kind::Tables(&LABEL),
                 Default::Said("none"),
                 "Words at points of the scene.",
+            ),
+            Key::new(
+                "tone",
+                Kind::Table(&TONE),
+                Default::Said("light as it is"),
+                "How light becomes what a PNG shows.",
             ),
             Key::new("clip", Kind::Tables(&CLIP), Default::Said("none"), "What is cut away."),
             Key::new("light", Kind::Tables(&LIGHT), Default::Said("none"), "The lights."),

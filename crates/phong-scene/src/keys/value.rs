@@ -7,6 +7,7 @@ use crate::color::Rgb;
 use crate::furniture::BarLength;
 use crate::scene::Background;
 use crate::texture::{MapRange, Param, TextureRef};
+use crate::tone::Exposure;
 use crate::wording::Word;
 
 /// The value of a key, read or to be written.
@@ -179,6 +180,23 @@ impl Stored for BarLength {
         match value {
             Value::Word(_) => Some(Self::Auto),
             Value::Number(length) => Some(Self::Units(length)),
+            _ => None,
+        }
+    }
+}
+
+impl Stored for Exposure {
+    fn value(&self) -> Option<Value> {
+        Some(match *self {
+            Self::Auto => Value::Word("auto"),
+            Self::Stops(stops) => Value::Number(stops),
+        })
+    }
+
+    fn of(value: Value) -> Option<Self> {
+        match value {
+            Value::Word(_) => Some(Self::Auto),
+            Value::Number(stops) => Some(Self::Stops(stops)),
             _ => None,
         }
     }

@@ -3,10 +3,10 @@
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 use phong_scene::{
     AmbientOcclusion, Background, BarLength, Camera, CameraKind, Cap, Clip, ClipKind,
-    ConstantMaterial, Field, Fog, FogKind, Fresnel, Furniture, FurnitureStyle, GradientBy, Group,
-    GroupId, Image, Light, LightKind, MapRange, Material, MaterialId, Mesh, Model, NO_INDEX,
-    Object, OcclusionDistance, Outline, PointLabel, Points, Rgb, ScaleBar, Scene, Shape, SkyKind,
-    Texture, TextureId, TextureKind, TextureRef,
+    ConstantMaterial, Exposure, Field, Fog, FogKind, Fresnel, Furniture, FurnitureStyle,
+    GradientBy, Group, GroupId, Image, Light, LightKind, MapRange, Material, MaterialId, Mesh,
+    Model, NO_INDEX, Object, OcclusionDistance, Outline, PointLabel, Points, Rgb, ScaleBar, Scene,
+    Shape, SkyKind, Texture, TextureId, TextureKind, TextureRef, Tone,
 };
 use proptest::prelude::*;
 
@@ -291,6 +291,7 @@ prop_compose! {
                 labels: vec![PointLabel { text: "a".into(), at: eye, radius: aperture, ..PointLabel::default() }],
                 ..Furniture::default()
             },
+            tone: Some(Tone { exposure: Exposure::Stops(fov), neutral: Some(top), ..Tone::default() }),
             clips: vec![Clip {
                 kind: ClipKind::Plane { point: eye, normal: up },
                 // Now and then a material that is not there.

@@ -2,7 +2,7 @@
 
 use phong_scene::{Limits, Memory, read};
 
-const CONCEPTS: [(&str, &str); 10] = [
+const CONCEPTS: [(&str, &str); 11] = [
     ("ambient_occlusion.rs", include_str!("../../src/ambient_occlusion.rs")),
     ("camera.rs", include_str!("../../src/camera.rs")),
     ("clip.rs", include_str!("../../src/clip.rs")),
@@ -13,6 +13,7 @@ const CONCEPTS: [(&str, &str); 10] = [
     ("scene.rs", include_str!("../../src/scene.rs")),
     ("shape.rs", include_str!("../../src/shape.rs")),
     ("sky.rs", include_str!("../../src/sky.rs")),
+    ("tone.rs", include_str!("../../src/tone.rs")),
 ];
 
 #[test]

@@ -4,12 +4,12 @@ use glam::{DAffine3, DMat3, DVec2, DVec3, Vec2, Vec3};
 use phong_scene::{
     AmbientOcclusion, AmbientRule, Anchor, Axes, Background, BarLength, Camera, CameraKind, Cap,
     Caps, CellsBy, Channel, Clip, ClipKind, ConstantMaterial as Material, Cylinders, Dialect,
-    Distribution, FilterKind, Fog, FogDistance, FogKind, Fresnel, Furniture, FurnitureStyle,
-    GradientBy, GridAxes, Group, GroupId, Hidden, Image, Keep, Legend, Light, LightKind, MapRange,
-    MaterialId, Mesh, Model, NO_INDEX, NormalFormat, Object, OcclusionDistance, OpacityMode,
-    Outline, Place, PointLabel, Points, Rgb, ScaleBar, Scene, ShadowRule, Shadowing, Shape, Sky,
-    SkyKind, Texture, TextureId, TextureKind, TextureRef, TextureSpace, Tint, Title, Viewer,
-    WardForm,
+    Distribution, Exposure, FilterKind, Fog, FogDistance, FogKind, Fresnel, Furniture,
+    FurnitureStyle, GradientBy, GridAxes, Group, GroupId, Hidden, Image, Keep, Legend, Light,
+    LightKind, MapRange, MaterialId, Mesh, Model, NO_INDEX, NormalFormat, Object,
+    OcclusionDistance, OpacityMode, Outline, Place, PointLabel, Points, Rgb, ScaleBar, Scene,
+    ShadowRule, Shadowing, Shape, Sky, SkyKind, Texture, TextureId, TextureKind, TextureRef,
+    TextureSpace, Tint, Title, Tone, ToneCurve, Viewer, WardForm,
 };
 use proptest::prelude::*;
 
@@ -130,6 +130,12 @@ impl Make {
         let of_sky = Sky { kind: kind_of_sky, up, color: color_of_sky, samples: 9 };
         let sky = self.flag().then_some(of_sky);
         let fog = self.flag().then_some(Fog { kind, color, distance, strength });
+        let curve =
+            self.one(&[ToneCurve::Clamp, ToneCurve::Reinhard { white: 2.5 }, ToneCurve::Filmic]);
+        let exposure = self.one(&[Exposure::Auto, Exposure::Stops(-1.5), Exposure::default()]);
+        let (white_balance, neutral) =
+            self.one(&[(None, None), (Some(3200.0), None), (None, Some(Rgb::new(1.0, 0.5, 0.25)))]);
+        let tone = Tone { exposure, white_balance, neutral, curve };
         Scene {
             image,
             camera,
@@ -143,6 +149,7 @@ impl Make {
                 ..Outline::default()
             }),
             furniture: self.furniture(),
+            tone: self.flag().then_some(tone),
             clips,
             lights,
             materials,

@@ -73,6 +73,7 @@ fn summary(scene: &Scene) -> String {
         fog,
         outline,
         furniture,
+        tone,
         clips,
         lights,
         materials,
@@ -91,6 +92,7 @@ fn summary(scene: &Scene) -> String {
     if *furniture != Furniture::default() {
         lines.push(format!("{furniture:?}"));
     }
+    lines.extend(tone.map(|tone| format!("{tone:?}")));
     lines.extend(clips.iter().map(|clip| format!("{clip:?}")));
     lines.extend(ambient_occlusion.map(|occlusion| format!("{occlusion:?}")));
     lines.extend(lights.iter().map(|light| differing(light, &Light::default())));

@@ -44,10 +44,11 @@ fn explained(title: &str, painting: &Painting) -> Result<String, String> {
     let film = render(painting.view(), &options, &|_| {}, &cancel).film;
     let mut png = Cursor::new(Vec::new());
     let content = Content::Layer(LayerKind::Picture);
-    let finished = finish(&film, &Finishing::default());
+    let finished = finish(&film, &Finishing::default().with_tone(options.tone()));
     write(&finished, content, Format::Png, &Encoding::default(), &mut png)
         .map_err(|error| error.to_string())?;
-    html::page(painting.view(), &options, title, &png.into_inner(), &|_| {}, &cancel)
+    let picture = (&*png.into_inner(), finished.tone());
+    html::page(painting.view(), &options, title, picture, &|_| {}, &cancel)
         .map_err(|error| error.to_string())
 }
 

@@ -1,4 +1,5 @@
-//! What is drawn onto a picture that is whole: lines around things, and a figure's furniture, as `phong render` finishes a file.
+//! What finishes a picture that is whole: lines around things, tone, and a figure's furniture, as `phong render`
+//! finishes a file.
 
 use std::borrow::Cow;
 
@@ -6,7 +7,7 @@ use phong::film::{Film, LayerKind};
 use phong::finish::{Finishing, finish};
 use phong::image::{Encoding, srgb8};
 use phong::render::{Lines, RenderOptions};
-use phong::scene::Scene;
+use phong::scene::{Scene, Tone};
 use phong::terms::{Term, TermSet};
 use phong_lab::furniture;
 
@@ -64,8 +65,16 @@ pub(super) fn whole(
         PixelKind::Linear => {
             let values = |kind| finished.values(kind).unwrap_or_default();
             let (colors, alphas) = (values(LayerKind::Picture), values(LayerKind::Alpha));
-            for (color, alpha) in colors.chunks_exact(3).zip(alphas) {
-                color.iter().chain([alpha]).for_each(|v| bytes.extend(v.to_le_bytes()));
+            for (color, &alpha) in colors.as_chunks::<3>().0.iter().zip(alphas) {
+                let straight = |v: f32| if alpha > 0.0 { v / alpha } else { 0.0 };
+                let toned = match finishing.tone == Tone::default() {
+                    true => *color,
+                    false => {
+                        let toned = finished.tone().steps(color.map(straight).into()).last();
+                        (toned * alpha).to_array()
+                    }
+                };
+                toned.iter().chain([&alpha]).for_each(|v| bytes.extend(v.to_le_bytes()));
             }
         }
     }

@@ -38,7 +38,7 @@ pub(super) struct Base {
 const NAME: &str = "scene.toml";
 
 /// What can be laid over a scene, by the first word of its keys.
-const PARTS: [&str; 17] = [
+const PARTS: [&str; 18] = [
     "image",
     "camera",
     "ambient",
@@ -53,6 +53,7 @@ const PARTS: [&str; 17] = [
     "axes",
     "legend",
     "label",
+    "tone",
     "light",
     "materials",
     "textures",

@@ -471,7 +471,8 @@ impl Engine {
             self.opened.as_ref().ok_or(NOTHING)?.view_with(set)?
         };
         let told = phong::explain::explain(&view, &options, pixel);
-        let told = told.map_err(|outside| outside.to_string())?;
+        let mut told = told.map_err(|outside| outside.to_string())?;
+        told.tone = painting.tone();
         Ok((told, view, painting.number()))
     }
 

@@ -1,10 +1,10 @@
 //! A picture under way: first at an eighth of its size, then all of it in 1, 2, 4, … samples a pixel.
 
 use phong::film::{Film, Window};
-use phong::finish::Finishing;
+use phong::finish::{Finishing, ToneMap, finish};
 use phong::part::furniture_of;
 use phong::render::{Cancel, Event, Passes, RenderOptions, Rendering, render};
-use phong::scene::Scene;
+use phong::scene::{Exposure, Scene, Tone};
 use phong::terms::TermSet;
 use phong::view::View;
 
@@ -126,6 +126,17 @@ impl Painting {
         say(emit, &Reply::Pass { picture, pass: passes - 1, passes, samples });
     }
 
+    /// How the light of the picture becomes what is seen of it; exposed by what there is of it.
+    pub(super) fn tone(&self) -> ToneMap {
+        let tone = self.options.tone();
+        match self.film.as_ref().filter(|film| film.is_complete()) {
+            Some(film) if tone.exposure == Exposure::Auto => {
+                *finish(film, &Finishing::of(&self.options)).tone()
+            }
+            _ => ToneMap::new(&tone, &[], None),
+        }
+    }
+
     /// How many passes there are, with the first.
     fn passes(&self) -> u32 {
         1 + self.options.passes().of(self.options.samples()).len() as u32
@@ -144,6 +155,7 @@ impl Painting {
         let (picture, off) = (*number, *off);
         // What is drawn onto a picture needs all of it. Of a share, who puts it to the others has that.
         let draws = self.draws && options.share().is_none();
+        let toned = options.tone() != Tone::default();
         let whole = |film: &Film, options: &RenderOptions, pass: u32, step| {
             let sent = Sent { picture, pass: pass as u16, step, pixels };
             emit(Message::Frame(finishing::whole(film, options, furniture, off, sent)));
@@ -190,8 +202,9 @@ impl Painting {
         }
         let listen = |event: Event<'_>| {
             let goes_on = match event {
-                // Nothing that was drawn onto the pass before goes away until this one is whole.
-                Event::Tile { pass, .. } if draws && pass > 0 => emit(Message::Nothing),
+                // Nothing that was drawn onto the pass before goes away until this one is whole, and no
+                // light is shown without its tone.
+                Event::Tile { pass, .. } if draws && (pass > 0 || toned) => emit(Message::Nothing),
                 Event::Tile { pass, window, values, .. } => tile(pass, window, values),
                 Event::Pass { pass, samples, .. } => {
                     if draws {

@@ -7,16 +7,17 @@
 mod record;
 
 use glam::DVec3;
-use phong_scene::{ConstantMaterial, Place, Rgb, TextureSpace, srgb_encode};
+use phong_scene::{ConstantMaterial, Exposure, Place, Rgb, Scene, TextureSpace, srgb_encode};
 use thiserror::Error;
 
 use crate::film::Sums8;
 use crate::filter::Filter;
+use crate::finish::{Finishing, ToneMap, ToneSteps, finish};
 use crate::integrator::{Brings, Integrator, Radiance8, RayCounts, SampleGrid};
-use crate::math::{Dir3, wide};
-use crate::render::{Drawn, RenderOptions, camera_ray};
+use crate::math::Dir3;
+use crate::render::{Cancel, Drawn, RenderOptions, camera_ray, render};
 use crate::sampling::Sampler;
-use crate::terms::Terms;
+use crate::terms::{TermSet, Terms};
 use crate::texture::ImageLookUp;
 use crate::view::View;
 use crate::witness::{CutReason, Faded, Witness};
@@ -39,6 +40,9 @@ pub struct Explanation {
     pub linear: Rgb,
     /// Coverage in [0, 1]; 1 unless the background is transparent.
     pub alpha: f32,
+    /// How its light becomes what a PNG shows: as it is, until somebody sets the picture's
+    /// ([`Finished::tone`](crate::finish::Finished::tone)).
+    pub tone: ToneMap,
 }
 
 /// One sample of a pixel.
@@ -279,7 +283,11 @@ pub struct Onward {
 /// A pixel on its way to a file of 8 bits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Encoded {
-    /// Exposed, its alpha divided out, clamped to [0, 1]; linear.
+    /// Its alpha divided out. Linear.
+    pub straight: Rgb,
+    /// What tone makes of that.
+    pub tone: ToneSteps,
+    /// Clamped to [0, 1]; linear.
     pub clamped: Rgb,
     /// On the sRGB curve, in [0, 1].
     pub curve: [f64; 3],
@@ -321,7 +329,21 @@ pub fn explain(
     let (terms, alpha) = (terms.get(0), alpha[0]);
     let eye = scene.look().camera.eye;
     let (size, linear) = (options.size(), terms.total());
-    Ok(Explanation { pixel, size, eye, samples, terms, linear, alpha })
+    let tone = ToneMap::default();
+    Ok(Explanation { pixel, size, eye, samples, terms, linear, alpha, tone })
+}
+
+/// How light becomes what a PNG of a scene's picture shows, for [`Explanation::tone`]. Automatic exposure
+/// is that of the picture, which is rendered to find it; who cancels that gets some exposure or other.
+pub fn tone_of(scene: &Scene, view: &View, options: &RenderOptions, cancel: &Cancel) -> ToneMap {
+    let tone = scene.tone.unwrap_or_default();
+    if tone.exposure != Exposure::Auto {
+        return ToneMap::new(&tone, &[], None);
+    }
+    let bare = options.clone().with_terms(TermSet::NONE).with_aovs(&[]).with_lights(0);
+    let options = bare.with_finishing_of(scene);
+    let film = render(view, &options, &|_| {}, cancel).film;
+    *finish(&film, &Finishing::of(&options)).tone()
 }
 
 /// Traces sample `index` (from 0) of a pixel, and tells `witness` of every step: of the ray's own
@@ -379,14 +401,19 @@ impl<'a> Road<'a> {
 }
 
 impl Explanation {
-    /// The pixel as a PNG of 8 bits has it, exposed by `exposure` stops.
-    pub fn encoded(&self, exposure: f64) -> Encoded {
-        let gain = wide::exp2(exposure);
-        let alpha = if self.alpha > 0.0 { f64::from(self.alpha) } else { 1.0 };
-        let clamped = self.linear.to_array().map(|v| (f64::from(v) / alpha * gain).clamp(0.0, 1.0));
-        let curve = clamped.map(srgb_encode);
+    /// The pixel as a PNG of 8 bits has it.
+    pub fn encoded(&self) -> Encoded {
+        let straight = |v: f32| if self.alpha > 0.0 { v / self.alpha } else { 0.0 };
+        let straight = Rgb::from(self.linear.to_array().map(straight));
+        let tone = self.tone.steps(straight);
+        // NaN becomes 0, as in files.
+        let clamped =
+            tone.last().to_array().map(|v| if v.is_nan() { 0.0 } else { v.clamp(0.0, 1.0) });
+        let curve = clamped.map(|v| srgb_encode(f64::from(v)));
         Encoded {
-            clamped: clamped.map(|v| v as f32).into(),
+            straight,
+            tone,
+            clamped: clamped.into(),
             curve,
             bytes: curve.map(|v| (v * 255.0 + 0.5).floor() as u8),
         }

@@ -5,12 +5,16 @@
 
 mod outline;
 mod patch;
+mod tone;
 
 use std::borrow::Cow;
 use std::sync::OnceLock;
 
+use phong_scene::Tone;
+
 use crate::film::{Film, LayerKind, Window};
 use crate::render::{Lines, RenderOptions};
+pub use tone::{ToneMap, ToneSteps};
 
 pub use patch::Patch;
 
@@ -34,6 +38,9 @@ pub struct Finishing {
     pub dpi: Option<f64>,
     /// What lies over all that, one upon the other: the furniture of a figure.
     pub patches: Vec<Patch>,
+    /// How light becomes what a PNG shows, last of all. Nothing else is changed by it: the film, terms,
+    /// EXR and PFM files hold light as it is.
+    pub tone: Tone,
 }
 
 impl Finishing {
@@ -42,18 +49,24 @@ impl Finishing {
     pub fn of(options: &RenderOptions) -> Self {
         let lines = options.lines();
         let shown = options.keeps_more().then(|| (options.shown(), options.shown_layers()));
-        Self { lines, shown, ..Self::default() }
+        Self { lines, shown, tone: options.tone(), ..Self::default() }
     }
 
     /// Whether the finished picture is another than that of the film.
     pub fn draws(&self) -> bool {
-        self.lines.is_some() || !self.patches.is_empty()
+        self.lines.is_some() || !self.patches.is_empty() || self.tone != Tone::default()
     }
 
     /// The same, of the scene with this [`fingerprint`](crate::part::fingerprint()).
     #[must_use]
     pub fn of_scene(self, fingerprint: u32) -> Self {
         Self { scene: Some(fingerprint), ..self }
+    }
+
+    /// The same, with such tone.
+    #[must_use]
+    pub fn with_tone(self, tone: Tone) -> Self {
+        Self { tone, ..self }
     }
 
     /// The same, of the picture with this checksum.
@@ -76,24 +89,35 @@ pub struct Finished<'a> {
     dpi: Option<f64>,
     scene: Option<u32>,
     picture: Option<u32>,
+    tone: ToneMap,
 }
 
 /// Finishes a film's picture.
 pub fn finish<'a>(film: &'a Film, finishing: &Finishing) -> Finished<'a> {
-    let Finishing { scene, picture, lines, shown, dpi, patches } = finishing;
+    let mut finished = drawn(film, finishing);
+    // What covers the picture is no light that could expose it.
+    let beneath = |kind| finished.beneath(kind);
+    let (picture, alpha) = (beneath(LayerKind::Picture), beneath(LayerKind::Alpha));
+    finished.tone = ToneMap::new(&finishing.tone, picture.unwrap_or_default(), alpha);
+    finished
+}
+
+/// A film with what is drawn onto its picture, and light as it is.
+fn drawn<'a>(film: &'a Film, finishing: &Finishing) -> Finished<'a> {
+    let Finishing { scene, picture, lines, shown, dpi, patches, tone: _ } = finishing;
     let (scene, picture, dpi, patches) = (*scene, *picture, *dpi, patches.clone());
-    let covered = OnceLock::new();
+    let (covered, tone) = (OnceLock::new(), ToneMap::default());
     let coverage = lines.and_then(|lines| Some((outline::coverage(film, &lines)?, lines)));
     let Some((window, kinds)) = shown else {
         let lined = coverage.map(|(coverage, lines)| lined(film, &coverage, &lines));
         let film = Cow::Borrowed(film);
-        return Finished { film, lined, patches, covered, dpi, scene, picture };
+        return Finished { film, lined, patches, covered, dpi, scene, picture, tone };
     };
     let film_shown = film.cut(*window, kinds);
     let lined = coverage.map(|(coverage, lines)| {
         lined(&film_shown, &film.cut_values(&coverage, 1, *window), &lines)
     });
-    Finished { film: Cow::Owned(film_shown), lined, patches, covered, dpi, scene, picture }
+    Finished { film: Cow::Owned(film_shown), lined, patches, covered, dpi, scene, picture, tone }
 }
 
 /// A film's picture and alpha; where it has none, all of it is covered.
@@ -156,6 +180,11 @@ impl Finished<'_> {
             _ => {}
         }
         self.film.layer(kind).map(|layer| &*layer.values)
+    }
+
+    /// How its light becomes what a PNG shows.
+    pub fn tone(&self) -> &ToneMap {
+        &self.tone
     }
 
     /// Pixels an inch, which files say; `None`: they do not.

@@ -78,7 +78,7 @@ pub struct AnimationOptions {
     pub pictures: u32,
     /// Pictures a second, from 1 to [`AnimationFormat::most_a_second`].
     pub rate: u16,
-    /// Exposure, and whether a PNG is linear; a GIF never is. Its `bits` are not looked at: 8.
+    /// Whether a PNG is linear; a GIF never is. Its `bits` are not looked at: 8.
     pub encoding: Encoding,
     /// Whether alpha is kept; else what lacks something is seen before black.
     pub alpha: bool,

@@ -1,7 +1,7 @@
 //! Pictures as files: PNG, PFM and OpenEXR, written whole or not at all, and read back; PPM and JPEG
 //! are read too. An [`Animation`] is several pictures in one file, an animated PNG or a GIF.
 //!
-//! | | values | layers | exposure | alpha |
+//! | | values | layers | tone | alpha |
 //! |---|---|---|---|---|
 //! | PNG | clamped to [0, 1], sRGB curve, 8 or 16 bits | a file each | picture only | straight |
 //! | PFM | linear f32 | a file each | no | none |
@@ -146,15 +146,12 @@ pub enum Bits {
 }
 
 /// How linear values become the values of a file.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Encoding {
     /// Bits a channel in a PNG. Variables that count or measure always take 16.
     pub bits: Bits,
     /// Whether a PNG holds linear values, without the sRGB curve, and says so.
     pub linear: bool,
-    /// Stops by which the picture in a PNG is made brighter; 0: as it is. Terms, arbitrary output
-    /// variables, PFM and EXR ignore it.
-    pub exposure: f64,
 }
 
 /// What one file holds.

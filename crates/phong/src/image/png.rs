@@ -7,6 +7,7 @@ use std::io::{Cursor, Write};
 use std::ops::Range;
 
 use phong_bvh::Level;
+use phong_scene::Rgb;
 use png::{
     BitDepth, ColorType, Compression, PixelDimensions, ScaledFloat, SrgbRenderingIntent,
     Transformations, Unit,
@@ -18,15 +19,17 @@ use super::picture::{MAX_VALUES, Picture, Plane, ReadError, Transfer, count, wit
 use super::{Bits, Encoding, WriteError};
 use crate::aov::Aov;
 use crate::film::{LayerKind, Window};
-use crate::finish::Finished;
+use crate::finish::{Finished, ToneMap};
 
 /// Bytes of levels that are encoded at a time, and of a chunk of the file, at most.
 const BAND: usize = 1 << 18;
 
 /// How the values of a layer become levels.
-struct Tone<'a> {
+struct Coding<'a> {
     /// What the values are multiplied by first.
     gain: f32,
+    /// What becomes of a colour in place of that; `None`: no more than that.
+    tone: Option<&'a ToneMap>,
     bits: Bits,
     /// `None`: values are scaled as they are.
     curve: Option<&'static Curve>,
@@ -57,21 +60,21 @@ pub(super) fn write(
         (false, Bits::Eight) => Some(Curve::eight()),
         (false, Bits::Sixteen) => Some(Curve::sixteen()),
     };
-    let plain = Tone { gain: 1.0, bits: encoding.bits, curve: None, alpha: None };
-    let number = Tone { bits: Bits::Sixteen, ..plain };
-    let (values, tone): (Cow<'_, [f32]>, _) = match kind {
+    let plain = Coding { gain: 1.0, tone: None, bits: encoding.bits, curve: None, alpha: None };
+    let number = Coding { bits: Bits::Sixteen, ..plain };
+    let (values, coding): (Cow<'_, [f32]>, _) = match kind {
         LayerKind::Picture => {
-            let gain = libm::exp2(encoding.exposure) as f32;
+            let (gain, tone) = gain_or_more(picture.tone());
             let alpha = layer(LayerKind::Alpha).ok();
             // All of a piece, without a branch for each.
             let is_whole = |piece: &[f32]| piece.iter().fold(true, |all, &a| all & (a == 1.0));
             let alpha = alpha.filter(|alpha| !alpha.chunks(4096).all(is_whole));
-            (values.into(), Tone { gain, curve, alpha, ..plain })
+            (values.into(), Coding { gain, tone, curve, alpha, ..plain })
         }
         LayerKind::Term(_)
         | LayerKind::Light(_)
         | LayerKind::Unlit
-        | LayerKind::Aov(Aov::Albedo) => (values.into(), Tone { curve, ..plain }),
+        | LayerKind::Aov(Aov::Albedo) => (values.into(), Coding { curve, ..plain }),
         LayerKind::Alpha | LayerKind::Aov(Aov::Shadow | Aov::Openness) => (values.into(), plain),
         LayerKind::Aov(Aov::Normal) => (values.iter().map(|n| 0.5 + 0.5 * n).collect(), plain),
         LayerKind::Aov(Aov::Uv) => {
@@ -87,18 +90,18 @@ pub(super) fn write(
         }
     };
     let grey = kind.channels() == 1;
-    let color = match (grey, tone.alpha) {
+    let color = match (grey, coding.alpha) {
         (true, _) => ColorType::Grayscale,
         (false, None) => ColorType::Rgb,
         (false, Some(_)) => ColorType::Rgba,
     };
     let mut encoder = png::Encoder::new(out, film.width(), film.height());
     encoder.set_color(color);
-    encoder.set_depth(match tone.bits {
+    encoder.set_depth(match coding.bits {
         Bits::Eight => BitDepth::Eight,
         Bits::Sixteen => BitDepth::Sixteen,
     });
-    if tone.curve.is_some() {
+    if coding.curve.is_some() {
         encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
     } else {
         encoder.set_source_gamma(ScaledFloat::from_scaled(100_000));
@@ -122,9 +125,9 @@ pub(super) fn write(
     let step = (BAND / (8 * width)).max(1);
     for first in (0..height).step_by(step) {
         let band = first..height.min(first + step);
-        let mut levels = levels(&values, if grey { 1 } else { 3 }, width, band.clone(), &tone);
+        let mut levels = levels(&values, if grey { 1 } else { 3 }, width, band.clone(), &coding);
         if kind == LayerKind::Picture {
-            cover(&mut levels, band, picture, &tone);
+            cover(&mut levels, band, picture, &coding);
         }
         rows.write_all(&levels)?;
     }
@@ -141,22 +144,33 @@ pub fn srgb8(picture: &Finished<'_>, encoding: &Encoding) -> Vec<u8> {
     let alpha: Cow<'_, [f32]> =
         picture.beneath(LayerKind::Alpha).map_or_else(opaque, Cow::Borrowed);
     let curve = (!encoding.linear).then(Curve::eight);
-    let gain = libm::exp2(encoding.exposure) as f32;
-    let tone = Tone { gain, bits: Bits::Eight, curve, alpha: Some(&alpha) };
+    let (gain, tone) = gain_or_more(picture.tone());
+    let coding = Coding { gain, tone, bits: Bits::Eight, curve, alpha: Some(&alpha) };
     let rows = 0..film.height() as usize;
-    let mut levels = levels(values, 3, film.width() as usize, rows.clone(), &tone);
-    cover(&mut levels, rows, picture, &tone);
+    let mut levels = levels(values, 3, film.width() as usize, rows.clone(), &coding);
+    cover(&mut levels, rows, picture, &coding);
     levels
 }
 
 /// Lays what covers the picture over the levels of some of its rows.
-fn cover(levels: &mut [u8], rows: Range<usize>, picture: &Finished<'_>, tone: &Tone<'_>) {
+fn cover(levels: &mut [u8], rows: Range<usize>, picture: &Finished<'_>, coding: &Coding<'_>) {
     let whole = picture.film().window;
     let [y0, y1] = [rows.start, rows.end].map(|row| whole.y0 + row as u32);
     let part = Window { y0, y1, ..whole };
     for patch in picture.patches() {
-        patch.over_levels(part, levels, tone.alpha.is_some(), tone.bits, tone.curve.is_none());
+        patch.over_levels(
+            part,
+            levels,
+            coding.alpha.is_some(),
+            coding.bits,
+            coding.curve.is_none(),
+        );
     }
+}
+
+/// The factor that tone is; or 1, and the tone that is more than a factor.
+fn gain_or_more(tone: &ToneMap) -> (f32, Option<&ToneMap>) {
+    tone.only_gain().map_or((1.0, Some(tone)), |gain| (gain, None))
 }
 
 /// The levels of some rows of pixels, as the bytes a PNG holds.
@@ -165,25 +179,25 @@ fn levels(
     channels: usize,
     width: usize,
     rows: Range<usize>,
-    tone: &Tone<'_>,
+    coding: &Coding<'_>,
 ) -> Vec<u8> {
-    let bytes = match tone.bits {
+    let bytes = match coding.bits {
         Bits::Eight => 1,
         Bits::Sixteen => 2,
     };
-    let pixel_bytes = (channels + usize::from(tone.alpha.is_some())) * bytes;
+    let pixel_bytes = (channels + usize::from(coding.alpha.is_some())) * bytes;
     let mut out = vec![0_u8; rows.len() * width * pixel_bytes];
     out.par_chunks_exact_mut(width * pixel_bytes).enumerate().for_each(|(y, row)| {
         let first = (rows.start + y) * width;
-        if tone.alpha.is_none() && bytes == 1 {
+        if coding.alpha.is_none() && coding.tone.is_none() && bytes == 1 {
             // The usual picture: nothing to divide, and a byte a value.
             let values = &values[first * channels..][..row.len()];
-            match tone.curve {
+            match coding.curve {
                 Some(curve) => {
-                    let levels = values.iter().map(|value| value * tone.gain);
+                    let levels = values.iter().map(|value| value * coding.gain);
                     row.iter_mut().zip(levels).for_each(|(to, v)| *to = curve.level(v) as u8);
                 }
-                None => Level::detect().run(LinearLevels { values, gain: tone.gain, to: row }),
+                None => Level::detect().run(LinearLevels { values, gain: coding.gain, to: row }),
             }
             return;
         }
@@ -197,14 +211,24 @@ fn levels(
         };
         let highest = if bytes == 1 { 255 } else { 65535 };
         for i in first..first + width {
-            let alpha = tone.alpha.map_or(1.0, |alpha| alpha[i]);
-            for &value in &values[i * channels..][..channels] {
-                let value = if alpha > 0.0 { value / alpha * tone.gain } else { 0.0 };
-                put(tone
+            let alpha = coding.alpha.map_or(1.0, |alpha| alpha[i]);
+            let mut put_value = |value: f32| {
+                put(coding
                     .curve
                     .map_or_else(|| linear_level(value, highest), |curve| curve.level(value)));
+            };
+            let straight = |value: f32| if alpha > 0.0 { value / alpha } else { 0.0 };
+            match (coding.tone, &values[i * channels..][..channels]) {
+                (Some(tone), &[r, g, b]) => {
+                    let color = tone.steps(Rgb::from([r, g, b].map(straight))).last();
+                    color.to_array().into_iter().for_each(&mut put_value);
+                }
+                (_, values) => {
+                    let values = values.iter().map(|&value| straight(value) * coding.gain);
+                    values.for_each(&mut put_value);
+                }
             }
-            if tone.alpha.is_some() {
+            if coding.alpha.is_some() {
                 put(linear_level(alpha, highest));
             }
         }

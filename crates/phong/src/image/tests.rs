@@ -2,6 +2,8 @@
 
 use std::io::Cursor;
 
+use phong_scene::{Exposure, Tone, ToneCurve};
+
 use super::*;
 use crate::aov::Aov;
 use crate::film::{Film, Window};
@@ -138,13 +140,44 @@ fn a_linear_png_says_so() {
     assert_eq!(transfer(&Encoding::default()), Transfer::Srgb);
 }
 
+/// The bytes of a PNG of one layer of a film with such tone.
+fn toned(film: &Film, kind: LayerKind, tone: Tone, encoding: &Encoding) -> Vec<u8> {
+    let finished = finish(film, &Finishing::default().with_tone(tone));
+    let mut file = Cursor::new(Vec::new());
+    write(&finished, Content::Layer(kind), Format::Png, encoding, &mut file).unwrap();
+    let mut reader = ::png::Decoder::new(Cursor::new(file.into_inner())).read_info().unwrap();
+    let mut data = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut data).unwrap();
+    data
+}
+
 #[test]
 fn a_stop_of_exposure_doubles_the_light_of_the_picture_alone() {
     let term = LayerKind::Term(Term::Diffuse);
     let film = film([1, 1], &[(PICTURE, &[0.25; 3]), (term, &[0.25; 3])]);
-    let encoding = Encoding { exposure: 1.0, ..Encoding::default() };
-    assert_eq!(png_of(&film, PICTURE, &encoding).1, [188; 3]);
-    assert_eq!(png_of(&film, term, &encoding).1, [137; 3]);
+    let tone = Tone { exposure: Exposure::Stops(1.0), ..Tone::default() };
+    assert_eq!(toned(&film, PICTURE, tone, &Encoding::default()), [188; 3]);
+    assert_eq!(toned(&film, term, tone, &Encoding::default()), [137; 3]);
+}
+
+/// (0.25 · 2) through the filmic curve is 0.616306…, by hand, and that on the sRGB curve 206.
+#[test]
+fn tone_comes_before_the_curve_of_a_png_and_after_alpha_and_no_other_file_has_it() {
+    let film = film([1, 1], &[(PICTURE, &[0.125; 3]), (LayerKind::Alpha, &[0.5])]);
+    let exposure = Exposure::Stops(1.0);
+    let tone = Tone { exposure, curve: ToneCurve::Filmic, ..Tone::default() };
+    assert_eq!(toned(&film, PICTURE, tone, &Encoding::default()), [206, 206, 206, 128]);
+    let linear = Encoding { linear: true, ..Encoding::default() };
+    assert_eq!(toned(&film, PICTURE, tone, &linear), [157, 157, 157, 128]);
+    let sixteen = Encoding { bits: Bits::Sixteen, ..linear };
+    let data = toned(&film, PICTURE, tone, &sixteen);
+    assert_eq!(u16::from_be_bytes([data[0], data[1]]), 40_390);
+    let plain = bytes(&film, Content::Layer(PICTURE), Format::Pfm, &linear);
+    let mut out = Cursor::new(Vec::new());
+    let finished = finish(&film, &Finishing::default().with_tone(tone));
+    assert_eq!(srgb8(&finished, &Encoding::default()), [206, 206, 206, 128]);
+    write(&finished, Content::Layer(PICTURE), Format::Pfm, &linear, &mut out).unwrap();
+    assert_eq!(out.into_inner(), plain);
 }
 
 #[test]

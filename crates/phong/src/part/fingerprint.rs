@@ -18,9 +18,10 @@ pub fn fingerprint(scene: &Scene) -> u32 {
         ambient,
         ambient_occlusion,
         fog,
-        // It is no part of the film.
+        // They are no part of the film.
         outline: _,
         furniture: _,
+        tone: _,
         sky,
         clips,
         lights,

@@ -11,6 +11,7 @@ mod figure;
 mod fingerprint;
 mod join;
 mod settings;
+mod tone;
 
 use std::io::{self, Read, Write};
 use std::sync::Arc;

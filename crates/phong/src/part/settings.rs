@@ -2,9 +2,9 @@
 
 use std::fmt::Write as _;
 
-use phong_scene::Scene;
+use phong_scene::{Scene, Tone};
 
-use super::{ARITHMETIC, checksum, figure, fingerprint};
+use super::{ARITHMETIC, checksum, figure, fingerprint, tone};
 use crate::film::{Film, LayerKind, Window};
 use crate::finish::Finishing;
 use crate::image::{Bits, Encoding};
@@ -25,6 +25,8 @@ pub struct Settings {
     pub share: Option<(u32, u32)>,
     /// How the whole is to be written.
     pub encoding: Encoding,
+    /// How its light becomes what a PNG shows.
+    pub tone: Tone,
     /// All else that the pixels depend on: names and values, for comparison only.
     pub picture: Vec<(String, String)>,
 }
@@ -65,6 +67,7 @@ impl Settings {
             layers: options.layers(),
             share: options.share(),
             encoding,
+            tone: scene.tone.unwrap_or_default(),
             picture,
         }
     }
@@ -117,6 +120,7 @@ impl Settings {
             shown: self.shown(),
             dpi: dpi.filter(|dpi: &f64| *dpi > 0.0 && dpi.is_finite()),
             patches: Vec::new(),
+            tone: self.tone,
         }
     }
 
@@ -153,12 +157,14 @@ impl Settings {
     /// The first thing in which two parts are not of one picture: its name, here and there.
     pub fn difference(&self, other: &Self) -> Option<(String, String, String)> {
         let (here, there) = (self.lines(), other.lines());
-        let name_there = |name: &str| there.iter().find(|(n, _)| n == name);
-        let differs = |(name, value): (String, String)| {
-            let other = name_there(&name).map_or("nothing", |(_, value)| value).to_owned();
-            (other != value && name != "share").then_some((name, value, other))
+        let said = |lines: &[(String, String)], name: &str| {
+            let line = lines.iter().find(|(said, _)| said == name);
+            line.map_or_else(|| "nothing".to_owned(), |(_, value)| value.clone())
         };
-        here.into_iter().find_map(differs)
+        let names = here.iter().chain(&there).map(|(name, _)| name);
+        let each = names.map(|name| (name.clone(), said(&here, name), said(&there, name)));
+        let mut each = each.filter(|(name, ..)| name != "share");
+        each.find(|(_, here, there)| here != there)
     }
 
     pub(super) fn to_text(&self) -> String {
@@ -182,10 +188,13 @@ impl Settings {
             ("share", share),
             ("bits", bits.to_owned()),
             ("linear", self.encoding.linear.to_string()),
-            ("exposure", self.encoding.exposure.to_string()),
+            ("exposure", tone::exposure(&self.tone)),
         ];
-        let fixed = fixed.into_iter().map(|(name, value)| (name.to_owned(), value));
-        fixed.chain(self.picture.iter().cloned()).collect()
+        let fixed = fixed.into_iter().chain(tone::more(&self.tone));
+        fixed
+            .map(|(name, value)| (name.to_owned(), value))
+            .chain(self.picture.iter().cloned())
+            .collect()
     }
 
     /// Settings from their text; `None` where it is none.
@@ -210,12 +219,16 @@ impl Settings {
             _ => return None,
         };
         let linear = next("linear")?.parse().ok()?;
-        let exposure = next("exposure")?.parse().ok()?;
-        let picture = lines
-            .map(|line| line.map(|(name, value)| (name.to_owned(), value.to_owned())))
-            .collect::<Option<_>>()?;
-        let encoding = Encoding { bits, linear, exposure };
-        let settings = Self { size, window, tile, layers, share, encoding, picture };
+        let mut tone = tone::exposed(next("exposure")?)?;
+        let mut picture = Vec::new();
+        for line in lines {
+            let (name, value) = line?;
+            if !tone::read(&mut tone, name, value)? {
+                picture.push((name.to_owned(), value.to_owned()));
+            }
+        }
+        let encoding = Encoding { bits, linear };
+        let settings = Self { size, window, tile, layers, share, encoding, tone, picture };
         window.fits(size).then_some(settings)
     }
 }

@@ -1,4 +1,4 @@
-use phong_scene::{Image, Scene};
+use phong_scene::{Exposure, Image, Rgb, Scene, Tone, ToneCurve};
 
 use super::*;
 use crate::aov::Aov;
@@ -16,8 +16,9 @@ fn settings(share: Option<(u32, u32)>) -> Settings {
     let options = options.with_window(Window { x0: 1, y0: 2, x1: 40, y1: 30 }).unwrap();
     let options = options.with_aovs(&[Aov::Depth, Aov::Normal]);
     let options = share.map_or(options.clone(), |(i, n)| options.with_share(i, n).unwrap());
-    let encoding = Encoding { bits: Bits::Sixteen, linear: true, exposure: -0.1 };
-    Settings::of(&Scene { image, ..Scene::default() }, &options, encoding)
+    let encoding = Encoding { bits: Bits::Sixteen, linear: true };
+    let tone = Tone { exposure: Exposure::Stops(-0.1), ..Tone::default() };
+    Settings::of(&Scene { image, tone: Some(tone), ..Scene::default() }, &options, encoding)
 }
 
 /// A part with its tiles done, every value told apart from every other.
@@ -78,6 +79,25 @@ fn what_is_written_is_read() {
     for share in [None, Some((1, 4))] {
         let part = part(share);
         assert_eq!(read(&bytes(&part)).unwrap(), part);
+    }
+}
+
+#[test]
+fn tone_is_kept_and_is_part_of_what_a_picture_is() {
+    let plain = part(None);
+    let neutral = Some(Rgb::new(1.0, 0.25, 1e-7));
+    for tone in [
+        Tone { exposure: Exposure::Auto, ..Tone::default() },
+        Tone { white_balance: Some(3200.5), curve: ToneCurve::Filmic, ..Tone::default() },
+        Tone { neutral, curve: ToneCurve::Reinhard { white: 2.25 }, ..Tone::default() },
+    ] {
+        let settings = Settings { tone, ..plain.settings.clone() };
+        let toned = Part { settings, film: plain.film.clone() };
+        assert_eq!(read(&bytes(&toned)).unwrap(), toned);
+        assert_ne!(toned.settings.checksum(), plain.settings.checksum());
+        assert!(toned.settings.difference(&plain.settings).is_some());
+        assert!(plain.settings.difference(&toned.settings).is_some());
+        assert_eq!(toned.settings.finishing().tone, tone);
     }
 }
 

@@ -1,6 +1,6 @@
 //! What to render: options that are valid from the moment they exist.
 
-use phong_scene::{FilterKind, Image, Scene};
+use phong_scene::{FilterKind, Image, Scene, Tone};
 use thiserror::Error;
 
 use super::{Lines, Passes};
@@ -41,6 +41,7 @@ pub struct RenderOptions {
     lines: Option<Lines>,
     /// Whether the distance of things is kept, for what they may hide of the picture's furniture.
     hides: bool,
+    tone: Tone,
 }
 
 /// Why there are no such options: in every case the caller's fault.
@@ -125,6 +126,7 @@ impl RenderOptions {
             passes: Passes::default(),
             lines: None,
             hides: false,
+            tone: Tone::default(),
         };
         valid.with_size(size)?.with_samples(samples)?.with_depth(depth)?.with_min_weight(min_weight)
     }
@@ -278,9 +280,21 @@ impl RenderOptions {
     /// and the distance of what may hide a label.
     #[must_use]
     pub fn with_finishing_of(self, scene: &Scene) -> Self {
-        let Scene { outline, image, furniture, .. } = scene;
+        let Scene { outline, image, furniture, tone, .. } = scene;
         let lines = outline.as_ref().map(|outline| Lines::of(outline, image));
-        Self { hides: furniture.needs_depth(), ..self.with_lines(lines) }
+        let hides = furniture.needs_depth();
+        Self { hides, ..self.with_lines(lines).with_tone(tone.unwrap_or_default()) }
+    }
+
+    /// Makes light so what a PNG shows; it changes no bit of the film.
+    #[must_use]
+    pub fn with_tone(self, tone: Tone) -> Self {
+        Self { tone, ..self }
+    }
+
+    /// How light becomes what a PNG shows, when the film is done.
+    pub fn tone(&self) -> Tone {
+        self.tone
     }
 
     /// Lines that are drawn when the film is done; `None`: there are none.

@@ -110,7 +110,8 @@ fn merge_shares(
         )));
     }
     let output = tasks.picture_file(digest);
-    merge::run(&merge::Args { parts: parts.clone(), output, encoding: args.encoding.clone() })?;
+    let (encoding, tone) = (args.encoding.clone(), args.tone.clone());
+    merge::run(&merge::Args { parts: parts.clone(), output, encoding, tone })?;
     for part in parts {
         // One that cannot be removed takes room and does no harm.
         let _ = std::fs::remove_file(part);

@@ -64,6 +64,10 @@ pub(crate) fn leave_out(
             let message = format!("{format} holds no title, scale bar, axes, legend or labels");
             account.drop(Diagnostic::warning(message, None));
         }
+        if scene.tone.is_some() {
+            let message = format!("{format} holds no exposure, white balance or curve (`[tone]`)");
+            account.drop(Diagnostic::warning(message, None));
+        }
         if !scene.clips.is_empty() {
             let message = format!("{format} holds nothing that is cut away (`[[clip]]`)");
             account.drop(Diagnostic::warning(message, None));

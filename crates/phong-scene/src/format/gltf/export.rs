@@ -55,6 +55,9 @@ pub(crate) fn write_gltf(
         if !scene.furniture.is_empty() {
             lost.push("title, scale bar, axes, legend or labels");
         }
+        if scene.tone.is_some() {
+            lost.push("exposure, white balance or curve (`[tone]`)");
+        }
         if !scene.clips.is_empty() {
             lost.push("clips: what they cut away is there");
         }

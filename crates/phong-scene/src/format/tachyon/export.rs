@@ -143,6 +143,10 @@ fn head(scene: &Scene, account: &mut Account) -> String {
         let message = "Tachyon's outlines are of materials: `[outline]` is not written";
         account.drop(Diagnostic::warning(message.to_owned(), None));
     }
+    if scene.tone.is_some() {
+        let message = "Tachyon holds no exposure, white balance or curve: `[tone]` is not written";
+        account.drop(Diagnostic::warning(message.to_owned(), None));
+    }
     if !scene.clips.is_empty() {
         let message = "Tachyon's clips are not written: what `[[clip]]` cuts away is there";
         account.drop(Diagnostic::warning(message.to_owned(), None));

@@ -34,6 +34,7 @@ use crate::scene::{Image, Scene};
 use crate::sky::Sky;
 use crate::source::Source;
 use crate::texture::Texture;
+use crate::tone::Tone;
 use crate::wording::quoted;
 
 /// Reads a scene's files; names between them are looked up when all are read.
@@ -55,6 +56,7 @@ pub(super) struct Reader<'a> {
     pub(super) outline: Option<Outline>,
     pub(super) furniture: Furniture,
     label_count: usize,
+    pub(super) tone: Option<Tone>,
     pub(super) sky: Option<Sky>,
     /// The clips, and where in `material_names` the material of each one's cap is.
     pub(super) clips: Vec<(Clip, Option<usize>)>,
@@ -115,6 +117,7 @@ impl<'a> Reader<'a> {
             outline: None,
             furniture: Furniture::default(),
             label_count: 0,
+            tone: None,
             sky: None,
             clips: Vec::new(),
             clip_count: 0,
@@ -253,7 +256,7 @@ impl<'a> Reader<'a> {
     /// `[image]`, `[ambient]` and the like where the text has none, and something is laid
     /// over them.
     fn settings_not_written(&mut self, document: &DeTable<'_>, head: Spot) {
-        for name in ["image", "ambient", "ambient_occlusion", "sky", "fog", "outline"]
+        for name in ["image", "ambient", "ambient_occlusion", "sky", "fog", "outline", "tone"]
             .into_iter()
             .chain(settings::FURNITURE)
         {
@@ -306,6 +309,7 @@ impl<'a> Reader<'a> {
             "camera" => self.camera = settings::camera(&values, &mut self.notes),
             "ambient" => self.ambient = values.color("color").unwrap_or(Rgb::WHITE),
             "sky" => self.sky = settings::sky(&values, &mut self.notes),
+            "tone" => self.tone = settings::tone(&values, &mut self.notes),
             "fog" => self.fog = settings::fog(&values, &mut self.notes),
             "ambient_occlusion" => {
                 let mut occlusion = AmbientOcclusion::default();

@@ -73,6 +73,7 @@ impl Reader<'_> {
             fog: self.fog,
             outline: self.outline,
             furniture: self.furniture,
+            tone: self.tone,
             sky: self.sky,
             clips,
             lights: self.lights,

@@ -10,6 +10,7 @@ use crate::furniture::{Axes, Furniture, FurnitureStyle, Legend, PointLabel, Scal
 use crate::light::{Light, LightKind};
 use crate::scene::Image;
 use crate::sky::Sky;
+use crate::tone::Tone;
 
 /// Below this many degrees a field of view is more likely one in radians, which end at π.
 const RADIANS: f64 = 3.0;
@@ -97,6 +98,14 @@ pub(super) fn label(v: &Values, notes: &mut Notes) -> Option<PointLabel> {
     v.fill(&mut label)?;
     let sound = notes.judge(|key| v.spot_of(key), |faults| judge::label(&label, faults));
     sound.then_some(label)
+}
+
+/// `[tone]`; what is wrong with it has been said.
+pub(super) fn tone(v: &Values, notes: &mut Notes) -> Option<Tone> {
+    let mut tone = Tone::default();
+    v.fill(&mut tone)?;
+    let sound = notes.judge(|key| v.spot_of(key), |faults| judge::tone(&tone, faults));
+    sound.then_some(tone)
 }
 
 /// A clip, whose cap is of no other material yet; what is wrong with it has been said.

@@ -301,7 +301,7 @@ pub(super) fn default(key: &Key) -> Option<Value> {
         (Default::Required | Default::Said(_), _) => None,
         (Default::Flag(flag), _) => Some(Value::Flag(flag)),
         (Default::Integer(n), _) => Some(Value::Integer(n)),
-        (Default::Number(n), Kind::Number(_)) => Some(Value::Number(n)),
+        (Default::Number(n), Kind::Number(_) | Kind::NumberOr(..)) => Some(Value::Number(n)),
         (Default::Number(n), _) => Some(Value::Color(Rgb::grey(n as f32))),
         (Default::Vector(v), _) => Some(Value::Vector(v.into())),
         (Default::Size(size), _) => Some(Value::Size(size)),

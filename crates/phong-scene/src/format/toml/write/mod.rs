@@ -53,6 +53,7 @@ pub(crate) fn write_toml(
         fog,
         outline,
         mut furniture,
+        tone,
         sky,
         clips,
         lights,
@@ -111,6 +112,12 @@ pub(crate) fn write_toml(
             }
             "furniture" | "title" | "scale_bar" | "axes" | "legend" => {
                 out.furniture(&header, table, &furniture);
+            }
+            "tone" => {
+                if let Some(tone) = tone {
+                    let kind = table.word_of(&tone);
+                    out.table(&header, table, kind, |key| key.get(&tone));
+                }
             }
             "ambient_occlusion" => {
                 if let Some(occlusion) = ambient_occlusion {
