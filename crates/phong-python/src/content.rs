@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use phong_scene::{
     Caps, Cylinders, ExportOptions, Field, Format, Framing, Limits, Memory, Mesh, Object, Points,
-    Scene, Shape, Shared, Side, TexelValues, Texels, Texture, TextureKind, read,
+    Scene, Shape, Shared, Side, SkyKind, TexelValues, Texels, TextureKind, read,
 };
 use pyo3::PyResult;
 use serde_json::{Value, json};
@@ -45,8 +45,7 @@ impl Arrays {
     }
 
     /// The pixels of an image; in the text a single pixel, in a file of this name, stands for them.
-    fn image(&mut self, texture: &mut Texture, name: String) -> Option<Value> {
-        let TextureKind::Image { file, texels, .. } = &mut texture.kind else { return None };
+    fn image(&mut self, texels: &Arc<Texels>, file: &mut String, name: String) -> Value {
         let (kind, bytes) = match texels.values() {
             TexelValues::Bytes(values) => ("bytes", values.clone()),
             TexelValues::Shorts(values) => {
@@ -70,7 +69,7 @@ impl Arrays {
             "array": number,
         });
         *file = name;
-        Some(told)
+        told
     }
 
     /// Numbers of points, with their names.
@@ -153,8 +152,18 @@ pub(crate) fn pack(state: &State) -> PyResult<Packed> {
         material.name = format!("m{number}");
     }
     let textures = scene.textures.iter_mut().enumerate();
-    let images: Vec<_> =
-        textures.map(|(number, texture)| arrays.image(texture, image_file(number))).collect();
+    let mut images: Vec<_> = textures
+        .map(|(number, texture)| match &mut texture.kind {
+            TextureKind::Image { file, texels, .. } => {
+                Some(arrays.image(texels, file, image_file(number)))
+            }
+            _ => None,
+        })
+        .collect();
+    if let Some(SkyKind::Image { file, texels, .. }) = scene.sky.as_mut().map(|sky| &mut sky.kind) {
+        // After those of all textures.
+        images.push(Some(arrays.image(texels, file, image_file(images.len()))));
+    }
     // Objects have other names in the text.
     let clips: Vec<_> =
         scene.clips.iter_mut().map(|clip| std::mem::take(&mut clip.objects)).collect();
@@ -242,7 +251,15 @@ pub(crate) fn unpack(text: &str, arrays: &[&[u8]]) -> PyResult<State> {
     give_back(scene.objects.iter_mut(), objects, &mut taken)?;
     give_back(grouped, in_groups, &mut taken)?;
     for texture in &mut scene.textures {
-        taken.give_image_back(texture, images)?;
+        if let TextureKind::Image { file, texels, .. } = &mut texture.kind {
+            taken.give_image_back(file, texels, images)?;
+        }
+    }
+    if let Some(SkyKind::Image { file, texels, place, .. }) =
+        scene.sky.as_mut().map(|sky| &mut sky.kind)
+    {
+        taken.give_image_back(file, texels, images)?;
+        *place = phong_scene::Place::default();
     }
     let clips = packed["clips"].as_array().ok_or_else(broken)?;
     for (clip, names) in scene.clips.iter_mut().zip(clips) {
@@ -355,9 +372,13 @@ impl Taken<'_> {
         Ok(array)
     }
 
-    /// Gives a texture the pixels of its image back.
-    fn give_image_back(&mut self, texture: &mut Texture, images: &[Value]) -> PyResult<()> {
-        let TextureKind::Image { file, texels, .. } = &mut texture.kind else { return Ok(()) };
+    /// Gives a texture or a sky the name and the pixels of its image back.
+    fn give_image_back(
+        &mut self,
+        file: &mut String,
+        texels: &mut Arc<Texels>,
+        images: &[Value],
+    ) -> PyResult<()> {
         let number = (0..images.len()).find(|&number| image_file(number) == *file);
         let packed = &images[number.ok_or_else(broken)?];
         packed["file"].as_str().ok_or_else(broken)?.clone_into(file);

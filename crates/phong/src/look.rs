@@ -45,7 +45,7 @@ impl Look {
             ambient: scene.ambient,
             ambient_occlusion: scene.ambient_occlusion,
             fog: scene.fog,
-            sky: scene.sky,
+            sky: scene.sky.clone(),
             clips: scene.clips.clone(),
             background: scene.image.background,
         }

@@ -1,9 +1,12 @@
 //! A sky, ready for rays.
 
+mod image;
+
 use glam::{DVec3, Vec3};
 use phong_scene::{Rgb, SkyKind};
 
 use crate::math::{self, wide};
+use image::SkyImage;
 
 /// A sky, ready for rays.
 #[derive(Clone, Debug)]
@@ -17,25 +20,40 @@ enum Kind {
     Constant(Rgb),
     Gradient { zenith: Rgb, horizon: Rgb, ground: Rgb },
     Daylight(Box<Daylight>),
+    Image(Box<SkyImage>),
 }
 
 impl Sky {
-    pub(crate) fn new(sky: &phong_scene::Sky) -> Self {
+    /// A sky whose light each surface finds out about by so many rays.
+    pub(crate) fn new(sky: &phong_scene::Sky, rays: u32) -> Self {
         let up = sky.up.normalize_or(DVec3::Y);
-        let kind = match sky.kind {
+        let kind = match &sky.kind {
             SkyKind::Constant => Kind::Constant(sky.color),
-            SkyKind::Gradient { zenith, horizon, ground } => {
+            &SkyKind::Gradient { zenith, horizon, ground } => {
                 let [zenith, horizon, ground] =
                     [zenith, horizon, ground.unwrap_or(horizon)].map(|color| color * sky.color);
                 Kind::Gradient { zenith, horizon, ground }
             }
-            SkyKind::SunAndSky { sun, turbidity, ground } => {
+            &SkyKind::SunAndSky { sun, turbidity, ground } => {
                 let ground = ground.unwrap_or(Rgb::grey(0.2)) * sky.color;
                 let sun = sun.normalize_or(up);
                 Kind::Daylight(Box::new(Daylight::new(sun, up, turbidity, sky.color, ground)))
             }
+            SkyKind::Image { texels, rotation, .. } => {
+                let image = SkyImage::new(texels, up, *rotation, sky.color, rays);
+                Kind::Image(Box::new(image))
+            }
         };
         Self { up: up.as_vec3(), kind }
+    }
+
+    /// What comes from about a unit direction, as one of the rays by which a surface finds out about the
+    /// sky's light has it: of an image the mean over a part of what lies between the rays. Linear.
+    pub(crate) fn light(&self, dir: Vec3) -> Rgb {
+        match &self.kind {
+            Kind::Image(image) => image.around(dir),
+            _ => self.radiance(dir),
+        }
     }
 
     /// What comes from a unit direction. Linear.
@@ -46,6 +64,7 @@ impl Sky {
             Kind::Constant(color) => *color,
             Kind::Gradient { ground, .. } if height < 0.0 => *ground,
             Kind::Gradient { zenith, horizon, .. } => (1.0 - height) * *horizon + height * *zenith,
+            Kind::Image(image) => image.at(dir),
             Kind::Daylight(daylight) if height < 0.0 => daylight.ground,
             Kind::Daylight(daylight) => daylight.radiance(height, dir.dot(daylight.sun)),
         }
@@ -168,7 +187,7 @@ mod tests {
 
     fn daylight(turbidity: f64) -> Sky {
         let kind = SkyKind::SunAndSky { sun: DVec3::new(1.0, 1.0, 0.0), turbidity, ground: None };
-        Sky::new(&phong_scene::Sky { kind, ..phong_scene::Sky::default() })
+        Sky::new(&phong_scene::Sky { kind, ..phong_scene::Sky::default() }, 16)
     }
 
     fn luminance(color: Rgb) -> f32 {
@@ -180,7 +199,7 @@ mod tests {
         let [zenith, horizon] = [Rgb::new(0.0, 0.0, 1.0), Rgb::new(1.0, 0.0, 0.0)];
         let kind = SkyKind::Gradient { zenith, horizon, ground: Some(Rgb::grey(0.5)) };
         let sky = phong_scene::Sky { kind, up: DVec3::Z, ..phong_scene::Sky::default() };
-        let sky = Sky::new(&sky);
+        let sky = Sky::new(&sky, 16);
         assert_eq!(sky.radiance(Vec3::Z), zenith);
         assert_eq!(sky.radiance(Vec3::X), horizon);
         assert_eq!(sky.radiance(Vec3::new(0.8, 0.0, 0.6)), Rgb::new(1.0 - 0.6, 0.0, 0.6));

@@ -182,11 +182,13 @@ impl View {
         if let Some(number) = capped.max().filter(|number| *number as usize >= count) {
             return Err(ViewError::NoMaterial { number, count });
         }
+        let occlusion = Occlusion::of(&look, geometry.world());
+        let rays = occlusion.map_or(1, |occlusion| occlusion.samples);
         Ok(Self {
             clipping: Clipping::of(&look.clips, &geometry).map(Arc::new),
             coincidences: Coincidences::of(&geometry, &materials),
-            occlusion: Occlusion::of(&look, geometry.world()),
-            sky: look.sky.as_ref().map(Sky::new),
+            occlusion,
+            sky: look.sky.as_ref().map(|sky| Sky::new(sky, rays)),
             has_bounces: look.materials.iter().any(bounces),
             fog: look.fog.map(|fog| Fog::new(&fog, look.background, &camera)),
             has_see_through: look.materials.iter().any(phong_scene::Material::is_see_through),

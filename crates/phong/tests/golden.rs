@@ -41,7 +41,7 @@ golden! {
         mesh_smooth plane plane_below points sphere sphere_displaced sphere_far sphere_inside torus
         torus_far triangle triangle_back triangle_normals;
     terms: ambient ambient_color diffuse emission fog occlusion reflection reflection_depth shininess_0 shininess_1000
-        shininess_3 sky specular specular_object sum total_internal total_internal_plain transmission
+        shininess_3 sky sky_image specular specular_object sum total_internal total_internal_plain transmission
         transmission_dark transmission_plain transmission_thin trapped;
     textures: checker_floor checker_spaces checker_uv color_maps gradient image maps numbers patterns vertex_colors;
     transforms: include instance instance_nested matrix mirrored order rotate rotate_list scale;

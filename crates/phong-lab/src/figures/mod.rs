@@ -31,6 +31,7 @@ mod reflection;
 mod scattering;
 mod shading;
 mod shininess;
+mod sky;
 mod specular;
 mod speed;
 mod stage;
@@ -62,7 +63,7 @@ pub struct Entry {
 }
 
 /// All figures, in the lecture's order.
-pub const CATALOGUE: [Entry; 18] = [
+pub const CATALOGUE: [Entry; 19] = [
     entry("normal", "the normal of a sphere, n = p − c", &[Parameter::Color], normal::draw),
     entry("vectors", "to the eye, and to distant and point lights", &[], vectors::draw),
     entry("shading", "the three vectors at a point of a ball: n, l and e", &[], shading::draw),
@@ -115,6 +116,12 @@ pub const CATALOGUE: [Entry; 18] = [
         terms::draw,
     ),
     entry("examples", "the model at work: four scenes", &[], examples::draw),
+    entry(
+        "sky",
+        "what the ambient constant stands for: light that is met, of a sky",
+        &[],
+        sky::draw,
+    ),
     entry(
         "microfacets",
         "tiny mirrors, and the lobe they add up to",

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use phong_scene::{
     Clip, Diagnostic, Folder, Material, MaterialId, Object, Scene as SceneText, Shape, Shared,
-    Texture, TextureKind, closest,
+    SkyKind, Texture, TextureKind, closest,
 };
 use pyo3::prelude::*;
 use pyo3::types::PyString;
@@ -90,6 +90,11 @@ impl Scene {
             if let TextureKind::Image { file, .. } = kind {
                 *file = beside(&place.file, file);
             }
+        }
+        if let Some(SkyKind::Image { file, place, .. }) =
+            framed.sky.as_mut().map(|sky| &mut sky.kind)
+        {
+            *file = beside(&place.file, file);
         }
         let mut all = tables(SceneText { objects: Vec::new(), groups: Vec::new(), ..framed })?;
         let clips = all.get_mut("clip").and_then(Value::as_array_mut).into_iter().flatten();

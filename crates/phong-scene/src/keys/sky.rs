@@ -3,6 +3,7 @@
 use super::field::{field, keyed};
 use super::{Default, Key, Kind, Table};
 use crate::ambient_occlusion::AmbientOcclusion;
+use crate::limits::Range;
 use crate::sky::{Sky, SkyKind};
 use crate::wording::Word;
 
@@ -60,6 +61,23 @@ pub(crate) static SKY: Table = Table {
         )
         .of(field!(Sky.kind = SkyKind::{Gradient | SunAndSky}.ground))
         .only(&["gradient", "sun-and-sky"]),
+        Key::new(
+            "file",
+            Kind::File,
+            Default::Required,
+            "The image: PNG, JPEG, Radiance HDR or OpenEXR. Its width is all around and its height from \
+             straight up to straight down; its middle lies towards −Z, of an `up` along Z towards +Y.",
+        )
+        .of(field!(Sky.kind = SkyKind::{Image}.file))
+        .only(&["image"]),
+        Key::new(
+            "rotation",
+            Kind::Number(Range::ANY),
+            Default::Number(0.0),
+            "Degrees by which it is turned about `up`, right-handed.",
+        )
+        .of(field!(Sky.kind = SkyKind::{Image}.rotation))
+        .only(&["image"]),
         Key::new("up", Kind::Direction, Default::Vector([0.0, 1.0, 0.0]), "Which way is up.")
             .of(field!(Sky.up)),
         Key::new(

@@ -60,6 +60,7 @@ cases! {
 
 cases! {
     bad:
+    a_sky_needs_its_image
     nothing_black_looks_grey
     tone_has_one_white
     tone_out_of_range_is_told

@@ -121,11 +121,11 @@ impl Make {
         let (color, strength) = (self.flag().then(|| self.color()), self.one(&[1.0, 0.5]));
         let (sun, ground) =
             (DVec3::new(1.0, 0.5, self.number()), self.flag().then(|| self.color()));
-        let kind_of_sky = self.one(&[
-            SkyKind::Constant,
-            SkyKind::Gradient { zenith: Rgb::grey(0.5), horizon: Rgb::WHITE, ground },
-            SkyKind::SunAndSky { sun, turbidity: 2.5, ground },
-        ]);
+        let kind_of_sky = match self.below(3) {
+            0 => SkyKind::Constant,
+            1 => SkyKind::Gradient { zenith: Rgb::grey(0.5), horizon: Rgb::WHITE, ground },
+            _ => SkyKind::SunAndSky { sun, turbidity: 2.5, ground },
+        };
         let (color_of_sky, up) = (self.color(), self.one(&[DVec3::Y, DVec3::X]));
         let of_sky = Sky { kind: kind_of_sky, up, color: color_of_sky, samples: 9 };
         let sky = self.flag().then_some(of_sky);

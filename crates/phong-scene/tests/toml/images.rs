@@ -182,3 +182,32 @@ fn an_image_that_is_not_there_is_told_and_a_mesh_without_coordinates_is_warned_o
     let messages: Vec<_> = told.iter().map(|told| told.message.as_str()).collect();
     assert_eq!(messages, ["mesh 1 has no texture coordinates, which the texture \"map\" needs"]);
 }
+
+#[test]
+fn a_sky_may_be_an_image_which_is_read_and_written_as_those_of_textures_are() {
+    use phong_scene::{ExportOptions, SkyKind};
+    let text = TEXT.replace(
+        "[textures.map]",
+        "[sky]\nkind = \"image\"\nfile = \"map\"\nrotation = 30\n[textures.map]",
+    );
+    let image = png([2, 1], (png::ColorType::Rgb, png::BitDepth::Eight), &[9, 8, 7, 6, 5, 4]);
+    let files = Memory::new().with("a.toml", text.as_bytes()).with("map", &*image);
+    let reading = read("a.toml", None, &files, &Limits::default());
+    assert!(reading.diagnostics.is_empty(), "{:#?}", reading.diagnostics);
+    let scene = reading.scene.expect("a scene");
+    let Some(SkyKind::Image { texels, rotation, .. }) = scene.sky.as_ref().map(|sky| &sky.kind)
+    else {
+        panic!("an image")
+    };
+    assert_eq!((texels.size(), *rotation), ([2, 1], 30.0));
+    // One file is read once, and written once.
+    let TextureKind::Image { texels: other, .. } = &scene.textures[0].kind else { panic!("one") };
+    assert!(std::sync::Arc::ptr_eq(texels, other));
+    let export = scene.clone().export(&ExportOptions::default(), "b.toml").expect("it is written");
+    let names: Vec<_> = export.files.iter().map(|file| file.name.clone()).collect();
+    assert_eq!(names, ["b.toml", "b-image-1.png"]);
+    // What is no image is told at its place.
+    let files = Memory::new().with("a.toml", text.as_bytes()).with("map", &b"no image"[..]);
+    let said = read("a.toml", None, &files, &Limits::default()).diagnostics;
+    assert!(said.iter().any(|d| d.is_error() && d.message.contains("map")), "{said:#?}");
+}

@@ -86,7 +86,7 @@ fn summary(scene: &Scene) -> String {
         differing(camera, &Camera::default()),
         format!("ambient {ambient:?}"),
     ];
-    lines.extend(sky.map(|sky| format!("{sky:?}")));
+    lines.extend(sky.iter().map(|sky| format!("{sky:?}")));
     lines.extend(fog.map(|fog| format!("{fog:?}")));
     lines.extend(outline.map(|outline| format!("{outline:?}")));
     if *furniture != Furniture::default() {

@@ -12,8 +12,8 @@ use phong::geometry::Geometry;
 use phong::glam::DVec3;
 use phong::image::srgb_level;
 use phong::scene::{
-    Change, Diagnostic, ExportOptions, Limits, Memory, Param, Rgb, Scene, SceneError, Texels,
-    TextureKind, read_changed,
+    Change, Diagnostic, ExportOptions, Limits, Memory, Param, Rgb, Scene, SceneError, SkyKind,
+    Texels, TextureKind, read_changed,
 };
 use serde_json::{Map, Value, json};
 
@@ -104,6 +104,9 @@ pub(super) fn text(scene: &Scene) -> Result<String, String> {
             *file = image_file(number);
         }
     }
+    if let Some(SkyKind::Image { file, .. }) = bare.sky.as_mut().map(|sky| &mut sky.kind) {
+        SKY_FILE.clone_into(file);
+    }
     let options = ExportOptions { images: false, ..ExportOptions::default() };
     let export = bare.export(&options, NAME);
     let export = export.map_err(|diagnostic| diagnostic.message.clone())?;
@@ -120,8 +123,15 @@ pub(super) fn stand_ins(scene: &Scene) -> Result<Memory, String> {
             files = files.with(image_file(number), bytes);
         }
     }
+    if let Some(SkyKind::Image { texels, .. }) = scene.sky.as_ref().map(|sky| &sky.kind) {
+        let bytes = texels.stand_in().map_err(|error| error.to_string())?;
+        files = files.with(SKY_FILE, bytes);
+    }
     Ok(files)
 }
+
+/// What the image of the sky is called in the text of a look.
+const SKY_FILE: &str = "image-sky.png";
 
 /// What the image of a texture is called in the text of a look.
 fn image_file(texture: usize) -> String {
@@ -134,6 +144,16 @@ fn give_images_back(scene: &mut Scene, own: &Scene) {
         let TextureKind::Image { file, texels, .. } = &texture.kind else { return None };
         Some((image_file(number), (file, texels)))
     });
+    if let (Some(sky), Some(own)) = (&mut scene.sky, &own.sky)
+        && let SkyKind::Image { file, place, texels, .. } = &mut sky.kind
+        && let SkyKind::Image { file: own_file, place: own_place, texels: own_texels, .. } =
+            &own.kind
+        && file == SKY_FILE
+    {
+        file.clone_from(own_file);
+        place.clone_from(own_place);
+        texels.clone_from(own_texels);
+    }
     let images: BTreeMap<String, (&String, &Arc<Texels>)> = images.collect();
     for texture in &mut scene.textures {
         if let TextureKind::Image { file, texels, .. } = &mut texture.kind

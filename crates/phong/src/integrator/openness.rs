@@ -115,7 +115,7 @@ impl Integrator<'_> {
                             _ if self.scene.has_filters() => self.left_of_light(&ray, |_| true),
                             _ => continue,
                         };
-                        let more = left * sky.radiance(ray.dir);
+                        let more = left * sky.light(ray.dir);
                         set(light, lane, (Rgb::from(get(light, lane)) + more).to_array());
                     }
                 }

@@ -4,7 +4,7 @@ use std::fmt::{self, Write as _};
 
 use crc32fast::Hasher;
 use phong_scene::{
-    Clip, Cylinders, Field, Group, Material, Mesh, Object, Place, Points, Scene, Shape,
+    Clip, Cylinders, Field, Group, Material, Mesh, Object, Place, Points, Scene, Shape, SkyKind,
     TexelValues, Texels, Texture, TextureKind,
 };
 
@@ -33,7 +33,14 @@ pub fn fingerprint(scene: &Scene) -> u32 {
     let mut sum = Sum(Hasher::new());
     sum.debug(&(camera, ambient));
     if let Some(sky) = sky {
-        sum.debug(sky);
+        let mut sky = sky.clone();
+        if let SkyKind::Image { file, place, .. } = &mut sky.kind {
+            (*file, *place) = Default::default();
+        }
+        sum.debug(&sky);
+        if let SkyKind::Image { texels, .. } = &sky.kind {
+            sum.texels(texels);
+        }
     }
     if let Some(fog) = fog {
         sum.debug(fog);

@@ -192,7 +192,7 @@ impl<'a> Reader<'a> {
                 }
                 Kind::Table(table) => {
                     if let Some(text) = self.table(key.name, value, file) {
-                        self.setting(table, text, Spot::new(file, value.span()));
+                        self.setting(table, text, Spot::new(file, value.span()), path);
                     }
                 }
                 Kind::Tables(table) => {
@@ -221,7 +221,7 @@ impl<'a> Reader<'a> {
         }
         if main {
             self.say_missing(document, head);
-            self.settings_not_written(document, head);
+            self.settings_not_written(document, head, path);
         }
         items.sort_by_key(|(spot, _)| spot.start);
         // Files that stand before the maps that show something of them must be read with it.
@@ -255,7 +255,7 @@ impl<'a> Reader<'a> {
 
     /// `[image]`, `[ambient]` and the like where the text has none, and something is laid
     /// over them.
-    fn settings_not_written(&mut self, document: &DeTable<'_>, head: Spot) {
+    fn settings_not_written(&mut self, document: &DeTable<'_>, head: Spot, path: &str) {
         for name in ["image", "ambient", "ambient_occlusion", "sky", "fog", "outline", "tone"]
             .into_iter()
             .chain(settings::FURNITURE)
@@ -264,7 +264,7 @@ impl<'a> Reader<'a> {
                 continue;
             };
             if !document.contains_key(name) && !self.changes.over(name, &[]).is_empty() {
-                self.setting(table, &DeTable::new(), head);
+                self.setting(table, &DeTable::new(), head, path);
             }
         }
     }
@@ -302,13 +302,21 @@ impl<'a> Reader<'a> {
     }
 
     /// `[image]`, `[camera]` and the like.
-    fn setting(&mut self, table: &'static Table, text: &DeTable<'_>, spot: Spot) {
+    fn setting(&mut self, table: &'static Table, text: &DeTable<'_>, spot: Spot, path: &str) {
         let over = self.changes.over(table.name, &[]);
         let values = Values::read_changed(table, text, spot, &over, &mut self.notes);
         match table.name {
             "camera" => self.camera = settings::camera(&values, &mut self.notes),
             "ambient" => self.ambient = values.color("color").unwrap_or(Rgb::WHITE),
-            "sky" => self.sky = settings::sky(&values, &mut self.notes),
+            "sky" => {
+                let images = &mut Images {
+                    path,
+                    source: self.source,
+                    limits: self.limits,
+                    read: &mut self.images,
+                };
+                self.sky = settings::sky(&values, images, &mut self.notes);
+            }
             "tone" => self.tone = settings::tone(&values, &mut self.notes),
             "fog" => self.fog = settings::fog(&values, &mut self.notes),
             "ambient_occlusion" => {

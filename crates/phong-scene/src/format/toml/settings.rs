@@ -2,6 +2,7 @@
 
 use super::notes::Notes;
 use super::table::Values;
+use super::texture::Images;
 use crate::camera::{Camera, CameraKind};
 use crate::check::settings as judge;
 use crate::clip::{Cap, Clip};
@@ -9,7 +10,7 @@ use crate::fog::Fog;
 use crate::furniture::{Axes, Furniture, FurnitureStyle, Legend, PointLabel, ScaleBar, Title};
 use crate::light::{Light, LightKind};
 use crate::scene::Image;
-use crate::sky::Sky;
+use crate::sky::{Sky, SkyKind};
 use crate::tone::Tone;
 
 /// Below this many degrees a field of view is more likely one in radians, which end at π.
@@ -40,9 +41,13 @@ pub(super) fn camera(v: &Values, notes: &mut Notes) -> Option<Camera> {
 }
 
 /// `[sky]`; what is wrong with it has been said.
-pub(super) fn sky(v: &Values, notes: &mut Notes) -> Option<Sky> {
+pub(super) fn sky(v: &Values, images: &mut Images<'_>, notes: &mut Notes) -> Option<Sky> {
     let mut sky = Sky::default();
     v.fill(&mut sky)?;
+    if let SkyKind::Image { file, place, texels, .. } = &mut sky.kind {
+        *place = notes.place(v.spot);
+        *texels = images.load(file, v.spot_of("file"), notes)?;
+    }
     let sound = notes.judge(|key| v.spot_of(key), |faults| judge::sky(&sky, faults));
     sound.then_some(sky)
 }

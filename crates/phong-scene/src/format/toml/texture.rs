@@ -44,7 +44,12 @@ pub(super) struct Images<'a> {
 
 impl Images<'_> {
     /// The pixels of the image of this name, which stands there; `None`: what is wrong has been said.
-    fn load(&mut self, file: &str, spot: Spot, notes: &mut Notes) -> Option<Arc<Texels>> {
+    pub(super) fn load(
+        &mut self,
+        file: &str,
+        spot: Spot,
+        notes: &mut Notes,
+    ) -> Option<Arc<Texels>> {
         let path = join(self.path, file);
         let key = normal(&path);
         if !self.read.0.contains_key(&key) {

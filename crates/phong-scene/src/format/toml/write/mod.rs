@@ -24,6 +24,7 @@ use crate::material::{Material, MaterialId};
 use crate::mesh::{Cylinders, Mesh};
 use crate::scene::{Object, Scene};
 use crate::shape::Shape;
+use crate::sky::SkyKind;
 use crate::texels::{TexelValues, Texels};
 use crate::texture::{Encoding, Texture, TextureKind};
 
@@ -79,6 +80,7 @@ pub(crate) fn write_toml(
         files: Vec::new(),
         ply: options.ply,
         images: options.images,
+        written: Vec::new(),
         account,
         trouble: None,
     };
@@ -94,7 +96,10 @@ pub(crate) fn write_toml(
                 out.setting(&header, table, kind, |key| key.get(&camera));
             }
             "sky" => {
-                if let Some(sky) = sky {
+                if let Some(mut sky) = sky.clone() {
+                    if let SkyKind::Image { file, texels, .. } = &mut sky.kind {
+                        out.image(&header, texels, file);
+                    }
                     let kind = table.word_of(&sky);
                     out.table(&header, table, kind, |key| key.get(&sky));
                 }
@@ -183,6 +188,8 @@ struct Writer<'a> {
     ply: PlyEncoding,
     /// Whether images are written beside the text.
     images: bool,
+    /// The images that are written, by their names.
+    written: Vec<(Arc<Texels>, String)>,
     account: &'a mut Account,
     /// The first number that cannot be written.
     trouble: Option<Diagnostic>,
@@ -274,8 +281,31 @@ impl Writer<'_> {
         self.trouble.get_or_insert_with(|| Diagnostic::error(message, None));
     }
 
+    /// Writes an image beside the text, once, and gives `file` its name: where the file was is somewhere
+    /// else from there.
+    fn image(&mut self, header: &str, texels: &Arc<Texels>, file: &mut String) {
+        if !self.images {
+            return;
+        }
+        let known = self.written.iter().find(|(other, _)| Arc::ptr_eq(other, texels));
+        if let Some((_, name)) = known {
+            file.clone_from(name);
+            return;
+        }
+        *file = format!("{}-image-{}.png", self.stem, self.written.len() + 1);
+        if let TexelValues::Floats(values) = texels.values()
+            && values.iter().any(|value| !(0.0..=1.0).contains(value))
+        {
+            let message =
+                format!("{header}: a PNG holds 0 to 1; brighter and negative values are cut off");
+            self.account.drop(Diagnostic::warning(message, None));
+        }
+        let pixels = Arc::clone(texels);
+        self.files.push(File::new(file.clone(), move |to| pixels.write_png(to)));
+        self.written.push((Arc::clone(texels), file.clone()));
+    }
+
     fn textures(&mut self, textures: &[Texture]) {
-        let mut written: Vec<(Arc<Texels>, String)> = Vec::new();
         for (number, texture) in textures.iter().enumerate() {
             let header = format!("[textures.{}]", text::name(&self.texture_names[number]));
             let mut texture = texture.clone();
@@ -286,25 +316,7 @@ impl Writer<'_> {
                 if let (TexelValues::Floats(_), Encoding::Auto) = (texels.values(), *encoding) {
                     *encoding = Encoding::Linear;
                 }
-                // Pixels go along: where the file was is somewhere else from there.
-                let known = written.iter().find(|(other, _)| Arc::ptr_eq(other, texels));
-                *file = if let Some((_, name)) = known {
-                    name.clone()
-                } else {
-                    let name = format!("{}-image-{}.png", self.stem, written.len() + 1);
-                    if let TexelValues::Floats(values) = texels.values()
-                        && values.iter().any(|value| !(0.0..=1.0).contains(value))
-                    {
-                        let message = format!(
-                            "{header}: a PNG holds 0 to 1; brighter and negative values are cut off"
-                        );
-                        self.account.drop(Diagnostic::warning(message, None));
-                    }
-                    let pixels = Arc::clone(texels);
-                    self.files.push(File::new(name.clone(), move |to| pixels.write_png(to)));
-                    written.push((Arc::clone(texels), name.clone()));
-                    name
-                };
+                self.image(&header, texels, file);
             }
             let texture = &texture;
             let kind = keys::TEXTURE.word_of(texture);
