@@ -196,3 +196,15 @@ def test_every_process_writes_the_same_bytes(tmp_path: Path) -> None:
         subprocess.run([sys.executable, "-c", code, str(SCENE), str(path)], check=True)
         written.add(path.read_bytes())
     assert len(written) == 1
+
+
+def test_a_picture_is_exposed_by_itself_and_toned_as_its_scene_says(tmp_path: Path) -> None:
+    scene = phong.Scene()
+    scene.add_spheres([(0, 0, 0)], 1.0)
+    scene.frame("front")
+    image = phong.render(scene, size=(32, 32), samples=1)
+    assert not np.array_equal(image.to_srgb8("auto"), image.to_srgb8())
+    image.save(tmp_path / "auto.png", exposure="auto")
+    assert phong.compare(image.to_srgb8("auto"), tmp_path / "auto.png").max == 0
+    with pytest.raises(ValueError, match="exposure = lots"):
+        image.to_srgb8("lots")  # type: ignore[arg-type]

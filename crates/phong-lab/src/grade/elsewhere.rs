@@ -108,9 +108,10 @@ impl<'a> Elsewhere<'a> {
         match self.meet(&ray) {
             Some(met) => self.point(&met),
             None => match self.right.view.background() {
-                Background::Color(background) => {
-                    Some(Point { terms: Terms { background, ..Terms::default() }, surface: None })
-                }
+                Background::Color(background) => Some(Point {
+                    terms: Terms { background, ..Terms::default() },
+                    ..Point::default()
+                }),
                 _ => None,
             },
         }
@@ -178,7 +179,7 @@ impl<'a> Elsewhere<'a> {
         let written = &material.written;
         let emission = written.emission_color.unwrap_or(met.color) * written.k_e;
         let terms = Terms { ambient: met.ambient, emission, ..Terms::default() };
-        Some(Point { terms, surface: Some(met) })
+        Some(Point { terms, surface: Some(met), fog: None })
     }
 }
 

@@ -123,12 +123,6 @@ impl Grader {
     pub fn new(scene: &Scene) -> Result<Self, GradeError> {
         let lets_light_through =
             |m: &Material| m.is_see_through() || m.shadow == Some(ShadowRule::Filtered);
-        if scene.sky.is_some() {
-            return Err(GradeError::NotYet("a sky"));
-        }
-        if scene.fog.is_some() {
-            return Err(GradeError::NotYet("fog"));
-        }
         if scene.tone.is_some_and(|tone| tone != Tone::default()) {
             return Err(GradeError::NotYet(
                 "exposure, white balance or a curve of their own (`[tone]`)",

@@ -11,7 +11,7 @@ use phong::render::RenderOptions;
 use phong::terms::Terms;
 use phong::texture::TexturePoint;
 use phong::view::View;
-use phong::witness::{Branch, Cut, LightContribution, Witness};
+use phong::witness::{Branch, Cut, Faded, LightContribution, Witness};
 use phong_bvh::Ray;
 use phong_scene::{ConstantMaterial, FilterKind, Rgb};
 use rayon::prelude::*;
@@ -23,6 +23,8 @@ pub(super) struct Point {
     pub(super) terms: Terms,
     /// What the ray met.
     pub(super) surface: Option<Surface>,
+    /// What fog leaves of the sum, and what it adds; `None`: there is none.
+    pub(super) fog: Option<(f32, Rgb)>,
 }
 
 /// A material as it is at a surface: as it was written, and ready for light.
@@ -56,8 +58,8 @@ pub(super) struct Surface {
     pub(super) color: Rgb,
     /// The ambient term as it is in the sum, per-light parts included.
     pub(super) ambient: Rgb,
-    /// The share of the ambient light that finds its way here: a factor of the ambient term.
-    pub(super) openness: f32,
+    /// What of the ambient light finds its way here, or of a sky's: a factor of the ambient term.
+    pub(super) openness: Rgb,
     pub(super) lights: Vec<LightPoint>,
 }
 
@@ -187,7 +189,7 @@ pub(super) fn surface(
         tangent: Dir3::from_array(tangent).unwrap_or(Dir3::X),
         color: at.color,
         ambient,
-        openness: 1.0,
+        openness: Rgb::WHITE,
         lights: Vec::with_capacity(view.lights().len()),
     }
 }
@@ -227,7 +229,19 @@ impl Witness for Listener<'_> {
 
     fn opened(&mut self, share: f32) {
         if let (true, Some(surface)) = (self.weights.is_empty(), &mut self.point.surface) {
-            surface.openness = share;
+            surface.openness = Rgb::grey(share);
+        }
+    }
+
+    fn lit_by_sky(&mut self, light: Rgb) {
+        if let (true, Some(surface)) = (self.weights.is_empty(), &mut self.point.surface) {
+            surface.openness = light;
+        }
+    }
+
+    fn faded(&mut self, told: &Faded) {
+        if self.weights.is_empty() {
+            self.point.fog = Some((told.clear, told.light));
         }
     }
 

@@ -59,6 +59,15 @@ impl Facts {
 
 /// The sum at a point, computed with a mistake.
 pub(super) fn shade(point: &Point, fault: &Fault, facts: &Facts) -> Terms {
+    let terms = before_fog(point, fault, facts);
+    match point.fog {
+        Some((clear, fog)) => Terms { fog, ..Terms::from_fn(|term| terms[term] * clear) },
+        None => terms,
+    }
+}
+
+/// The sum before fog fades it.
+fn before_fog(point: &Point, fault: &Fault, facts: &Facts) -> Terms {
     let Some(surface) = &point.surface else {
         return match fault.look.as_ref().and_then(|look| look.background) {
             Some(background) => Terms { background, ..point.terms },

@@ -191,3 +191,29 @@ fn what_is_no_number_is_told_with_its_place_and_the_rest_is_graded() {
     let wrong = broken(&["no specular"]);
     assert_eq!(wrong.cause.as_deref(), Some("not-a-number + specular-missing"));
 }
+
+#[test]
+fn skies_and_fog_are_parts_of_the_sum_and_what_is_wrong_in_them_is_named() {
+    use phong::render::{Cancel, RenderOptions, render};
+    use phong::view::View;
+    use phong_scene::{Fog, FogKind, Rgb, Sky, SkyKind, Tone, ToneCurve};
+    let mut scene = scene(&one_lamp());
+    let [zenith, horizon] = [Rgb::new(0.5, 0.7, 1.0), Rgb::new(1.0, 0.8, 0.6)];
+    let kind = SkyKind::Gradient { zenith, horizon, ground: None };
+    scene.sky = Some(Sky { kind, samples: 4, ..Sky::default() });
+    let kind = FogKind::Exponential { density: 0.05 };
+    scene.fog = Some(Fog { kind, color: Some(Rgb::grey(0.6)), ..Fog::default() });
+    let draw = |scene: &Scene| {
+        let options = RenderOptions::of(&scene.image).unwrap().one_sample();
+        let view = View::of(scene).unwrap();
+        Picture::of_film(&render(&view, &options, &|_| {}, &Cancel::new()).film)
+    };
+    let grader = Grader::new(&scene).unwrap();
+    assert!(grader.grade(&draw(&scene)).unwrap().pass);
+    let without = Scene { ambient: Rgb::BLACK, ..scene.clone() };
+    let grade = grader.grade(&draw(&without)).unwrap();
+    assert_eq!(grade.cause.as_deref(), Some("ambient-missing"), "{grade:#?}");
+    scene.tone = Some(Tone { curve: ToneCurve::Filmic, ..Tone::default() });
+    let error = Grader::new(&scene).unwrap_err().to_string();
+    assert!(error.contains("[tone]"), "{error}");
+}
