@@ -90,7 +90,7 @@ impl Outputs {
         part.into_iter().chain(files.into_iter().flatten().map(|(_, output)| output))
     }
 
-    /// Writes everything, under no name yet; tells the stops of exposure of what is a picture.
+    /// Writes everything, under no name yet; tells the stops of exposure of a PNG.
     pub(crate) fn write(
         &mut self,
         film: &Film,
@@ -105,11 +105,14 @@ impl Outputs {
                 let finishing = furniture::finishing(film, settings);
                 write_files(*format, files, film, settings, &finishing)
             }
-            Self::Figure(output) => output.write(|out| {
-                let text = furniture::svg(film, settings, &settings.encoding)?;
-                out.write_all(text.as_bytes())?;
-                Ok::<_, WriteError>(())
-            }),
+            Self::Figure(output) => {
+                output.write(|out| {
+                    let text = furniture::svg(film, settings, &settings.encoding)?;
+                    out.write_all(text.as_bytes())?;
+                    Ok::<_, WriteError>(())
+                })?;
+                Ok(None)
+            }
         }
     }
 

@@ -120,7 +120,7 @@ impl Image {
     pub(crate) fn picture(&self) -> phong::image::Picture {
         match &self.made {
             Made::Elsewhere(settings) if settings.furniture().is_some() => {
-                phong::image::Picture::of_film(&self.finished().into_film())
+                phong::image::Picture::of_film(&self.finished(None).into_film())
             }
             _ => phong::image::Picture::of_film(&self.film),
         }
@@ -202,7 +202,7 @@ impl Image {
         let this = slf.get();
         let [height, width] = this.sides();
         let array = this.array.get_or_try_init(py, || {
-            let values = py.detach(|| interleaved(&this.finished()));
+            let values = py.detach(|| interleaved(&this.finished(None)));
             frozen(py, values, &[height, width, 4]).map(Bound::unbind)
         })?;
         let array = array.bind(py);

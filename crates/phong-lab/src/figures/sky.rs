@@ -11,7 +11,7 @@ use super::drawing::Drawing;
 use super::mark::Point;
 use super::plot::fixed;
 use super::stage::{self, ball, object, probe};
-use super::{Finish, Number, Plate, Setting, style};
+use super::{Finish, Number, Plate, Setting};
 
 const TITLE: &str = "From constant to sky";
 const EQUATION: &str = "*k*_a *C*_a × (1, then openness, then sky)";
@@ -117,10 +117,6 @@ fn drawing(numbers: &[Number], setting: Setting) -> Drawing {
         let of = |place: usize| fixed(numbers[2 * column + place].value, 2);
         let note = format!("× {} on top, × {} by the ball", of(0), of(1));
         drawing.note(middle + Point::new(0.0, 62.0), &note);
-        if column > 0 {
-            let between = left + Point::new(-20.0, 0.5 * size);
-            drawing.label(between, 30.0, style::TEXT, "→");
-        }
     }
     drawing
 }
@@ -144,8 +140,10 @@ mod tests {
     #[test]
     fn on_top_all_three_give_the_same_and_by_the_ball_less_finds_its_way() {
         let [constant, flat, open, nook, day, shade] = draw(Setting::DRAFT).values();
-        assert_eq!([constant, flat, open], [1.0; 3]);
-        assert!((day - 1.0).abs() < 0.03, "{day}");
-        assert!(nook < 0.8 && shade < 0.8 * day, "{nook} {shade}");
+        for whole in [constant, flat, open] {
+            assert!((whole - 1.0).abs() < 1e-9, "{whole}");
+        }
+        assert!((day - 1.0).abs() < 0.05, "{day}");
+        assert!(nook < 0.8 && shade < 0.9 * day, "{nook} {shade}");
     }
 }

@@ -67,12 +67,11 @@ pub(super) fn whole(
             let (colors, alphas) = (values(LayerKind::Picture), values(LayerKind::Alpha));
             for (color, &alpha) in colors.as_chunks::<3>().0.iter().zip(alphas) {
                 let straight = |v: f32| if alpha > 0.0 { v / alpha } else { 0.0 };
-                let toned = match finishing.tone == Tone::default() {
-                    true => *color,
-                    false => {
-                        let toned = finished.tone().steps(color.map(straight).into()).last();
-                        (toned * alpha).to_array()
-                    }
+                let toned = if finishing.tone == Tone::default() {
+                    *color
+                } else {
+                    let toned = finished.tone().steps(color.map(straight).into()).last();
+                    (toned * alpha).to_array()
                 };
                 toned.iter().chain([&alpha]).for_each(|v| bytes.extend(v.to_le_bytes()));
             }
