@@ -370,3 +370,14 @@ fn names_need_not_be_utf8() {
     let names: Vec<_> = scene(reading).materials.into_iter().map(|m| m.name).collect();
     assert_eq!(names, ["default", "grün", "grön"]);
 }
+
+#[test]
+fn a_remark_behind_the_atoms_of_a_lammps_file_is_no_style() {
+    let full = include_str!("atoms/water.data");
+    let remark = full.replace("Atoms # full", "Atoms # as the manual has them");
+    let objects = |text: &str| {
+        let reading = read_with(&[("a.data", text.as_bytes())], &Limits::default());
+        format!("{:?}", reading.scene.expect("a scene").objects)
+    };
+    assert_eq!(objects(&remark), objects(full));
+}

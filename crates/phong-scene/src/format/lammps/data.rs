@@ -186,7 +186,9 @@ impl Header {
 /// The layout of atoms of the style that the heading says, or that fits the first of them.
 fn style(blob: &dyn Blob, heading: &Heading) -> io::Result<Result<Layout, String>> {
     let first = first_row(blob, heading)?;
-    let named = heading.text.split('#').nth(1).map(str::trim).unwrap_or_default();
+    // A style is one word; several are a remark.
+    let named = heading.text.split('#').nth(1).map(str::trim);
+    let named = named.filter(|named| !named.contains(char::is_whitespace)).unwrap_or_default();
     // Three whole numbers at the end say in which image of the box an atom is.
     let images = first.len() > 7 && first[first.len() - 3..].iter().all(|word| is_integer(word));
     let count = first.len() - if images { 3 } else { 0 };
