@@ -129,13 +129,10 @@ fn read_known(
     if let Some(change) = changes.iter().find(|change| !molecule || !of_molecule(change)) {
         let message =
             format!("this is a bare model, which has no text for {} to change", change.path());
-        let help = match of_atoms.contains(&format) {
-            true => {
-                "the keys of a `[[molecule]]` can be set, like `molecule.1.style=sticks`; others in a scene"
-            }
-            false => {
-                "write a scene that names it as `file` of a `[[mesh]]`, and set that one's keys"
-            }
+        let help = if of_atoms.contains(&format) {
+            "the keys of a `[[molecule]]` can be set, like `molecule.1.style=sticks`; others in a scene"
+        } else {
+            "write a scene that names it as `file` of a `[[mesh]]`, and set that one's keys"
         };
         return refused(message, help.to_owned(), true);
     }

@@ -199,7 +199,7 @@ fn a_tube_goes_through_the_residues_of_a_chain_and_ends_where_it_breaks() {
     // It meets the atoms, without a gap between its pieces.
     assert_eq!(tubes.segments[12][0], [3.0, 1.0, 0.0, 0.5]);
     assert!(tubes.segments[..24].windows(2).all(|pair| pair[0][1] == pair[1][0]));
-    assert!(tubes.colors[0] == tubes.colors[47] || tubes.colors[0] != tubes.colors[40]);
+    assert!(tubes.colors[0] == tubes.colors[35] && tubes.colors[0] != tubes.colors[47]);
     let alone = draw(chain(&atoms[6..8]), &tube).unwrap_err();
     assert!(alone.starts_with("no chain of residues is found"), "{alone}");
 }

@@ -107,11 +107,12 @@ impl Molecule {
             });
             let goes_on = run.last().zip(anchor.as_ref()).is_some_and(|(a, b)| self.linked(a, b));
             if !goes_on {
-                found.add(std::mem::take(&mut run));
+                found.add(&run);
+                run.clear();
             }
             run.extend(anchor);
         }
-        found.add(run);
+        found.add(&run);
         found
     }
 
@@ -157,10 +158,14 @@ impl Molecule {
                     segments.push([end(from), end(to)]);
                     from = to;
                     if let Some((a, b)) = ends {
-                        let between = |share: f32| match blend {
-                            true => a * (1.0 - share) + b * share,
-                            false if share < 0.5 => a,
-                            false => b,
+                        let between = |share: f32| {
+                            if blend {
+                                a * (1.0 - share) + b * share
+                            } else if share < 0.5 {
+                                a
+                            } else {
+                                b
+                            }
                         };
                         halves.push([between(share(1)), between(share(3))]);
                     }
@@ -175,11 +180,11 @@ impl Molecule {
 
 impl Backbones {
     /// Adds a chain, unless it is a residue alone.
-    fn add(&mut self, run: Vec<Anchor>) {
+    fn add(&mut self, run: &[Anchor]) {
         if run.len() < 2 {
             return;
         }
-        for anchor in &run {
+        for anchor in run {
             self.within[anchor.residue.clone()].fill(true);
         }
         self.chains.push(run.iter().map(|anchor| anchor.atom).collect());

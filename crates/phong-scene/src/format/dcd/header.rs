@@ -70,7 +70,7 @@ impl Header {
         header.has_cell = version != 0 && cell != 0;
         header.has_fourth = version != 0 && fourth != 0;
         let first = header.record(blob, 0, Some(FIRST.into()))?;
-        let titles = header.record(blob, first.end(), None)?;
+        let titles = header.titles(blob, first.end())?;
         let count = header.record(blob, titles.end(), Some(4))?;
         let mut bytes = [0; 4];
         blob.read_full(&mut bytes, count.start)?;
@@ -117,13 +117,28 @@ impl Header {
         if self.little { f32::from_le_bytes(bytes) } else { f32::from_be_bytes(bytes) }
     }
 
+    /// The whole number that stands there; `None`: it is below 0, or the file ends before.
+    fn mark(&self, blob: &dyn Blob, at: u64) -> Result<Option<u64>, Fault> {
+        let mut bytes = [0; 4];
+        let whole = blob.read_full(&mut bytes, at)? == 4;
+        Ok(u64::try_from(self.integer(&bytes)).ok().filter(|_| whole))
+    }
+
+    /// The record of the titles: how many there are, then 80 bytes each. Some programs write more titles than the
+    /// record's length has room for, so that their number counts.
+    fn titles(&self, blob: &dyn Blob, at: u64) -> Result<Record, Fault> {
+        if let [Some(length), Some(count)] = [self.mark(blob, at)?, self.mark(blob, at + 4)?] {
+            let record = Record { start: at + 4, bytes: 4 + 80 * count };
+            if self.mark(blob, record.start + record.bytes)? == Some(length) {
+                return Ok(record);
+            }
+        }
+        self.record(blob, at, None)
+    }
+
     /// The record that begins there, of this length if one is given.
     fn record(&self, blob: &dyn Blob, at: u64, wanted: Option<u64>) -> Result<Record, Fault> {
-        let mark = |at: u64| -> Result<Option<u64>, Fault> {
-            let mut bytes = [0; 4];
-            let whole = blob.read_full(&mut bytes, at)? == 4;
-            Ok(u64::try_from(self.integer(&bytes)).ok().filter(|_| whole))
-        };
+        let mark = |at: u64| self.mark(blob, at);
         let broken = |what: String| Err(Fault::Broken(format!("byte {at}: {what}")));
         let Some(bytes) = mark(at)? else {
             return broken("a record is missing, or its length is no number".to_owned());
@@ -205,9 +220,9 @@ impl Header {
             let mut bytes = [0; 48];
             blob.read_full(&mut bytes, record.start)?;
             let (words, _) = bytes.as_chunks();
-            let number = |word: &[u8; 8]| match self.little {
-                true => f64::from_le_bytes(*word),
-                false => f64::from_be_bytes(*word),
+            let little = self.little;
+            let number = |word: &[u8; 8]| {
+                if little { f64::from_le_bytes(*word) } else { f64::from_be_bytes(*word) }
             };
             let mut numbers = [0.0; 6];
             numbers.iter_mut().zip(words).for_each(|(to, word)| *to = number(word));

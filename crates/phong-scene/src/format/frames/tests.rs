@@ -147,6 +147,16 @@ fn what_is_wrong_with_a_trajectory_is_told() {
 }
 
 #[test]
+fn titles_beyond_the_length_of_their_record_are_skipped() {
+    let mut whole = PLAIN.file();
+    let more = [b' '; 80];
+    // Two titles in a record that says it has one.
+    whole[96] = 2;
+    whole.splice(100..100, more);
+    assert_eq!(places(&first(whole).0.unwrap())[1], [0.0, 2.0, 3.0]);
+}
+
+#[test]
 fn damaged_trajectories_are_read_or_refused() {
     let whole = Written { cell: Some([9.0, 0.0, 8.0, 0.0, 0.0, 7.0]), fixed: true, ..PLAIN }.file();
     for at in 0..whole.len() {
