@@ -10,6 +10,7 @@
 //! | `red green blue` (or `r g b`, `diffuse_red` …) | colours: integers are sRGB (0–255, `ushort` 0–65535) and decoded, floats are linear; an `alpha` below 1 is a warning |
 //! | `s t` or `u v` | texture coordinates |
 //! | `radius` | the radius of a point's sphere |
+//! | any other that a texture of kind `map` shows | a number of each point, in `fields` |
 //! | `face` `vertex_indices` (or `vertex_index`) | polygons; concave ones are cut by clipping ears |
 //! | `tristrips` `vertex_indices` | strips of triangles, ended by −1 |
 //! | `edge` `vertex1 vertex2` | cylinders, where they are asked for or have a radius and there are no faces |
