@@ -29,6 +29,9 @@ class Camera(Keys):
     ``height``: The picture's height in scene units.
     ``aperture``: Radius of the lens in scene units; 0 is a pinhole. Default: 0.0.
     ``focus``: Distance along forward that is sharp.
+    ``shift``: How far the picture is shifted in its plane, to the right and up, in heights of
+        the picture: `look_at` is so far beside its middle, and upright lines stay upright.
+        Default: [0.0, 0.0].
     """
 
     def __init__(
@@ -42,6 +45,7 @@ class Camera(Keys):
         height: float | None = None,
         aperture: float | None = None,
         focus: float | None = None,
+        shift: ArrayLike | None = None,
     ) -> None: ...
 
 class Light(Keys):

@@ -10,9 +10,9 @@ use phong::part::{self, Settings};
 use phong::render::{Passes, RenderOptions};
 use phong::terms::TermSet;
 use phong_lab::furniture;
-use phong_scene::{Diagnostic, Image};
+use phong_scene::{Camera, Diagnostic, Image};
 
-use crate::args::{self, EncodingArgs, ImageArgs, OutputFormat, RenderArgs, ViewArgs};
+use crate::args::{self, EncodingArgs, ImageArgs, OutputFormat, RenderArgs, Stereo, ViewArgs};
 use crate::failure::Failure;
 use crate::input::{self, Input};
 use crate::output::Output;
@@ -116,6 +116,20 @@ impl Outputs {
         }
     }
 
+    /// Writes a picture that is finished in another way than its settings say; tells the stops of exposure as
+    /// [`write`](Self::write) does.
+    pub(crate) fn write_finished(
+        &mut self,
+        film: &Film,
+        settings: &Settings,
+        finishing: &Finishing,
+    ) -> Result<Option<f64>, Failure> {
+        match self {
+            Self::Picture(format, files) => write_files(*format, files, film, settings, finishing),
+            Self::Part(_) | Self::Figure(_) => self.write(film, settings),
+        }
+    }
+
     /// The same, where the files are to say which picture they are.
     pub(crate) fn write_marked(
         &mut self,
@@ -173,6 +187,9 @@ pub(crate) struct Plan {
     pub(crate) lights: bool,
     pub(crate) encoding: Encoding,
     pub(crate) share: Option<(u32, u32)>,
+    pub(crate) stereo: Option<Stereo>,
+    /// How far apart the two eyes are, in scene units; `None`: a thirtieth of the camera's focus.
+    pub(crate) eye_distance: Option<f64>,
 }
 
 impl Plan {
@@ -194,7 +211,28 @@ impl Plan {
             return Err(Failure::usage("--resume needs a file to keep its checkpoint beside"));
         }
         let (terms, aovs, lights) = (args.terms, args.aov.clone(), args.lights);
-        Ok(Self { output, terms, aovs, lights, encoding: encoding(&args.encoding), share })
+        let (stereo, eye_distance) = (args.stereo, args.eye_distance);
+        let encoding = encoding(&args.encoding);
+        Ok(Self { output, terms, aovs, lights, encoding, share, stereo, eye_distance })
+    }
+
+    /// The cameras of the left eye and of the right, beside this one.
+    pub(crate) fn eyes(&self, camera: &Camera) -> Result<[Camera; 2], Failure> {
+        let apart = self.eye_distance.unwrap_or(camera.focus_distance() / 30.0);
+        match [-0.5, 0.5].map(|side| camera.beside(side * apart)) {
+            [Some(left), Some(right)] => Ok([left, right]),
+            _ => Err(Failure::usage("--stereo is for perspective cameras")
+                .with_help("to a camera with parallel rays both eyes see the same")),
+        }
+    }
+
+    /// Makes the camera that of the one eye that is asked for.
+    pub(crate) fn look_through(&self, camera: &mut Camera) -> Result<(), Failure> {
+        if let Some(side @ (Stereo::Left | Stereo::Right)) = self.stereo {
+            let [left, right] = self.eyes(camera)?;
+            *camera = if side == Stereo::Left { left } else { right };
+        }
+        Ok(())
     }
 
     /// Makes ready what may be written: which terms the scene has is not known yet.

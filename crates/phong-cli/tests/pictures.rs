@@ -89,6 +89,73 @@ fn lines_are_drawn_onto_the_picture_alike_in_parts_and_shares() {
     assert_eq!((dims.xppu, dims.yppu), (5669, 5669));
 }
 
+const FURNITURE: &str = "[furniture]\nsize = 4\n[title]\ntext = \"T\"\n[scale_bar]\n[axes]\nlength = 5\n\
+                         [[label]]\ntext = \"L\"\nat = [0, 0, 9]\n";
+
+#[test]
+fn a_figure_has_its_furniture_in_shares_and_as_outlines() {
+    let folder = given(&[("a.toml", &format!("{BALLS}{FURNITURE}")), ("b.toml", BALLS)]);
+    folder.done("render a.toml -o whole.png");
+    folder.done("render b.toml -o bare.png");
+    assert_ne!(folder.bytes("whole.png"), folder.bytes("bare.png"));
+    for share in ["0/2", "1/2"] {
+        folder.done(&format!("render a.toml -o {}.part --tile {share}", &share[..1]));
+    }
+    folder.done("merge 0.part 1.part -o merged.png");
+    assert_eq!(folder.bytes("whole.png"), folder.bytes("merged.png"));
+    folder.done("merge 0.part 1.part -o merged.svg");
+    folder.done("render a.toml -o a.svg");
+    let svg = String::from_utf8(folder.bytes("a.svg")).unwrap();
+    assert_eq!(svg.as_bytes(), folder.bytes("merged.svg"));
+    assert!(svg.contains("<title>T</title>") && !svg.contains("<text"), "{svg}");
+    folder.when("render a.toml --terms -o b.svg").is_refused(&["an SVG holds the picture"]);
+    folder.done("check a.toml --strict");
+}
+
+#[test]
+fn letters_that_the_font_lacks_are_told() {
+    let title = |text: &str| format!("{BALLS}[title]\ntext = \"{text}\"\n");
+    let folder = given(&[("a.toml", &title("水 b")), ("b.toml", &title("µm"))]);
+    assert!(folder.done("render a.toml").err.contains("title: the font has no 水 (U+6C34)"));
+    assert_eq!(folder.done("render b.toml").err, "");
+    folder.when("check a.toml --strict").is_refused(&["the font has no 水"]);
+}
+
+#[test]
+fn two_eyes_see_one_picture_beside_or_over_the_other() {
+    let folder = given(&[("a.toml", &format!("{BALLS}{FURNITURE}"))]);
+    for view in ["left", "right", "side-by-side", "anaglyph"] {
+        folder.done(&format!("render a.toml --stereo {view} -o {view}.png"));
+    }
+    let read = |name: &str| {
+        let bytes = folder.bytes(&format!("{name}.png"));
+        let picture = phong::image::Picture::read(&bytes).unwrap();
+        (picture.size, ["R", "G"].map(|plane| picture.plane(plane).unwrap().to_vec()))
+    };
+    let ((size, [left, _]), (_, [right, cyan])) = (read("left"), read("right"));
+    assert_ne!(left, right);
+    let (both, [beside, _]) = read("side-by-side");
+    assert_eq!((size, both), ([40, 30], [80, 30]));
+    for (y, row) in beside.chunks(80).enumerate() {
+        assert_eq!(row[..40], left[40 * y..][..40], "row {y}");
+        assert_eq!(row[40..], right[40 * y..][..40], "row {y}");
+    }
+    // But for the mixed edges of letters.
+    let (_, [red, green]) = read("anaglyph");
+    let differing = |a: &[f32], b: &[f32]| a.iter().zip(b).filter(|(a, b)| a != b).count();
+    assert!(differing(&red, &left) < 200 && differing(&green, &cyan) < 200);
+    assert_ne!(red, right);
+    folder
+        .when("render a.toml --stereo anaglyph --tile 0/2")
+        .is_refused(&["both eyes does not take --tile", "--stereo left"]);
+    folder.when("render a.toml --stereo left --eye-distance 0").is_refused(&["above 0"]);
+    folder.when("render a.toml --eye-distance 1").is_refused(&["--stereo"]);
+    folder.when("render a.toml --stereo anaglyph -o a.svg").is_refused(&["one eye"]);
+    folder.done("render a.toml --stereo left --tile 0/1 -o l.part");
+    folder.done("merge l.part -o merged.png");
+    assert_eq!(folder.bytes("merged.png"), folder.bytes("left.png"));
+}
+
 #[test]
 fn tone_is_the_same_in_shares_of_a_crop_that_of_the_crop_and_typed_as_it_is_written() {
     let written = "[tone]\nexposure = \"auto\"\nwhite_balance = 3200\ncurve = \"filmic\"\n";

@@ -16,4 +16,5 @@ pub mod furniture;
 pub mod grade;
 mod markup;
 pub mod measure;
+pub mod stereo;
 pub mod tell;

@@ -19,8 +19,9 @@
 //! | `fov` (fisheye) | a number above 0 up to 360 | `180` | Full angle of the image circle, degrees; it touches the nearer edges. |
 //! | `aperture` (perspective, orthographic) | a number 0 or above | `0` | Radius of the lens in scene units; 0 is a pinhole. |
 //! | `focus` (perspective, orthographic) | a number above 0 | the distance of `look_at` | Distance along forward that is sharp. |
+//! | `shift` (perspective, orthographic) | two numbers, `[x, y]` | `[0, 0]` | How far the picture is shifted in its plane, to the right and up, in heights of the picture: `look_at` is so far beside its middle, and upright lines stay upright. |
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use crate::limits::Range;
 use crate::wording::words;
@@ -43,9 +44,38 @@ pub struct Camera {
     pub aperture: f64,
     /// Distance along forward that is sharp; `None`: the distance of `look_at`.
     pub focus: Option<f64>,
+    /// How far the picture is shifted in its plane, to the right and up, in heights of the picture. Of
+    /// perspective and orthographic cameras. Default not at all.
+    pub shift: DVec2,
 }
 
 impl Camera {
+    /// The camera of one eye: so far to the right, or below 0 to the left, along its own right, and with the
+    /// picture shifted so that what is in focus stays at its place. Both eyes look the same way. `None`: of a
+    /// camera that is not perspective.
+    ///
+    /// ```
+    /// use glam::DVec3;
+    /// use phong_scene::Camera;
+    /// let right = Camera::default().beside(0.1).expect("perspective");
+    /// assert_eq!((right.eye, right.look_at), (DVec3::new(0.1, 0.0, 5.0), DVec3::new(0.1, 0.0, 0.0)));
+    /// assert!(right.shift.x < 0.0);
+    /// ```
+    #[must_use]
+    pub fn beside(&self, by: f64) -> Option<Self> {
+        let CameraKind::Perspective { fov } = self.kind else { return None };
+        let right = (self.look_at - self.eye).cross(self.up).try_normalize()?;
+        let height = 2.0 * libm::tan(fov.to_radians() / 2.0) * self.focus_distance();
+        let shift = DVec2::new(self.shift.x - by / height, self.shift.y);
+        let [eye, look_at] = [self.eye, self.look_at].map(|point| point + by * right);
+        Some(Self { eye, look_at, shift, ..self.clone() })
+    }
+
+    /// How far along its axis the camera is focused.
+    pub fn focus_distance(&self) -> f64 {
+        self.focus.unwrap_or((self.look_at - self.eye).length())
+    }
+
     /// The camera after `step` of `steps` equal steps once around what it looks at, about the axis through
     /// `look_at` that points along `axis`: to its right where that is its up. All that it sees stays the
     /// same but the side; `step` 0 is the camera itself.
@@ -93,6 +123,7 @@ impl Default for Camera {
             up: DVec3::Y,
             aperture: 0.0,
             focus: None,
+            shift: DVec2::ZERO,
         }
     }
 }

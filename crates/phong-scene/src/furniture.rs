@@ -27,6 +27,69 @@
 //! at = [0.0, 1.2, 0.3]
 //! offset = [12, 8]
 //! ```
+//!
+//! `[furniture]`:
+//!
+//! | key | value | default | meaning |
+//! |---|---|---|---|
+//! | `size` | a number above 0 up to 1000 | `9` | Height of letters, points; a title's are half as high again. |
+//! | `color` | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name | black or white, whichever stands out from the background | Colour of letters and lines. |
+//! | `halo` | a number from 0 to 100 | `1` | Width of an edge around letters and lines, points, white around dark ones and black around bright ones; 0: there is none. |
+//! | `margin` | a number from 0 to 10000 | `9` | Distance from the edges of the picture, points. |
+//!
+//! `[title]`:
+//!
+//! | key | value | default | meaning |
+//! |---|---|---|---|
+//! | `text` | text | required | Its words. |
+//! | `place` | `top-left`, `top`, `top-right`, `left`, `right`, `bottom-left`, `bottom` or `bottom-right` | `"top"` | Where on the picture it stands; what stands there already is nearer to the edge. |
+//!
+//! `[scale_bar]`:
+//!
+//! | key | value | default | meaning |
+//! |---|---|---|---|
+//! | `length` | a number above 0, or "auto" | `"auto"` | Its length, in its unit. `"auto"` is the longest of 1, 2 or 5 times a power of ten that is no more than a quarter of the picture's width. |
+//! | `unit` | text | none | What is written behind the number. |
+//! | `factor` | a number above 0 | `1` | How many of the unit a scene unit is: 0.1 where a scene is in Å, and the bar is to be in nm. |
+//! | `place` | `top-left`, `top`, `top-right`, `left`, `right`, `bottom-left`, `bottom` or `bottom-right` | `"bottom-left"` | Where on the picture it stands; what stands there already is nearer to the edge. |
+//!
+//! `[axes]`:
+//!
+//! | key | value | default | meaning |
+//! |---|---|---|---|
+//! | `length` | a number above 0 up to 1000 | `24` | Length of an arrow that lies in the picture, points. |
+//! | `place` | `top-left`, `top`, `top-right`, `left`, `right`, `bottom-left`, `bottom` or `bottom-right` | `"bottom-right"` | Where on the picture it stands; what stands there already is nearer to the edge. |
+//!
+//! `[legend]`:
+//!
+//! | key | value | default | meaning |
+//! |---|---|---|---|
+//! | `texture` | the name of a texture, in quotes | the first with a range that a material uses | The texture whose colours and whose range they are: of kind `map` or `gradient`. |
+//! | `map` | a list of `[t, colour]`, t from 0 to 1 and never falling, or a colour map: `viridis`, `cividis`, `plasma`, `inferno`, `magma`, `turbo` or `coolwarm` | the texture's | The colours from 0 to 1. |
+//! | `from` | a number | the texture's, else 0 | What the first colour stands for. |
+//! | `to` | a number | the texture's, else 1 | What the last colour stands for; another number than `from`. |
+//! | `text` | text | what the texture is of | What is measured. |
+//! | `unit` | text | the texture's | In which unit. |
+//! | `ticks` | a whole number from 2 to 20 | `5` | About how many numbers stand beside it; they are round ones. |
+//! | `place` | `top-left`, `top`, `top-right`, `left`, `right`, `bottom-left`, `bottom` or `bottom-right` | `"right"` | Where on the picture it stands; what stands there already is nearer to the edge. |
+//!
+//! `[[label]]`:
+//!
+//! | key | value | default | meaning |
+//! |---|---|---|---|
+//! | `text` | text | required | The words. |
+//! | `at` | three numbers, `[x, y, z]` | required | The point. |
+//! | `hidden` | `behind` or `never` | `"behind"` | Whether they are hidden where something stands before the point, or never. |
+//! | `radius` | a number 0 or above | `0` | How far before the point something may stand without hiding it, in scene units: the radius of the ball whose middle the point is. |
+//! | `offset` | two numbers, `[x, y]` | `[0, 0]` | How far from the point they begin, points, to the right and up; to the left (below 0) they end there, and at 0 they are over its middle. |
+//!
+//! `[[clip]]`:
+//!
+//! | key | value | default | meaning |
+//! |---|---|---|---|
+//! | `kind` | `plane` or `box` | `"plane"` | What it cuts along. |
+//! | `point` (plane) | three numbers, `[x, y, z]` | required | Any point of the plane. |
+//! | `normal` (plane) | three numbers, `[x, y, z]`, not all 0 | required | What lies on the side that it points to is cut away; any length. |
 
 use glam::{DVec2, DVec3};
 

@@ -21,6 +21,8 @@ pub struct Camera {
     half: f64,
     aperture: f64,
     focus: f64,
+    /// How far the picture is shifted, to the right and up, in half heights of the picture.
+    shift: DVec2,
 }
 
 impl Camera {
@@ -44,6 +46,7 @@ impl Camera {
             half,
             aperture: camera.aperture,
             focus: camera.focus.unwrap_or(view.length()),
+            shift: 2.0 * camera.shift,
         }
     }
 
@@ -86,7 +89,8 @@ impl Camera {
         };
         let pixels = height / (2.0 * self.half * away);
         let place = DVec2::new(to.dot(self.right), -to.dot(self.up)) * pixels;
-        let place = place + DVec2::new(width, height) / 2.0;
+        let shift = DVec2::new(-self.shift.x, self.shift.y) * (height / 2.0);
+        let place = place + DVec2::new(width, height) / 2.0 + shift;
         place.is_finite().then_some(place)
     }
 
@@ -181,7 +185,9 @@ impl Camera {
         [x, y]: [F; 2],
         lens: Option<[F; 2]>,
     ) -> [[F; 3]; 2] {
-        let Self { eye, right, up, forward, half, aperture, focus, .. } = *self;
+        let Self { eye, right, up, forward, half, aperture, focus, shift, .. } = *self;
+        // To add 0 would take the sign of −0.
+        let [x, y] = if shift == DVec2::ZERO { [x, y] } else { [x + shift.x, y + shift.y] };
         let off = [
             (x * right.x + y * up.x) * half,
             (x * right.y + y * up.y) * half,
@@ -273,6 +279,38 @@ mod tests {
     const SIZE: [u32; 2] = [40, 20];
     const MIDDLE: [f32; 2] = [0.5, 0.5];
 
+    #[test]
+    fn a_point_is_seen_where_the_ray_to_it_goes_of_a_shifted_picture_as_well() {
+        let kinds =
+            [CameraKind::Perspective { fov: 37.0 }, CameraKind::Orthographic { height: 4.0 }];
+        for kind in kinds {
+            let shift = DVec2::new(0.3, -0.2);
+            let camera = Camera::new(&phong_scene::Camera { shift, ..camera(kind) });
+            let place = camera.place(DVec3::new(0.4, 0.3, 1.0), SIZE).unwrap();
+            let [origin, dir] = camera.line(place, SIZE, MIDDLE).unwrap();
+            let to = DVec3::new(0.4, 0.3, 1.0) - origin;
+            assert!(to.normalize_or_zero().distance(dir) < 1e-12, "{kind:?}");
+        }
+        // What it looks at is three tenths of the height left of the middle.
+        let kind = CameraKind::Perspective { fov: 37.0 };
+        let shifted = phong_scene::Camera { shift: DVec2::new(0.3, 0.0), ..camera(kind) };
+        let place = Camera::new(&shifted).place(DVec3::ZERO, SIZE).unwrap();
+        assert!((place - DVec2::new(14.0, 10.0)).length() < 1e-12);
+    }
+
+    #[test]
+    fn what_is_in_focus_is_at_the_same_place_for_both_eyes() {
+        let middle = camera(CameraKind::Perspective { fov: 50.0 });
+        let places = [-0.1, 0.1].map(|by| {
+            let eye = Camera::new(&middle.beside(by).unwrap());
+            [DVec3::new(0.5, 0.2, 0.0), DVec3::new(0.5, 0.2, 1.0)]
+                .map(|point| eye.place(point, SIZE).unwrap())
+        });
+        assert!((places[0][0] - places[1][0]).length() < 1e-12, "{places:?}");
+        assert!(places[0][1].x > places[1][1].x, "what is nearer is to the right of the left eye");
+        assert_eq!(places[0][1].y, places[1][1].y, "never above one another");
+    }
+
     fn camera(kind: CameraKind) -> phong_scene::Camera {
         phong_scene::Camera {
             kind,
@@ -281,6 +319,7 @@ mod tests {
             up: DVec3::Y,
             aperture: 0.0,
             focus: None,
+            shift: DVec2::ZERO,
         }
     }
 

@@ -27,6 +27,7 @@ fn scene() -> Scene {
             up: DVec3::Y,
             aperture: 0.0,
             focus: None,
+            shift: glam::DVec2::ZERO,
         },
         lights: Vec::new(),
         materials: vec![Material::default()],

@@ -189,6 +189,19 @@ impl Bits {
     }
 }
 
+/// Whose picture is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Stereo {
+    /// The left eye's.
+    Left,
+    /// The right eye's.
+    Right,
+    /// Both, the left eye's to the left: twice as wide.
+    SideBySide,
+    /// Both in one, for glasses that are red on the left and cyan on the right.
+    Anaglyph,
+}
+
 /// A picture file's format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum OutputFormat {

@@ -6,7 +6,7 @@ use phong::render::RenderOptions;
 use phong_scene::Image;
 
 use super::values::{self, Crop, PictureSize, ShareOf};
-use super::{EncodingArgs, InputArgs, ToneArgs, ViewArgs};
+use super::{EncodingArgs, InputArgs, Stereo, ToneArgs, ViewArgs};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -29,7 +29,7 @@ pub(crate) struct RenderArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
 
-    /// The file to write (.png .pfm .exr); - is standard output
+    /// The file to write (.png .pfm .exr .svg); - is standard output
     /// [default: INPUT's stem + .png, in the current folder]
     #[arg(short, long, value_name = "OUT")]
     pub(crate) output: Option<PathBuf>,
@@ -65,6 +65,23 @@ pub(crate) struct RenderArgs {
     /// STEM.light.N.ext beside OUT, N from 1; they sum to the picture
     #[arg(long, help_heading = "File")]
     pub(crate) lights: bool,
+
+    /// The picture of one eye, or of both: left, right, side-by-side (twice as wide) or anaglyph (for
+    /// glasses with red before the left eye and cyan before the right). Both eyes look the same way, and what
+    /// is in focus (`look_at`, unless the camera says `focus`) is at the same place for both
+    #[arg(
+        long,
+        value_name = "VIEW",
+        value_enum,
+        hide_possible_values = true,
+        help_heading = "Picture"
+    )]
+    pub(crate) stereo: Option<Stereo>,
+
+    /// How far apart the eyes are, in scene units [default: a thirtieth of the distance in focus]
+    #[arg(long, value_name = "D", value_parser = values::eye_distance, allow_hyphen_values = true)]
+    #[arg(requires = "stereo", help_heading = "Picture")]
+    pub(crate) eye_distance: Option<f64>,
 
     #[command(flatten)]
     pub(crate) film: FilmArgs,

@@ -150,6 +150,13 @@ pub(crate) fn white_balance(text: &str) -> Result<White, String> {
     Ok(White::Color(color))
 }
 
+/// The distance of two eyes.
+pub(crate) fn eye_distance(text: &str) -> Result<f64, String> {
+    finite(text)
+        .filter(|distance| *distance > 0.0 && *distance <= LARGEST)
+        .ok_or_else(|| "write a number of scene units above 0".to_owned())
+}
+
 /// A plain number of bytes, or one with `k`, `M`, `G` or `T`.
 pub(crate) fn bytes(text: &str) -> Result<u64, String> {
     let text = text.trim();

@@ -203,6 +203,7 @@ impl Filming<'_> {
             }
             Motion::Frames { .. } => {}
         }
+        self.plan.look_through(&mut self.input.scene.camera)?;
         Ok(Settings::of(&self.input.scene, &self.options, self.plan.encoding))
     }
 

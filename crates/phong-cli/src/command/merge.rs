@@ -27,7 +27,7 @@ pub(crate) struct Args {
     #[arg(value_name = "PART", required = true)]
     pub(crate) parts: Vec<PathBuf>,
 
-    /// The file to write (.png .pfm .exr); - is standard output
+    /// The file to write (.png .pfm .exr .svg); - is standard output
     #[arg(short, long, value_name = "OUT")]
     pub(crate) output: PathBuf,
 

@@ -20,6 +20,7 @@ pub(crate) mod man;
 pub(crate) mod merge;
 pub(crate) mod new;
 pub(crate) mod render;
+mod stereo;
 pub(crate) mod studio;
 pub(crate) mod watch;
 

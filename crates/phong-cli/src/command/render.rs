@@ -11,7 +11,8 @@ use phong_lab::measure::memory::peak;
 use phong_lab::tell::diagnostic;
 use serde_json::json;
 
-use crate::args::RenderArgs;
+use super::stereo;
+use crate::args::{RenderArgs, Stereo};
 use crate::checkpoint::Checkpoint;
 use crate::compile::compile;
 use crate::failure::Failure;
@@ -31,6 +32,10 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
             .with_help("give --turntable N, --frames A:B:S or --path FILE"));
     }
     let plan = Plan::new(args)?;
+    let pairing = plan.stereo.and_then(Stereo::pairing);
+    if pairing.is_some() {
+        stereo::check(args)?;
+    }
     if args.toml {
         return print_look(args, &plan);
     }
@@ -42,9 +47,13 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
     let mut meter = Meter::new(quiet, "reading");
     let mut input = input::open(&args.input, quiet)?;
     let options = plan.settle(args, &mut input)?;
+    plan.look_through(&mut input.scene.camera)?;
     outputs.keep(&plan.output, &options.shown_layers())?;
     keep_inputs_safe(outputs.iter(), input.files())?;
     clock.lap("read");
+    if let Some(pairing) = pairing {
+        return stereo::run(args, &plan, pairing, outputs, input, &options, meter, clock);
+    }
 
     meter.stage("building");
     let settings = Settings::of(&input.scene, &options, plan.encoding);
@@ -124,6 +133,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
 fn print_look(args: &RenderArgs, plan: &Plan) -> Result<Vec<PathBuf>, Failure> {
     let mut input = input::open(&args.input, args.work.quiet)?;
     plan.settle(args, &mut input)?;
+    plan.look_through(&mut input.scene.camera)?;
     let text = input.scene.look_text().map_err(|error| Failure::Input(vec![*error]))?;
     report::data(text.as_bytes())?;
     Ok(input.files().to_vec())

@@ -77,6 +77,7 @@ fn scene(eye: DVec3, look_at: DVec3, fov: f64) -> Scene {
             up: DVec3::Y,
             aperture: 0.0,
             focus: None,
+            shift: glam::DVec2::ZERO,
         },
         lights: vec![
             point(DVec3::new(-5.0, 7.0, 6.0), 0.8),

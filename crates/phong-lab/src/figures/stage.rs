@@ -86,6 +86,7 @@ pub(super) fn ball(material: ConstantMaterial, lights: Vec<Light>, eye: DVec3) -
             up: DVec3::Y,
             aperture: 0.0,
             focus: None,
+            shift: glam::DVec2::ZERO,
         },
         lights,
         materials: vec![material.into()],

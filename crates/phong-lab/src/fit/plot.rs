@@ -199,6 +199,7 @@ fn ball_on_floor(lobe: Lobe) -> Scene {
             up: DVec3::Y,
             aperture: 0.0,
             focus: None,
+            shift: glam::DVec2::ZERO,
         },
         // One from over the shoulder, for the ball; one from beyond, low, for the floor.
         lights: vec![light(DVec3::new(0.5, -0.6, -1.0)), light(DVec3::new(0.14, -0.33, 1.0))],

@@ -302,11 +302,6 @@ fn frame(camera: &phong_scene::Camera) -> [DVec3; 3] {
     [right, right.cross(forward), forward]
 }
 
-/// How far the camera's plane of focus is, along its axis.
-fn focus(camera: &phong_scene::Camera) -> f64 {
-    camera.focus.unwrap_or((camera.look_at - camera.eye).length())
-}
-
 /// Pixels of a scene unit that lies across the view at the camera's focus; `None`: it is not the same
 /// all over the picture.
 pub(super) fn pixels_a_unit(camera: &phong_scene::Camera, size: [u32; 2]) -> Option<f64> {
@@ -314,7 +309,7 @@ pub(super) fn pixels_a_unit(camera: &phong_scene::Camera, size: [u32; 2]) -> Opt
         return None;
     }
     let [right, _, forward] = frame(camera);
-    let distance = focus(camera);
+    let distance = camera.focus_distance();
     let middle = camera.eye + forward * distance;
     let across = 0.01 * distance;
     let made = Camera::new(camera);

@@ -96,8 +96,7 @@ fn what_is_put_together_has_the_furniture_of_its_settings() {
 
 #[test]
 fn an_svg_is_the_picture_with_outlines_over_it() {
-    let (film, settings) =
-        drawn(&scene(&format!("{ALL}[image.no]\n").replace("[image.no]\n", "")), None);
+    let (film, settings) = drawn(&scene(ALL), None);
     let svg = svg(&film, &settings, &Encoding::default()).unwrap();
     assert!(svg.starts_with("<svg") && svg.ends_with("</svg>\n"));
     assert!(svg.contains("<title>T</title>") && svg.contains("data:image/png;base64,"));

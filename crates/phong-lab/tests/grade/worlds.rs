@@ -145,6 +145,7 @@ pub(crate) fn scene(w: &World) -> Scene {
             up: DVec3::Y,
             aperture: 0.0,
             focus: None,
+            shift: glam::DVec2::ZERO,
         },
         lights: lights.collect(),
         materials: materials.map(Into::into).collect(),

@@ -32,6 +32,7 @@ fn ball(lights: Vec<Light>) -> Scene {
             up: DVec3::Y,
             aperture: 0.0,
             focus: None,
+            shift: glam::DVec2::ZERO,
         },
         lights,
         materials: vec![

@@ -72,7 +72,7 @@ pub(crate) fn legend(legend: &Legend, faults: &mut Faults) {
 }
 
 /// Judges what a legend takes from a texture of the scene's.
-pub(super) fn legend_texture(legend: &Legend, textures: &[Texture], faults: &mut Faults) {
+pub(crate) fn legend_texture(legend: &Legend, textures: &[Texture], faults: &mut Faults) {
     let has_range = |texture: &Texture| {
         matches!(texture.kind, TextureKind::Gradient { .. } | TextureKind::Map { .. })
     };

@@ -257,7 +257,7 @@ impl Scene {
         let along_up = forward.cross(up).length() <= 1e-6 * forward.length() * up.length();
         let up = if along_up { image_up } else { up };
         let kind = CameraKind::Perspective { fov };
-        Camera { kind, eye, look_at, up, aperture: 0.0, focus: None }
+        Camera { kind, eye, look_at, up, ..Camera::default() }
     }
 }
 

@@ -77,5 +77,14 @@ pub(crate) static CAMERA: Table = Table {
         )
         .of(field!(Camera.focus))
         .only(&["perspective", "orthographic"]),
+        Key::new(
+            "shift",
+            Kind::Pair,
+            Default::Pair([0.0, 0.0]),
+            "How far the picture is shifted in its plane, to the right and up, in heights of the picture: \
+             `look_at` is so far beside its middle, and upright lines stay upright.",
+        )
+        .of(field!(Camera.shift))
+        .only(&["perspective", "orthographic"]),
     ]],
 };

@@ -197,7 +197,7 @@ pub(crate) static LABEL: Table = Table {
         Key::new(
             "offset",
             Kind::Pair,
-            Default::Said("`[0, 0]`"),
+            Default::Pair([0.0, 0.0]),
             "How far from the point they begin, points, to the right and up; to the left (below 0) they \
              end there, and at 0 they are over its middle.",
         )

@@ -164,6 +164,8 @@ pub(crate) enum Default {
     Integer(u64),
     /// This number; for a colour, this grey.
     Number(f64),
+    /// These two numbers.
+    Pair([f64; 2]),
     /// These three numbers.
     Vector([f64; 3]),
     /// This width and height.
@@ -182,6 +184,7 @@ impl fmt::Display for Default {
             Self::Flag(flag) => write!(f, "`{flag}`"),
             Self::Integer(n) => write!(f, "`{n}`"),
             Self::Number(n) => write!(f, "`{n}`"),
+            Self::Pair([x, y]) => write!(f, "`[{x}, {y}]`"),
             Self::Vector([x, y, z]) => write!(f, "`[{x}, {y}, {z}]`"),
             Self::Size([w, h]) => write!(f, "`[{w}, {h}]`"),
             Self::Word(word) => write!(f, "`\"{word}\"`"),

@@ -145,16 +145,18 @@ pub(super) fn rows(keys: &[&Key]) -> String {
 mod tests {
     use super::*;
     use crate::keys::camera::CAMERA;
+    use crate::keys::furniture::{AXES, FURNITURE, LABEL, LEGEND, SCALE_BAR, TITLE};
     use crate::keys::scene::{AMBIENT, IMAGE};
     use crate::keys::shape::SHAPES;
     use crate::keys::tone::TONE;
     use crate::keys::{CLIP, INCLUDE, LIGHT, MATERIAL, TEXTURE};
 
-    const CONCEPTS: [(&str, &str); 12] = [
+    const CONCEPTS: [(&str, &str); 13] = [
         ("ambient_occlusion.rs", include_str!("../ambient_occlusion.rs")),
         ("camera.rs", include_str!("../camera.rs")),
         ("clip.rs", include_str!("../clip.rs")),
         ("fog.rs", include_str!("../fog.rs")),
+        ("furniture.rs", include_str!("../furniture.rs")),
         ("sky.rs", include_str!("../sky.rs")),
         ("light.rs", include_str!("../light.rs")),
         ("material.rs", include_str!("../material.rs")),
@@ -188,6 +190,9 @@ mod tests {
         assert_doc_holds("texture.rs", &own_keys(&TEXTURED));
         assert_doc_holds("clip.rs", &own_keys(&CLIP));
         assert_doc_holds("tone.rs", &own_keys(&TONE));
+        for table in [&FURNITURE, &TITLE, &SCALE_BAR, &AXES, &LEGEND, &LABEL] {
+            assert_doc_holds("furniture.rs", &own_keys(table));
+        }
         for table in [&SCENE, &IMAGE, &BACKGROUND, &AMBIENT, &INCLUDE] {
             assert_doc_holds("scene.rs", &own_keys(table));
         }

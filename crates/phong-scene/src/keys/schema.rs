@@ -110,6 +110,7 @@ fn value(key: &Key) -> Value {
             Default::Flag(flag) => Some(json!(flag)),
             Default::Integer(n) => Some(json!(n)),
             Default::Number(n) => Some(json!(n)),
+            Default::Pair(v) => Some(json!(v)),
             Default::Vector(v) => Some(json!(v)),
             Default::Size(size) => Some(json!(size)),
             Default::Word(word) => Some(json!(word)),

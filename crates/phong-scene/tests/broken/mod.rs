@@ -272,7 +272,7 @@ prop_compose! {
         let groups = groups.into_iter().map(|objects| Group { name: "g".into(), objects }).collect();
         Scene {
             image: Image { size, samples, depth, background, ..Image::default() },
-            camera: Camera { kind, eye, look_at, up, aperture, focus: None },
+            camera: Camera { kind, eye, look_at, up, aperture, ..Camera::default() },
             ambient_occlusion: Some(AmbientOcclusion { samples: depth, distance: OcclusionDistance::Units(fov) }),
             sky: Some(phong_scene::Sky {
                 kind: SkyKind::SunAndSky { sun: up, turbidity: 2.0 + fov, ground: None },

@@ -33,6 +33,7 @@ cases! {
     ambient_light_may_meet_things
     an_include_may_be_read_twice
     an_included_file_may_use_materials_of_the_scene
+    a_figure_has_furniture
     an_orthographic_camera_has_a_height
     any_direction_may_be_up
     colours_are_grey_linear_hexadecimal_or_names
@@ -75,7 +76,9 @@ cases! {
     a_colour_map_that_there_is_not_is_told
     a_dialect_must_not_contradict_the_model
     a_direction_of_zero_is_none
+    a_figure_has_words_numbers_and_colours_that_make_sense
     a_file_that_is_missing_is_told_where_it_is_named
+    a_legend_needs_colours_of_numbers
     a_group_that_holds_itself_is_told
     a_key_of_another_kind_is_told_so
     a_key_that_the_model_does_not_use_is_wrong

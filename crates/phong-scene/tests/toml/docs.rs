@@ -2,11 +2,12 @@
 
 use phong_scene::{Limits, Memory, read};
 
-const CONCEPTS: [(&str, &str); 11] = [
+const CONCEPTS: [(&str, &str); 12] = [
     ("ambient_occlusion.rs", include_str!("../../src/ambient_occlusion.rs")),
     ("camera.rs", include_str!("../../src/camera.rs")),
     ("clip.rs", include_str!("../../src/clip.rs")),
     ("fog.rs", include_str!("../../src/fog.rs")),
+    ("furniture.rs", include_str!("../../src/furniture.rs")),
     ("light.rs", include_str!("../../src/light.rs")),
     ("material.rs", include_str!("../../src/material.rs")),
     ("outline.rs", include_str!("../../src/outline.rs")),

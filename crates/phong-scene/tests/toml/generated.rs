@@ -226,6 +226,7 @@ impl Make {
             up: DVec3::new(self.number(), 5.0, 0.0),
             aperture: if lens { self.number() } else { 0.0 },
             focus: (lens && self.flag()).then(|| self.number()),
+            shift: if lens { DVec2::new(self.number(), 0.0) } else { DVec2::ZERO },
         }
     }
 

@@ -168,12 +168,12 @@ impl Finished<'_> {
     }
 
     /// What is to be laid over the levels of a file that [`beneath`](Self::beneath) becomes.
-    pub(crate) fn patches(&self) -> &[Patch] {
+    pub fn patches(&self) -> &[Patch] {
         &self.patches
     }
 
     /// The values of a layer as they are to be seen, without what [`patches`](Self::patches) cover.
-    pub(crate) fn beneath(&self, kind: LayerKind) -> Option<&[f32]> {
+    pub fn beneath(&self, kind: LayerKind) -> Option<&[f32]> {
         match (kind, &self.lined) {
             (LayerKind::Picture, Some([picture, _])) => return Some(picture),
             (LayerKind::Alpha, Some([_, alpha])) => return Some(alpha),

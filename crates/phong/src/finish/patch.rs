@@ -33,6 +33,23 @@ impl Patch {
         }
     }
 
+    /// What of it is seen in a part of the picture, where that has its corner at `to` of another picture; `None`:
+    /// nothing is.
+    pub fn cut(&self, part: Window, [x, y]: [u32; 2]) -> Option<Self> {
+        let both = self.window.intersection(&part);
+        if both.x0 >= both.x1 || both.y0 >= both.y1 {
+            return None;
+        }
+        let (x0, y0) = (x + (both.x0 - part.x0), y + (both.y0 - part.y0));
+        let window = Window { x0, y0, x1: x0 + both.width(), y1: y0 + both.height() };
+        let rows = (both.y0..both.y1).map(|row| {
+            let from = (row - self.window.y0) as usize * self.window.width() as usize;
+            let from = from + (both.x0 - self.window.x0) as usize;
+            self.pixels.get(from..from + both.width() as usize).unwrap_or_default()
+        });
+        Some(Self { window, pixels: rows.flatten().copied().collect() })
+    }
+
     /// Lays it over linear values of a part of a picture: three a pixel and premultiplied, and their alpha.
     pub(super) fn over_linear(&self, part: Window, [picture, alpha]: &mut [Vec<f32>; 2]) {
         self.over(part, |i, [r, g, b, a]| {
@@ -115,6 +132,14 @@ mod tests {
         let mut bytes = [0; 12];
         patch().over_levels(PART, &mut bytes, false, Bits::Sixteen, true);
         assert_eq!(bytes[6..8], 13107_u16.to_be_bytes());
+    }
+
+    #[test]
+    fn what_a_part_shows_of_a_patch_is_cut_out_of_it() {
+        let cut = patch().cut(PART, [5, 7]).expect("a pixel of it");
+        assert_eq!(cut.window, Window { x0: 6, y0: 7, x1: 7, y1: 8 });
+        assert_eq!(cut.pixels, [[255, 0, 0, 51]]);
+        assert_eq!(patch().cut(Window { x0: 0, x1: 11, ..PART }, [0, 0]), None);
     }
 
     #[test]

@@ -250,6 +250,7 @@ fn a_scene_is_known_by_what_it_holds_and_not_by_where_it_was_written() {
             up: DVec3::Y,
             aperture: 0.0,
             focus: None,
+            shift: glam::DVec2::ZERO,
         },
         lights: Vec::new(),
         materials: vec![Material::default()],

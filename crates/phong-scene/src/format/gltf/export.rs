@@ -40,6 +40,9 @@ pub(crate) fn write_gltf(
         if scene.image != Image::default() {
             lost.push("settings of a picture (`[image]`)");
         }
+        if scene.camera.shift != glam::DVec2::ZERO {
+            lost.push("shift of the picture in its plane");
+        }
         if scene.ambient != Rgb::WHITE || scene.ambient_occlusion.is_some() {
             lost.push("ambient light");
         }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DVec2, DVec3};
 
 use super::camera::LENS;
 use crate::camera::CameraKind;
@@ -84,6 +84,10 @@ fn head(scene: &Scene, account: &mut Account) -> String {
             ("PERSPECTIVE", 0.5)
         }
     };
+    if camera.shift != DVec2::ZERO {
+        let message = "Tachyon's pictures are not shifted in their plane".to_owned();
+        account.drop(Diagnostic::warning(message, None));
+    }
     let _ = writeln!(text, "PROJECTION {projection}");
     if lens && projection == "PERSPECTIVE_DOF" {
         let aperture = camera.aperture * zoom / (LENS * focus);

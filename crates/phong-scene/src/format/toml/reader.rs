@@ -57,6 +57,8 @@ pub(super) struct Reader<'a> {
     pub(super) furniture: Furniture,
     label_count: usize,
     pub(super) tone: Option<Tone>,
+    /// Where the legend names its texture, or begins.
+    pub(super) legend_spot: Spot,
     pub(super) sky: Option<Sky>,
     /// The clips, and where in `material_names` the material of each one's cap is.
     pub(super) clips: Vec<(Clip, Option<usize>)>,
@@ -118,6 +120,7 @@ impl<'a> Reader<'a> {
             furniture: Furniture::default(),
             label_count: 0,
             tone: None,
+            legend_spot: Spot::new(0, 0..0),
             sky: None,
             clips: Vec::new(),
             clip_count: 0,
@@ -328,6 +331,9 @@ impl<'a> Reader<'a> {
                 self.outline = values.fill(&mut outline).map(|()| outline);
             }
             name if settings::FURNITURE.contains(&name) => {
+                if name == "legend" {
+                    self.legend_spot = values.spot_of("texture");
+                }
                 settings::furniture(name, &values, &mut self.furniture, &mut self.notes);
             }
             _ => self.image = settings::image(&values).unwrap_or_default(),

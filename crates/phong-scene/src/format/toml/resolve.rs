@@ -7,6 +7,7 @@ use super::groups;
 use super::notes::Notes;
 use super::reader::Reader;
 use super::text::Spot;
+use crate::check::settings::legend_texture;
 use crate::clip::{Cap, Clip};
 use crate::diagnostic::Diagnostic;
 use crate::material::{Material, MaterialId};
@@ -64,6 +65,10 @@ impl Reader<'_> {
             _ => clip,
         };
         let clips = self.clips.into_iter().map(capped).collect();
+        if let (Some(legend), false) = (&self.furniture.legend, notes.has_errors()) {
+            let spot = self.legend_spot;
+            notes.judge(|_| spot, |faults| legend_texture(legend, &textures, faults));
+        }
         let sound = !notes.has_errors();
         let scene = self.camera.filter(|_| sound).map(|camera| Scene {
             image: self.image,

@@ -303,6 +303,7 @@ pub(super) fn default(key: &Key) -> Option<Value> {
         (Default::Integer(n), _) => Some(Value::Integer(n)),
         (Default::Number(n), Kind::Number(_) | Kind::NumberOr(..)) => Some(Value::Number(n)),
         (Default::Number(n), _) => Some(Value::Color(Rgb::grey(n as f32))),
+        (Default::Pair(v), _) => Some(Value::Pair(v.into())),
         (Default::Vector(v), _) => Some(Value::Vector(v.into())),
         (Default::Size(size), _) => Some(Value::Size(size)),
         (Default::Word(word), _) => Some(Value::Word(word)),
