@@ -31,7 +31,7 @@ macro_rules! golden {
 golden! {
     cameras: fisheye landscape lens orthographic panorama perspective up wide;
     film: background empty filter_box filter_gaussian filter_mitchell filter_tent gradient odd_size
-        one_pixel outline seed transparent transparent_mirror;
+        one_pixel outline seed tone_filmic tone_reinhard transparent transparent_mirror;
     lights: attenuation below_horizon colored disc distant enclosed point range rectangle shadow shadow_off
         shadow_touching specular_color sphere spot spot_hard;
     materials: blinn_phong cook_torrance default ggx lambert normalize opacity oren_nayar per_light phong
@@ -41,7 +41,7 @@ golden! {
         mesh_smooth plane plane_below points sphere sphere_displaced sphere_far sphere_inside torus
         torus_far triangle triangle_back triangle_normals;
     terms: ambient ambient_color diffuse emission fog occlusion reflection reflection_depth shininess_0 shininess_1000
-        shininess_3 sky specular specular_object sum total_internal total_internal_plain transmission
+        shininess_3 sky sky_image specular specular_object sum total_internal total_internal_plain transmission
         transmission_dark transmission_plain transmission_thin trapped;
     textures: checker_floor checker_spaces checker_uv color_maps gradient image maps numbers patterns vertex_colors;
     transforms: include instance instance_nested matrix mirrored order rotate rotate_list scale;

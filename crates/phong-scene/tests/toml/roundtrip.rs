@@ -44,6 +44,11 @@ pub(crate) fn seen(mut scene: Scene) -> String {
             file.clear();
         }
     }
+    if let Some(phong_scene::SkyKind::Image { file, place, .. }) =
+        scene.sky.as_mut().map(|sky| &mut sky.kind)
+    {
+        (*file, *place) = (String::new(), Place::default());
+    }
     let in_groups = scene.groups.iter_mut().flat_map(|group| &mut group.objects);
     for object in scene.objects.iter_mut().chain(in_groups) {
         plain(object);
