@@ -4,7 +4,6 @@
 use phong_scene::{Rgb, srgb_decode};
 
 use crate::film::Window;
-use crate::image::Bits;
 
 /// A piece that lies over a part of a picture.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,31 +61,26 @@ impl Patch {
         });
     }
 
-    /// Lays it over the levels of a part of a picture, as a PNG has them: of 8 bits, or of 16 with the high
-    /// byte first; four values a pixel where there is `alpha`, which is straight, else three. `linear`: they
+    /// Lays it over the levels of a part of a picture, as a PNG has them: of one byte, or of two with the high
+    /// one first; four values a pixel where there is `alpha`, which is straight, else three. `linear`: they
     /// are on no curve.
     pub(crate) fn over_levels(
         &self,
         part: Window,
         bytes: &mut [u8],
         alpha: bool,
-        bits: Bits,
+        size: usize,
         linear: bool,
     ) {
         let channels = if alpha { 4 } else { 3 };
-        let (size, most) = match bits {
-            Bits::Eight => (1, 255.0),
-            Bits::Sixteen => (2, 65535.0),
-        };
+        let most = if size == 1 { 255.0 } else { 65535.0 };
         self.over(part, |i, [r, g, b, a]| {
             let Some(pixel) = bytes.get_mut(i * channels * size..(i + 1) * channels * size) else {
                 return;
             };
-            let level = |at: usize, pixel: &[u8]| match bits {
-                Bits::Eight => f64::from(pixel[at]) / most,
-                Bits::Sixteen => {
-                    f64::from(u16::from_be_bytes([pixel[2 * at], pixel[2 * at + 1]])) / most
-                }
+            let level = |at: usize, pixel: &[u8]| match size {
+                1 => f64::from(pixel[at]) / most,
+                _ => f64::from(u16::from_be_bytes([pixel[2 * at], pixel[2 * at + 1]])) / most,
             };
             let share = f64::from(a) / 255.0;
             let below = if alpha { level(3, pixel) } else { 1.0 };
@@ -100,9 +94,9 @@ impl Patch {
             }
             for (to, level) in pixel.chunks_exact_mut(size).zip(levels) {
                 let level = (level * most + 0.5) as u16;
-                match bits {
-                    Bits::Eight => to[0] = level as u8,
-                    Bits::Sixteen => to.copy_from_slice(&level.to_be_bytes()),
+                match to {
+                    [to] => *to = level as u8,
+                    _ => to.copy_from_slice(&level.to_be_bytes()),
                 }
             }
         });
@@ -124,13 +118,13 @@ mod tests {
     #[test]
     fn a_patch_covers_the_levels_of_a_picture_by_its_opacity() {
         let mut bytes = [100, 100, 100, 100, 100, 100];
-        patch().over_levels(PART, &mut bytes, false, Bits::Eight, false);
+        patch().over_levels(PART, &mut bytes, false, 1, false);
         assert_eq!(bytes, [100, 100, 100, 131, 80, 80]);
         let mut bytes = [0, 0, 0, 0, 0, 0, 0, 0];
-        patch().over_levels(PART, &mut bytes, true, Bits::Eight, false);
+        patch().over_levels(PART, &mut bytes, true, 1, false);
         assert_eq!(bytes, [0, 0, 0, 0, 255, 0, 0, 51], "nothing is below it");
         let mut bytes = [0; 12];
-        patch().over_levels(PART, &mut bytes, false, Bits::Sixteen, true);
+        patch().over_levels(PART, &mut bytes, false, 2, true);
         assert_eq!(bytes[6..8], 13107_u16.to_be_bytes());
     }
 

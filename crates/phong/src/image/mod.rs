@@ -145,6 +145,16 @@ pub enum Bits {
     Sixteen,
 }
 
+impl Bits {
+    /// Bytes of a level.
+    const fn bytes(self) -> usize {
+        match self {
+            Self::Eight => 1,
+            Self::Sixteen => 2,
+        }
+    }
+}
+
 /// How linear values become the values of a file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Encoding {

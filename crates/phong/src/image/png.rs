@@ -162,7 +162,7 @@ fn cover(levels: &mut [u8], rows: Range<usize>, picture: &Finished<'_>, coding: 
             part,
             levels,
             coding.alpha.is_some(),
-            coding.bits,
+            coding.bits.bytes(),
             coding.curve.is_none(),
         );
     }
@@ -181,10 +181,7 @@ fn levels(
     rows: Range<usize>,
     coding: &Coding<'_>,
 ) -> Vec<u8> {
-    let bytes = match coding.bits {
-        Bits::Eight => 1,
-        Bits::Sixteen => 2,
-    };
+    let bytes = coding.bits.bytes();
     let pixel_bytes = (channels + usize::from(coding.alpha.is_some())) * bytes;
     let mut out = vec![0_u8; rows.len() * width * pixel_bytes];
     out.par_chunks_exact_mut(width * pixel_bytes).enumerate().for_each(|(y, row)| {

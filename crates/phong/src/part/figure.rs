@@ -1,6 +1,6 @@
 //! The furniture of a scene's figure as one line of text, so that shares carry what is drawn onto the whole.
 
-use phong_scene::{Background, Furniture, Image, Limits, Memory, Rgb, Scene, read};
+use phong_scene::{Background, Image, Limits, Memory, Rgb, Scene, read};
 
 /// What a scene is called that holds nothing but furniture.
 const NAME: &str = "furniture.toml";
@@ -55,29 +55,12 @@ fn ink(scene: &Scene) -> Rgb {
     if behind > 0.179 { Rgb::BLACK } else { Rgb::WHITE }
 }
 
-impl super::Settings {
-    /// A scene of nothing but the furniture that is to be drawn onto the picture, with the camera and the
-    /// resolution that it is drawn by; `None`: there is none.
-    pub fn furniture(&self) -> Option<Scene> {
-        from_line(self.said(LINE)?)
-    }
-
-    /// The same settings with other furniture; none where that is empty.
-    #[must_use]
-    pub fn with_furniture(mut self, furniture: Furniture) -> Self {
-        let line = self.furniture().and_then(|scene| to_line(&Scene { furniture, ..scene }));
-        self.picture.retain(|(name, _)| name != LINE);
-        self.picture.extend(line.map(|line| (LINE.to_owned(), line)));
-        self
-    }
-}
-
 /// What the line is called.
 pub(super) const LINE: &str = "furniture";
 
 #[cfg(test)]
 mod tests {
-    use phong_scene::{Hidden, PointLabel, ScaleBar, Title};
+    use phong_scene::{Furniture, Hidden, PointLabel, ScaleBar, Title};
 
     use super::*;
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use phong_scene::{Scene, Tone};
+use phong_scene::{Furniture, Scene, Tone};
 
 use super::{ARITHMETIC, checksum, figure, fingerprint, tone};
 use crate::film::{Film, LayerKind, Window};
@@ -32,6 +32,22 @@ pub struct Settings {
 }
 
 impl Settings {
+    /// A scene of nothing but the furniture that is to be drawn onto the picture, with the camera and the
+    /// resolution that it is drawn by; `None`: there is none.
+    pub fn furniture(&self) -> Option<Scene> {
+        figure::from_line(self.said(figure::LINE)?)
+    }
+
+    /// The same settings with other furniture; none where that is empty.
+    #[must_use]
+    pub fn with_furniture(mut self, furniture: Furniture) -> Self {
+        let line =
+            self.furniture().and_then(|scene| figure::to_line(&Scene { furniture, ..scene }));
+        self.picture.retain(|(name, _)| name != figure::LINE);
+        self.picture.extend(line.map(|line| (figure::LINE.to_owned(), line)));
+        self
+    }
+
     /// The settings of a rendering of a scene.
     pub fn of(scene: &Scene, options: &RenderOptions, encoding: Encoding) -> Self {
         let picture = [
