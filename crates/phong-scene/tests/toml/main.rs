@@ -5,6 +5,7 @@
 //! the scenes include. `PHONG_BLESS=1 cargo test -p phong-scene --test toml` writes the texts.
 
 mod cases;
+mod choices;
 #[path = "../differing/mod.rs"]
 mod differing;
 mod docs;
