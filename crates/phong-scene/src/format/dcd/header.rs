@@ -93,7 +93,7 @@ impl Header {
             };
             let record = header.record(blob, header.start, Some(4 * moving))?;
             let mut free = Vec::with_capacity(usize::try_from(moving).unwrap_or(0));
-            header.words(blob, record, |bytes| free.push(bytes))?;
+            words(blob, record, |bytes| free.push(bytes))?;
             let known = |bytes: [u8; 4]| {
                 let number = u64::try_from(header.integer(&bytes)).ok()?.checked_sub(1)?;
                 u32::try_from(number).ok().filter(|number| u64::from(*number) < atoms)
@@ -151,28 +151,6 @@ impl Header {
             return broken(format!("a record of {bytes} bytes does not end where it says"));
         }
         Ok(record)
-    }
-
-    /// Hands over a record's words of four bytes, in order.
-    fn words(
-        &self,
-        blob: &dyn Blob,
-        record: Record,
-        mut take: impl FnMut([u8; 4]),
-    ) -> Result<(), Fault> {
-        let mut buffer = vec![0; (record.bytes.min(PIECE as u64)) as usize];
-        let mut at = 0;
-        while at < record.bytes {
-            let length = (record.bytes - at).min(PIECE as u64) as usize;
-            let read = blob.read_full(&mut buffer[..length], record.start + at)?;
-            if read < length {
-                return Err(Fault::Broken("the file became shorter while it was read".to_owned()));
-            }
-            let (words, _) = buffer[..length].as_chunks();
-            words.iter().for_each(|word| take(*word));
-            at += length as u64;
-        }
-        Ok(())
     }
 
     /// How many bytes a frame takes of so many atoms.
@@ -234,7 +212,7 @@ impl Header {
         for axis in 0..3 {
             let record = self.record(blob, at, Some(4 * count))?;
             let mut next = 0;
-            self.words(blob, record, |word| {
+            words(blob, record, |word| {
                 let atom =
                     if moving { self.free.get(next).map(|f| *f as usize) } else { Some(next) };
                 if let Some(place) = atom.and_then(|atom| places.get_mut(atom)) {
@@ -246,6 +224,25 @@ impl Header {
         }
         Ok(cell)
     }
+}
+
+/// Hands over a record's words of four bytes, in order.
+fn words(blob: &dyn Blob, record: Record, mut take: impl FnMut([u8; 4])) -> Result<(), Fault> {
+    let mut buffer = vec![0; (record.bytes.min(PIECE as u64)) as usize];
+    let mut at = 0;
+    while at < record.bytes {
+        let length = (record.bytes - at).min(PIECE as u64) as usize;
+        let read = blob.read_full(&mut buffer[..length], record.start + at)?;
+        if read < length {
+            return Err(Fault::Broken("the file became shorter while it was read".to_owned()));
+        }
+        let (words, _) = buffer[..length].as_chunks();
+        for word in words {
+            take(*word);
+        }
+        at += length as u64;
+    }
+    Ok(())
 }
 
 impl Record {
