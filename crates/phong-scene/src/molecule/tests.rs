@@ -148,8 +148,10 @@ fn what_is_left_out_takes_its_bonds_along() {
     assert_eq!((molecule.len(), molecule.bonds), (8, vec![[1, 3]]));
 }
 
-/// Atoms of these names, elements, residues and chains, at these places.
-fn chain(atoms: &[(&str, u8, &str, f32, &str, [f32; 3])]) -> Molecule {
+/// An atom's name, element, residue with its number, chain and place.
+type Atom = (&'static str, u8, &'static str, f32, &'static str, [f32; 3]);
+
+fn chain(atoms: &[Atom]) -> Molecule {
     let mut molecule = Molecule {
         columns: vec![
             Column::of_words(names::NAME),
@@ -263,7 +265,7 @@ fn arrows_have_a_shaft_and_a_head_and_are_as_long_as_their_vectors() {
         let columns = columns.map(str::to_owned);
         let vectors = Some(Arrows { columns, scale, radius: None });
         let style = Some(Style::Spacefill);
-        draw(periodic(), &Drawing { vectors, style, ..Drawing::default() })
+        draw(periodic(), &Drawing { style, vectors, ..Drawing::default() })
     };
     let drawn = arrows(["vx", "zero", "zero"], Some(3.0)).unwrap();
     let ("vectors", Shape::Cylinders(arrows_drawn)) = &drawn.shapes[0] else { panic!("{drawn:?}") };
