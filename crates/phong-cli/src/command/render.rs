@@ -52,7 +52,34 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
     keep_inputs_safe(outputs.iter(), input.files())?;
     clock.lap("read");
     if let Some(pairing) = pairing {
-        return stereo::run(args, &plan, pairing, outputs, input, &options, meter, clock);
+        let lap = |stage| clock.lap(stage);
+        let both = stereo::run(args, &plan, pairing, outputs, input, &options, meter, lap)?;
+        if args.work.json {
+            let Window { x0, y0, x1, y1 } = options.shown();
+            let layer =
+                |kind: LayerKind| json!({ "name": kind.name(), "averaged": kind.is_averaged() });
+            let layers = [LayerKind::Picture, LayerKind::Alpha].map(layer);
+            report::json(&json!({
+                "output": plan.output.to_string_lossy(),
+                "size": pairing.size([x1 - x0, y1 - y0]),
+                "layers": layers,
+                "samples": options.samples(),
+                "exposure": both.exposure,
+                "threads": rayon::current_num_threads(),
+                "seconds": clock.json(),
+                "rays": { "primary": both.rays[0], "shadow": both.rays[1], "secondary": both.rays[2] },
+                "peak_bytes": peak(),
+                "warnings": both.input.warnings.iter().map(diagnostic).collect::<Vec<_>>(),
+            }))?;
+        } else if report::is_watched() && !quiet {
+            let [width, height] = pairing.size([options.shown().width(), options.shown().height()]);
+            let seconds = clock.seconds("trace");
+            report::say(&format!(
+                "{}: {width} × {height}, both eyes, in {seconds:.2} s",
+                plan.output.display(),
+            ));
+        }
+        return Ok(both.input.files().to_vec());
     }
 
     meter.stage("building");

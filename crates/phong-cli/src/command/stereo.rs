@@ -1,20 +1,14 @@
 //! The pictures of two eyes as one: `phong render --stereo side-by-side` and `anaglyph`.
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
-use phong::film::{LayerKind, Window};
 use phong::look::Look;
 use phong::part::Settings;
-use phong::render::{Event, Outcome, RenderOptions};
+use phong::render::{Event, Outcome, RenderOptions, render};
 use phong::view::View;
 use phong_lab::furniture;
-use phong_lab::measure::memory::peak;
 use phong_lab::stereo::Pairing;
-use phong_lab::tell::diagnostic;
-use serde_json::json;
 
-use super::render::{Clock, draw};
 use crate::args::{RenderArgs, Stereo};
 use crate::compile::compile;
 use crate::failure::Failure;
@@ -53,6 +47,14 @@ pub(super) fn check(args: &RenderArgs) -> Result<(), Failure> {
     }
 }
 
+/// What was drawn of both eyes.
+pub(super) struct Both {
+    pub(super) input: Input,
+    /// Primary, shadow and secondary rays.
+    pub(super) rays: [u64; 3],
+    pub(super) exposure: Option<f64>,
+}
+
 /// Draws the pictures of both eyes and writes them as one.
 pub(super) fn run(
     args: &RenderArgs,
@@ -62,8 +64,8 @@ pub(super) fn run(
     mut input: Input,
     options: &RenderOptions,
     mut meter: Meter,
-    mut clock: Clock,
-) -> Result<Vec<PathBuf>, Failure> {
+    mut lap: impl FnMut(&'static str),
+) -> Result<Both, Failure> {
     let quiet = args.work.quiet;
     if let Outputs::Figure(_) = outputs {
         return Err(Failure::usage("an SVG holds the picture of one eye")
@@ -74,7 +76,7 @@ pub(super) fn run(
     let bytes = options.film_bytes();
     let view = compile(&input.scene, &args.input, bytes.saturating_mul(4))?;
     memory::set_aside(bytes.saturating_mul(2))?;
-    clock.lap("build");
+    lap("build");
     meter.samples();
     let listen = |event: Event<'_>| {
         if let Event::Progress(progress) = event {
@@ -88,9 +90,8 @@ pub(super) fn run(
         let settings = Settings::of(&input.scene, options, plan.encoding);
         let view = View::new(Arc::clone(view.geometry()), Look::new(&input.scene))
             .map_err(|error| Failure::usage(error.to_string()))?;
-        let Outcome { film, complete, rays } = interrupt::heeding(|cancel| {
-            draw(&view, options, &settings, None, false, &listen, cancel)
-        })?;
+        let Outcome { film, complete, rays } =
+            interrupt::heeding(|cancel| Ok::<_, Failure>(render(&view, options, &listen, cancel)))?;
         if !complete {
             meter.finish();
             return Err(interrupt::failure());
@@ -106,7 +107,7 @@ pub(super) fn run(
         films.push((film, settings));
     }
     meter.finish();
-    clock.lap("trace");
+    lap("trace");
     let [left, right] = [&films[0], &films[1]];
     let settings = &left.1;
     let (film, patches) = {
@@ -117,31 +118,6 @@ pub(super) fn run(
     (finishing.lines, finishing.shown, finishing.patches) = (None, None, patches);
     let exposure = outputs.write_finished(&film, settings, &finishing)?;
     outputs.commit()?;
-    clock.lap("write");
-    if args.work.json {
-        let Window { x0, y0, x1, y1 } = options.shown();
-        let layer =
-            |kind: LayerKind| json!({ "name": kind.name(), "averaged": kind.is_averaged() });
-        let layers = [LayerKind::Picture, LayerKind::Alpha].map(layer);
-        report::json(&json!({
-            "output": plan.output.to_string_lossy(),
-            "size": pairing.size([x1 - x0, y1 - y0]),
-            "layers": layers,
-            "samples": options.samples(),
-            "exposure": exposure,
-            "threads": rayon::current_num_threads(),
-            "seconds": clock.json(),
-            "rays": { "primary": all[0], "shadow": all[1], "secondary": all[2] },
-            "peak_bytes": peak(),
-            "warnings": input.warnings.iter().map(diagnostic).collect::<Vec<_>>(),
-        }))?;
-    } else if report::is_watched() && !quiet {
-        let [width, height] = pairing.size([options.shown().width(), options.shown().height()]);
-        let seconds = clock.seconds("trace");
-        report::say(&format!(
-            "{}: {width} × {height}, both eyes, in {seconds:.2} s",
-            plan.output.display(),
-        ));
-    }
-    Ok(input.files().to_vec())
+    lap("write");
+    Ok(Both { input, rays: all, exposure })
 }
