@@ -235,7 +235,7 @@ pub fn write(
     out: &mut (impl Write + Seek),
 ) -> Result<(), WriteError> {
     match (format, content) {
-        (Format::Png, Content::Layer(kind)) => png::write(picture, kind, encoding, out),
+        (Format::Png, Content::Layer(kind)) => png::write(picture, kind, *encoding, out),
         (Format::Pfm, Content::Layer(kind)) => pfm::write(picture, kind, out),
         (Format::Exr, Content::Film) => exr::write(picture, out),
         (format, content) => {

@@ -47,7 +47,7 @@ struct Coding<'a> {
 pub(super) fn write(
     picture: &Finished<'_>,
     kind: LayerKind,
-    encoding: &Encoding,
+    encoding: Encoding,
     out: &mut impl Write,
 ) -> Result<(), WriteError> {
     let layer = |kind: LayerKind| {

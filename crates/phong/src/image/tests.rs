@@ -22,14 +22,14 @@ fn film(size: [u32; 2], layers: &[(LayerKind, &[f32])]) -> Film {
     film
 }
 
-fn bytes(film: &Film, content: Content, format: Format, encoding: &Encoding) -> Vec<u8> {
+fn bytes(film: &Film, content: Content, format: Format, encoding: Encoding) -> Vec<u8> {
     let mut out = Cursor::new(Vec::new());
     let finished = finish(film, &Finishing::default());
-    write(&finished, content, format, encoding, &mut out).unwrap();
+    write(&finished, content, format, &encoding, &mut out).unwrap();
     out.into_inner()
 }
 
-fn png_of(film: &Film, kind: LayerKind, encoding: &Encoding) -> (::png::OutputInfo, Vec<u8>) {
+fn png_of(film: &Film, kind: LayerKind, encoding: Encoding) -> (::png::OutputInfo, Vec<u8>) {
     let file = bytes(film, Content::Layer(kind), Format::Png, encoding);
     let mut reader = ::png::Decoder::new(Cursor::new(file)).read_info().unwrap();
     let mut data = vec![0; reader.output_buffer_size().unwrap()];
@@ -40,7 +40,7 @@ fn png_of(film: &Film, kind: LayerKind, encoding: &Encoding) -> (::png::OutputIn
 #[test]
 fn a_png_holds_the_encoded_picture() {
     let film = film([2, 1], &[(PICTURE, &[0.0, 0.5, 1.0, -1.0, 7.0, 0.002])]);
-    let (info, data) = png_of(&film, PICTURE, &Encoding::default());
+    let (info, data) = png_of(&film, PICTURE, Encoding::default());
     assert_eq!((info.color_type, info.bit_depth), (::png::ColorType::Rgb, ::png::BitDepth::Eight));
     assert_eq!(data, [0, 188, 255, 0, 255, 7]);
 }
@@ -81,7 +81,7 @@ fn an_exr_says_which_layers_are_averaged_and_which_are_of_the_pixels_centre() {
     let (depth, uv) = (LayerKind::Aov(Aov::Depth), LayerKind::Aov(Aov::Uv));
     let diffuse = LayerKind::Term(Term::Diffuse);
     let said = |layers: &[(LayerKind, &[f32])]| {
-        let file = bytes(&film([1, 1], layers), Content::Film, Format::Exr, &Encoding::default());
+        let file = bytes(&film([1, 1], layers), Content::Film, Format::Exr, Encoding::default());
         let meta = ::exr::meta::MetaData::read_from_buffered(Cursor::new(file), false).unwrap();
         let own = &meta.headers[0].own_attributes.other;
         let mut said: Vec<_> =
@@ -101,7 +101,7 @@ fn an_exr_says_which_layers_are_averaged_and_which_are_of_the_pixels_centre() {
 fn a_png_of_16_bits_is_big_endian() {
     let film = film([1, 1], &[(PICTURE, &[0.5, 0.18, 1.0])]);
     let encoding = Encoding { bits: Bits::Sixteen, ..Encoding::default() };
-    let (info, data) = png_of(&film, PICTURE, &encoding);
+    let (info, data) = png_of(&film, PICTURE, encoding);
     assert_eq!(info.bit_depth, ::png::BitDepth::Sixteen);
     // 0.735357 × 65535 = 48192 and 0.461356 × 65535 = 30235.
     assert_eq!(data, [[188, 64], [118, 27], [255, 255]].concat());
@@ -115,12 +115,12 @@ fn a_wide_png_has_every_row_with_and_without_alpha() {
     let size = [width as u32, height as u32];
     let levels =
         |scale: f32| -> Vec<u8> { picture.iter().map(|value| srgb_level(value * scale)).collect() };
-    let (info, data) = png_of(&film(size, &[(PICTURE, &picture)]), PICTURE, &Encoding::default());
+    let (info, data) = png_of(&film(size, &[(PICTURE, &picture)]), PICTURE, Encoding::default());
     assert_eq!(info.color_type, ::png::ColorType::Rgb);
     assert_eq!(data, levels(1.0));
     let alpha = vec![0.5; width * height];
     let film = film(size, &[(PICTURE, &picture), (LayerKind::Alpha, &alpha)]);
-    let (info, data) = png_of(&film, PICTURE, &Encoding::default());
+    let (info, data) = png_of(&film, PICTURE, Encoding::default());
     assert_eq!(info.color_type, ::png::ColorType::Rgba);
     let colors = levels(2.0);
     let rgba = colors.as_chunks::<3>().0.iter().flat_map(|&[r, g, b]| [r, g, b, 128]);
@@ -131,20 +131,20 @@ fn a_wide_png_has_every_row_with_and_without_alpha() {
 fn a_linear_png_says_so() {
     let film = film([1, 1], &[(PICTURE, &[0.5, 0.25, 1.0])]);
     let encoding = Encoding { linear: true, ..Encoding::default() };
-    assert_eq!(png_of(&film, PICTURE, &encoding).1, [128, 64, 255]);
+    assert_eq!(png_of(&film, PICTURE, encoding).1, [128, 64, 255]);
     let transfer = |encoding| {
         let file = bytes(&film, Content::Layer(PICTURE), Format::Png, encoding);
         Picture::read(&file).unwrap().transfer
     };
-    assert_eq!(transfer(&encoding), Transfer::Linear);
-    assert_eq!(transfer(&Encoding::default()), Transfer::Srgb);
+    assert_eq!(transfer(encoding), Transfer::Linear);
+    assert_eq!(transfer(Encoding::default()), Transfer::Srgb);
 }
 
 /// The bytes of a PNG of one layer of a film with such tone.
-fn toned(film: &Film, kind: LayerKind, tone: Tone, encoding: &Encoding) -> Vec<u8> {
+fn toned(film: &Film, kind: LayerKind, tone: Tone, encoding: Encoding) -> Vec<u8> {
     let finished = finish(film, &Finishing::default().with_tone(tone));
     let mut file = Cursor::new(Vec::new());
-    write(&finished, Content::Layer(kind), Format::Png, encoding, &mut file).unwrap();
+    write(&finished, Content::Layer(kind), Format::Png, &encoding, &mut file).unwrap();
     let mut reader = ::png::Decoder::new(Cursor::new(file.into_inner())).read_info().unwrap();
     let mut data = vec![0; reader.output_buffer_size().unwrap()];
     reader.next_frame(&mut data).unwrap();
@@ -156,8 +156,8 @@ fn a_stop_of_exposure_doubles_the_light_of_the_picture_alone() {
     let term = LayerKind::Term(Term::Diffuse);
     let film = film([1, 1], &[(PICTURE, &[0.25; 3]), (term, &[0.25; 3])]);
     let tone = Tone { exposure: Exposure::Stops(1.0), ..Tone::default() };
-    assert_eq!(toned(&film, PICTURE, tone, &Encoding::default()), [188; 3]);
-    assert_eq!(toned(&film, term, tone, &Encoding::default()), [137; 3]);
+    assert_eq!(toned(&film, PICTURE, tone, Encoding::default()), [188; 3]);
+    assert_eq!(toned(&film, term, tone, Encoding::default()), [137; 3]);
 }
 
 /// (0.25 · 2) through the filmic curve is 0.616306…, by hand, and that on the sRGB curve 206.
@@ -166,13 +166,13 @@ fn tone_comes_before_the_curve_of_a_png_and_after_alpha_and_no_other_file_has_it
     let film = film([1, 1], &[(PICTURE, &[0.125; 3]), (LayerKind::Alpha, &[0.5])]);
     let exposure = Exposure::Stops(1.0);
     let tone = Tone { exposure, curve: ToneCurve::Filmic, ..Tone::default() };
-    assert_eq!(toned(&film, PICTURE, tone, &Encoding::default()), [206, 206, 206, 128]);
+    assert_eq!(toned(&film, PICTURE, tone, Encoding::default()), [206, 206, 206, 128]);
     let linear = Encoding { linear: true, ..Encoding::default() };
-    assert_eq!(toned(&film, PICTURE, tone, &linear), [157, 157, 157, 128]);
+    assert_eq!(toned(&film, PICTURE, tone, linear), [157, 157, 157, 128]);
     let sixteen = Encoding { bits: Bits::Sixteen, ..linear };
-    let data = toned(&film, PICTURE, tone, &sixteen);
+    let data = toned(&film, PICTURE, tone, sixteen);
     assert_eq!(u16::from_be_bytes([data[0], data[1]]), 40_390);
-    let plain = bytes(&film, Content::Layer(PICTURE), Format::Pfm, &linear);
+    let plain = bytes(&film, Content::Layer(PICTURE), Format::Pfm, linear);
     let mut out = Cursor::new(Vec::new());
     let finished = finish(&film, &Finishing::default().with_tone(tone));
     assert_eq!(srgb8(&finished, &Encoding::default()), [206, 206, 206, 128]);
@@ -183,11 +183,11 @@ fn tone_comes_before_the_curve_of_a_png_and_after_alpha_and_no_other_file_has_it
 #[test]
 fn alpha_is_straight_and_only_there_if_something_shows_through() {
     let half = film([2, 1], &[(PICTURE, &[0.25; 6]), (LayerKind::Alpha, &[0.5, 0.0])]);
-    let (info, data) = png_of(&half, PICTURE, &Encoding::default());
+    let (info, data) = png_of(&half, PICTURE, Encoding::default());
     assert_eq!(info.color_type, ::png::ColorType::Rgba);
     assert_eq!(data, [188, 188, 188, 128, 0, 0, 0, 0]);
     let whole = film([2, 1], &[(PICTURE, &[0.25; 6]), (LayerKind::Alpha, &[1.0, 1.0])]);
-    assert_eq!(png_of(&whole, PICTURE, &Encoding::default()).0.color_type, ::png::ColorType::Rgb);
+    assert_eq!(png_of(&whole, PICTURE, Encoding::default()).0.color_type, ::png::ColorType::Rgb);
 }
 
 #[test]
@@ -205,7 +205,7 @@ fn variables_in_a_png_follow_their_own_rules() {
             (LayerKind::Aov(Aov::Shadow), &[0.5, 1.0]),
         ],
     );
-    let png = |aov| png_of(&film, LayerKind::Aov(aov), &Encoding::default()).1;
+    let png = |aov| png_of(&film, LayerKind::Aov(aov), Encoding::default()).1;
     assert_eq!(png(Aov::Depth), [255, 255, 0, 0]);
     assert_eq!(png(Aov::Normal), [128, 255, 0, 128, 128, 128]);
     assert_eq!(png(Aov::Object), [1, 44, 0, 0]);
@@ -217,7 +217,7 @@ fn variables_in_a_png_follow_their_own_rules() {
 #[test]
 fn a_pfm_is_little_endian_from_the_bottom_up() {
     let film = film([1, 2], &[(PICTURE, &[1.0, 2.0, 3.0, -4.0, 5.0, f32::INFINITY])]);
-    let file = bytes(&film, Content::Layer(PICTURE), Format::Pfm, &Encoding::default());
+    let file = bytes(&film, Content::Layer(PICTURE), Format::Pfm, Encoding::default());
     let floats: Vec<u8> =
         [-4.0, 5.0, f32::INFINITY, 1.0, 2.0, 3.0].into_iter().flat_map(f32::to_le_bytes).collect();
     assert_eq!(file, [b"PF\n1 2\n-1.0\n".as_slice(), &floats].concat());
@@ -229,7 +229,7 @@ fn a_pfm_is_little_endian_from_the_bottom_up() {
 fn a_pfm_of_one_value_a_pixel_is_grey() {
     let film = film([2, 1], &[(LayerKind::Aov(Aov::Depth), &[1.5, f32::INFINITY])]);
     let content = Content::Layer(LayerKind::Aov(Aov::Depth));
-    let file = bytes(&film, content, Format::Pfm, &Encoding::default());
+    let file = bytes(&film, content, Format::Pfm, Encoding::default());
     assert!(file.starts_with(b"Pf\n2 1\n-1.0\n"));
     assert_eq!(Picture::read(&file).unwrap().plane("Y").unwrap(), [1.5, f32::INFINITY]);
 }
@@ -255,7 +255,7 @@ fn an_exr_holds_every_layer_to_the_bit() {
             (LayerKind::Aov(Aov::Normal), &picture),
         ],
     );
-    let file = bytes(&film, Content::Film, Format::Exr, &Encoding::default());
+    let file = bytes(&film, Content::Film, Format::Exr, Encoding::default());
     let back = Picture::read(&file).unwrap();
     let names: Vec<_> = back.planes.iter().map(|p| p.name.as_str()).collect();
     let normal = ["normal.X", "normal.Y", "normal.Z"];
@@ -286,7 +286,7 @@ fn an_exr_holds_noise_in_many_blocks_to_the_bit() {
         })
         .collect();
     let film = film([width as u32, height as u32], &[(PICTURE, &picture)]);
-    let file = bytes(&film, Content::Film, Format::Exr, &Encoding::default());
+    let file = bytes(&film, Content::Film, Format::Exr, Encoding::default());
     let back = Picture::read(&file).unwrap();
     let bits = |values: &mut dyn Iterator<Item = f32>| values.map(f32::to_bits).collect::<Vec<_>>();
     for (c, name) in ["R", "G", "B"].into_iter().enumerate() {
@@ -300,7 +300,7 @@ fn an_exr_holds_noise_in_many_blocks_to_the_bit() {
 #[test]
 fn an_exr_says_which_red_green_and_blue_it_means_and_how_it_is_packed() {
     let film = film([1, 1], &[(PICTURE, &[0.25; 3])]);
-    let file = bytes(&film, Content::Film, Format::Exr, &Encoding::default());
+    let file = bytes(&film, Content::Film, Format::Exr, Encoding::default());
     let meta = ::exr::meta::MetaData::read_from_buffered(Cursor::new(file), true).unwrap();
     let header = &meta.headers[0];
     assert_eq!(header.compression, ::exr::compression::Compression::ZIP16);
@@ -316,7 +316,7 @@ fn bytes_do_not_depend_on_the_number_of_threads() {
         let content = Content::of(&[PICTURE], format)[0];
         let with = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| bytes(&film, content, format, &Encoding::default()))
+            pool.install(|| bytes(&film, content, format, Encoding::default()))
         };
         assert_eq!(with(1), with(5), "{format:?}");
     }
@@ -360,7 +360,7 @@ fn damaged_files_are_errors_and_no_panic() {
     let film = film([20, 20], &[(PICTURE, &picture)]);
     for format in Format::ALL.into_iter().filter(|f| cfg!(feature = "exr") || !f.holds_layers()) {
         let content = Content::of(&[PICTURE], format)[0];
-        let whole = bytes(&film, content, format, &Encoding::default());
+        let whole = bytes(&film, content, format, Encoding::default());
         for end in 0..whole.len().min(400) {
             let _ = Picture::read(&whole[..end]);
         }

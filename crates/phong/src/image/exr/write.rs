@@ -28,7 +28,7 @@ struct Channel<'a> {
     values: Option<&'a [f32]>,
     /// Values a pixel, and which of them.
     stride: usize,
-    channel: usize,
+    index: usize,
 }
 
 /// Writes all layers: `R G B A`, `finished.R` where anything is drawn onto the picture, `diffuse.R`,
@@ -73,8 +73,8 @@ pub(in crate::image) fn write(
 fn channels<'a>(picture: &'a Finished<'_>) -> Vec<Channel<'a>> {
     let film = picture.film();
     let mut list = Vec::new();
-    let mut add = |name: String, values, stride, channel| {
-        list.push(Channel { name, values, stride, channel });
+    let mut add = |name: String, values, stride, index| {
+        list.push(Channel { name, values, stride, index });
     };
     for layer in &film.layers {
         let stride = layer.kind.channels();
@@ -183,9 +183,8 @@ fn packed(
 impl Channel<'_> {
     /// The values of a row.
     fn row(&self, width: usize, row: usize) -> impl Iterator<Item = f32> {
-        (row * width..(row + 1) * width).map(|pixel| {
-            self.values.map_or(1.0, |values| values[pixel * self.stride + self.channel])
-        })
+        (row * width..(row + 1) * width)
+            .map(|pixel| self.values.map_or(1.0, |values| values[pixel * self.stride + self.index]))
     }
 }
 
