@@ -26,7 +26,7 @@ const RAMP: u32 = 64;
 pub fn svg(film: &Film, settings: &Settings, encoding: &Encoding) -> Result<String, WriteError> {
     let finishing = settings.finishing();
     let picture = finish(film, &finishing);
-    let png = png(&picture, encoding)?;
+    let png = png(&picture, *encoding)?;
     let shown = picture.film().window;
     let [width, height] = [shown.width(), shown.height()];
     let mut out = String::from("<svg xmlns=\"http://www.w3.org/2000/svg\"");
@@ -65,9 +65,9 @@ pub fn svg(film: &Film, settings: &Settings, encoding: &Encoding) -> Result<Stri
     Ok(out + "</svg>\n")
 }
 
-fn png(picture: &Finished<'_>, encoding: &Encoding) -> Result<Vec<u8>, WriteError> {
+fn png(picture: &Finished<'_>, encoding: Encoding) -> Result<Vec<u8>, WriteError> {
     let mut png = Cursor::new(Vec::new());
-    write(picture, Content::Layer(LayerKind::Picture), Format::Png, encoding, &mut png)?;
+    write(picture, Content::Layer(LayerKind::Picture), Format::Png, &encoding, &mut png)?;
     Ok(png.into_inner())
 }
 
