@@ -53,7 +53,8 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Vec<PathBuf>, Failure> {
     clock.lap("read");
     if let Some(pairing) = pairing {
         let lap = |stage| clock.lap(stage);
-        let both = stereo::run(args, &plan, pairing, outputs, input, &options, meter, lap)?;
+        let eyes = stereo::Eyes { args, plan: &plan, options: &options, pairing };
+        let both = eyes.draw(outputs, input, meter, lap)?;
         if args.work.json {
             let Window { x0, y0, x1, y1 } = options.shown();
             let layer =
