@@ -38,7 +38,7 @@ pub(crate) struct Image {
 /// What picture it is.
 enum Made {
     /// Rendered here: of this scene.
-    Here(Arc<Scene>, RenderOptions, OnceLock<Settings>),
+    Here(Arc<Scene>, Box<RenderOptions>, OnceLock<Settings>),
     /// Put together, or unpickled.
     Elsewhere(Settings),
 }
@@ -60,7 +60,7 @@ impl Image {
             let (film, settings) = finished(&film, settings);
             (film, Made::Elsewhere(settings))
         } else {
-            (film, Made::Here(scene, options, OnceLock::new()))
+            (film, Made::Here(scene, Box::new(options), OnceLock::new()))
         };
         Self::of(Arc::new(film), made, seconds, warnings, samples)
     }
@@ -129,23 +129,23 @@ impl Image {
     fn save_svg(
         &self,
         path: &Path,
-        encoding: &Encoding,
+        encoding: Encoding,
         exposure: Option<Exposure>,
     ) -> Result<(), SaveError> {
         let settings = self.exposed(exposure);
         let mut draft = Draft::create(path)?;
         draft.write(|out| {
-            let text = furniture::svg(&self.film, &settings, encoding)?;
+            let text = furniture::svg(&self.film, &settings, &encoding)?;
             out.write_all(text.as_bytes())?;
             Ok::<_, WriteError>(())
         })?;
         place(vec![draft])
     }
 
-    fn png(&self, encoding: &Encoding) -> PyResult<Vec<u8>> {
+    fn png(&self, encoding: Encoding) -> PyResult<Vec<u8>> {
         let mut out = Cursor::new(Vec::new());
         let content = Content::Layer(LayerKind::Picture);
-        write(&self.finished(None), content, Format::Png, encoding, &mut out)
+        write(&self.finished(None), content, Format::Png, &encoding, &mut out)
             .map_err(|error| value_error(error.to_string()))?;
         Ok(out.into_inner())
     }
@@ -293,9 +293,12 @@ impl Image {
         let (encoding, exposure) = (encoding(bits, linear)?, self::exposure(exposure)?);
         let path = phong_scene::path_of(&path_of(path)?);
         let is_svg = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("svg"));
-        let saved = py.detach(|| match is_svg {
-            true => self.save_svg(&path, &encoding, exposure),
-            false => save(&self.finished(exposure), &path, &encoding),
+        let saved = py.detach(|| {
+            if is_svg {
+                self.save_svg(&path, encoding, exposure)
+            } else {
+                save(&self.finished(exposure), &path, &encoding)
+            }
         });
         saved.map_err(|error| match error {
             SaveError::Unsuitable(message) => {
@@ -320,7 +323,7 @@ impl Image {
     }
 
     fn _repr_png_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let png = py.detach(|| self.png(&Encoding::default()))?;
+        let png = py.detach(|| self.png(Encoding::default()))?;
         Ok(PyBytes::new(py, &png))
     }
 

@@ -346,12 +346,12 @@ pub(crate) fn _explain(
     let pixel = [u32::try_from(x), u32::try_from(y)];
     let [Ok(x), Ok(y)] = pixel else { return Err(outside()) };
     let work = move |cancel: &Cancel| {
+        use phong_lab::tell::{Telling, json, latex, text};
         let Asked { snapshot, options, image, max_bytes, .. } = asked;
         let ready = snapshot.prepare(image, max_bytes)?;
         let told = phong::explain::explain(&ready.view, &options, [x, y]);
         let told = told.map(|mut told| {
             told.tone = tone_of(&ready.scene, &ready.view, &options, cancel);
-            use phong_lab::tell::{Telling, json, latex, text};
             let telling = Telling::default();
             (json(&told).to_string(), text(&told, &telling), latex(&told, &telling))
         });
