@@ -409,8 +409,12 @@ pub(super) fn swapped(scene: &Scene, right: &Prepared, wrong: &[bool]) -> Vec<Hy
         .collect()
 }
 
-/// Ways in which rays may go elsewhere.
+/// Ways in which rays may go elsewhere. None where a sky, fog or occlusion has part in the sum, which is
+/// known only of the points that the right rays meet.
 pub(super) fn elsewhere(scene: &Scene) -> Vec<(&'static Mistake, Way)> {
+    if scene.sky.is_some() || scene.fog.is_some() || scene.ambient_occlusion.is_some() {
+        return Vec::new();
+    }
     let [width, height] = scene.image.size.map(f64::from);
     let mut all = Vec::new();
     let mut lens = |cause: &str, lens: Lens| {

@@ -64,7 +64,8 @@ pub struct Grade {
     pub confidence: f64,
     /// The likeliest causes, the best first, at most five and those that are tied.
     pub candidates: Vec<Candidate>,
-    /// Causes that this scene cannot reveal: they change nothing notable in its picture.
+    /// Causes that this scene cannot reveal: they change nothing notable in its picture, or send rays
+    /// elsewhere, which is not looked for in scenes with a sky, fog or ambient occlusion.
     pub unrevealed: Vec<&'static str>,
     /// The objects that differ, where others do not; else empty.
     pub objects: Vec<String>,

@@ -84,10 +84,10 @@ impl Library {
     pub(super) fn new(scene: Scene, right: Prepared) -> Self {
         let hypotheses = at_points(&scene, &right);
         let seen: Vec<bool> = hypotheses.par_iter().map(|one| is_seen(&right, one)).collect();
-        let unrevealed = unrevealed(&right, &hypotheses, &seen);
+        let ways = elsewhere(&scene);
+        let unrevealed = unrevealed(&right, &hypotheses, &seen, &ways);
         let seen = hypotheses.into_iter().zip(seen).filter(|(_, seen)| *seen);
         let hypotheses: Vec<Hypothesis> = seen.map(|(one, _)| one).collect();
-        let ways = elsewhere(&scene);
         let few = &right.some[..right.some.len().min(FEW)];
         let trace = |(_, way): &(&Mistake, Way)| Elsewhere::new(&right, &scene, way).trace(few);
         let few = ways.iter().map(trace).collect();
@@ -203,8 +203,14 @@ fn alone(judge: &Judge, hypotheses: &[Hypothesis]) -> Vec<Tried> {
     hypotheses.par_iter().map(one).collect()
 }
 
-/// Causes that change nothing notable of the right picture, in whichever way they are made.
-fn unrevealed(right: &Prepared, hypotheses: &[Hypothesis], are_seen: &[bool]) -> Vec<&'static str> {
+/// Causes that change nothing notable of the right picture, in whichever way they are made, or that are
+/// not looked for in this scene.
+fn unrevealed(
+    right: &Prepared,
+    hypotheses: &[Hypothesis],
+    are_seen: &[bool],
+    ways: &[(&'static Mistake, Way)],
+) -> Vec<&'static str> {
     let seen = |cause: &str| {
         let ways = hypotheses.iter().zip(are_seen);
         ways.into_iter().any(|(one, seen)| *seen && one.mistake.cause == cause)
@@ -212,8 +218,9 @@ fn unrevealed(right: &Prepared, hypotheses: &[Hypothesis], are_seen: &[bool]) ->
     let materials = right.view.written_materials();
     let hidden = |cause: &str| match cause {
         // Told from the picture itself, or seen in every picture that shows something.
-        "not-a-number" | "shadow-acne" | "exposure" | "shifted" | "half-pixel" | "fov-half"
-        | "far-root" => false,
+        "not-a-number" | "shadow-acne" | "exposure" | "shifted" => false,
+        "half-pixel" | "fov-half" | "far-root" => ways.is_empty(),
+        "fov-horizontal" | "aspect-ignored" | "up-ignored" if ways.is_empty() => true,
         "fov-horizontal" | "aspect-ignored" => right.size[0] == right.size[1],
         "up-ignored" => {
             let up = right.view.look().camera.up;

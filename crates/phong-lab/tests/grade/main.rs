@@ -212,6 +212,9 @@ fn skies_and_fog_are_parts_of_the_sum_and_what_is_wrong_in_them_is_named() {
     assert!(grader.grade(&draw(&scene)).unwrap().pass);
     let without = Scene { ambient: Rgb::BLACK, ..scene.clone() };
     let grade = grader.grade(&draw(&without)).unwrap();
+    for cause in ["half-pixel", "aspect-ignored", "fov-half", "far-root", "up-ignored"] {
+        assert!(grade.unrevealed.contains(&cause), "rays that go elsewhere: {cause}");
+    }
     assert_eq!(grade.cause.as_deref(), Some("ambient-missing"), "{grade:#?}");
     scene.tone = Some(Tone { curve: ToneCurve::Filmic, ..Tone::default() });
     let error = Grader::new(&scene).unwrap_err().to_string();
