@@ -1,5 +1,7 @@
 //! How light becomes what a PNG shows: exposure, white balance, and a curve.
 
+use std::ops::Range;
+
 use glam::{DMat3, DVec3};
 use phong_scene::{Exposure, Rgb, Tone, ToneCurve};
 use rayon::prelude::*;
@@ -117,29 +119,85 @@ impl ToneMap {
 ///
 /// The mean is that of the logarithms of the luminances of all pixels that have any.
 fn automatic(picture: &[f32], alpha: Option<&[f32]>) -> f64 {
-    let pixels = picture.as_chunks::<3>().0.par_iter().enumerate();
-    let luminances: Vec<f32> = pixels
-        .map(|(i, &color)| {
-            let share = alpha.and_then(|alpha| alpha.get(i)).map_or(1.0, |&alpha| alpha);
-            luminance(color.into()) / share
-        })
-        .filter(|&y| y > 0.0 && y < f32::INFINITY)
-        .collect();
-    if luminances.is_empty() {
-        return 0.0;
-    }
-    let mut sorted = luminances.clone();
-    let middle = sorted.len() / 2;
-    let median = *sorted.select_nth_unstable_by(middle, f32::total_cmp).1;
-    let logarithm = |y: &f32| {
-        wide::ln(f64::from(y.clamp(median / FARTHEST, (median * FARTHEST).min(f32::MAX))))
-    };
+    let lit = Lit { picture: picture.as_chunks::<3>().0, alpha };
+    let Some((median, count)) = lit.median() else { return 0.0 };
+    let logarithm =
+        |y: f32| wide::ln(f64::from(y.clamp(median / FARTHEST, (median * FARTHEST).min(f32::MAX))));
     // The pieces are the same for any number of threads, and summed in their order.
-    let sums: Vec<f64> =
-        luminances.par_chunks(4096).map(|piece| piece.iter().map(logarithm).sum()).collect();
-    let mean = sums.iter().sum::<f64>() / luminances.len() as f64;
+    let pieces = lit.pieces().map(|piece| lit.luminances(piece).map(logarithm).sum());
+    let sums: Vec<f64> = pieces.collect();
+    let mean = sums.iter().sum::<f64>() / count as f64;
     let most = Tone::MOST_STOPS;
     ((wide::ln(MIDDLE_GREY) - mean) / std::f64::consts::LN_2).clamp(-most, most)
+}
+
+/// The pixels of a picture that have any luminance. They may be very many, so that nothing is kept of each.
+struct Lit<'a> {
+    picture: &'a [[f32; 3]],
+    alpha: Option<&'a [f32]>,
+}
+
+impl Lit<'_> {
+    /// Of these pixels, those that are lit.
+    fn luminances(&self, pixels: Range<usize>) -> impl Iterator<Item = f32> {
+        pixels
+            .map(|i| {
+                let share = self.alpha.and_then(|alpha| alpha.get(i)).map_or(1.0, |&alpha| alpha);
+                luminance(self.picture[i].into()) / share
+            })
+            .filter(|&y| y > 0.0 && y < f32::INFINITY)
+    }
+
+    /// All pixels, 4096 at a time.
+    fn pieces(&self) -> impl IndexedParallelIterator<Item = Range<usize>> {
+        let pixels = self.picture.len();
+        let piece = move |number: usize| 4096 * number..pixels.min(4096 * (number + 1));
+        (0..pixels.div_ceil(4096)).into_par_iter().map(piece)
+    }
+
+    /// The median of the luminances, and how many there are; `None`: there is none.
+    ///
+    /// Floats above 0 are in the order of their bits: of the median's the highest eleven are found first, by
+    /// counting how many luminances begin with each, then ten more, and then the last ten.
+    fn median(&self) -> Option<(f32, u64)> {
+        let (mut known, mut below) = (0_u32, 31);
+        let (mut all, mut rank) = (None, 0);
+        for shift in [20, 10, 0] {
+            let counts = self.counts(known, below, shift);
+            if all.is_none() {
+                let count = counts.iter().sum::<u64>();
+                (all, rank) = (Some(count), count / 2);
+            }
+            let mut next = 0;
+            for &count in &counts {
+                if rank < count {
+                    break;
+                }
+                (rank, next) = (rank - count, next + 1);
+            }
+            (known, below) = ((known << (below - shift)) + next, shift);
+        }
+        all.filter(|&count| count > 0).map(|count| (f32::from_bits(known), count))
+    }
+
+    /// Of the luminances whose bits from bit `below` on are `known`, how many have each number in the bits
+    /// from there down to bit `shift`.
+    fn counts(&self, known: u32, below: u32, shift: u32) -> Vec<u64> {
+        let size = 1_usize << (below - shift);
+        let none = || vec![0_u64; size];
+        let count = |mut counts: Vec<u64>, piece| {
+            let bits = self.luminances(piece).map(f32::to_bits);
+            for bits in bits.filter(|bits| bits >> below == known) {
+                counts[(bits >> shift) as usize % size] += 1;
+            }
+            counts
+        };
+        let add = |mut some: Vec<u64>, more: Vec<u64>| {
+            some.iter_mut().zip(more).for_each(|(some, more)| *some += more);
+            some
+        };
+        self.pieces().fold(none, count).reduce(none, add)
+    }
 }
 
 /// The luminance of a colour.
@@ -272,6 +330,21 @@ mod tests {
         assert!(stops(&picture).abs() < 1e-6, "ten stops up and ten down: {}", stops(&picture));
         assert_eq!(stops(&[1e-44; 3]), 100.0);
         assert_eq!(stops(&[1e38; 3]), -100.0);
+    }
+
+    /// Sorted by others, of numbers of all sizes and in any order.
+    #[test]
+    fn the_median_is_the_middle_one_of_all_luminances_that_were_sorted() {
+        for count in [1_u32, 2, 3, 4096, 4097, 10_001] {
+            let value = |i: u32| f32::from_bits(i.wrapping_mul(2_654_435_761) % 0x7f7f_ffff + 1);
+            let picture: Vec<[f32; 3]> = (0..count).map(|i| [0.0, value(i), 0.0]).collect();
+            let lit = Lit { picture: &picture, alpha: None };
+            let mut sorted: Vec<f32> = lit.luminances(0..picture.len()).collect();
+            sorted.sort_by(f32::total_cmp);
+            let wanted = (sorted[sorted.len() / 2], sorted.len() as u64);
+            assert_eq!(lit.median(), Some(wanted), "{count}");
+        }
+        assert_eq!(Lit { picture: &[[0.0; 3]], alpha: None }.median(), None);
     }
 
     #[test]
