@@ -18,6 +18,9 @@ use crate::image::WriteError;
 const MAGIC: [u8; 8] = [0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0];
 /// Rows that are compressed together.
 const ROWS: usize = 16;
+/// Of so many bytes blocks of rows are compressed side by side, or one of more. Beside each stands what it
+/// becomes.
+const AT_ONCE: usize = 64 << 20;
 /// Rec. 709: the primaries of sRGB, with white D65.
 const REC_709: [f32; 8] = [0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.3290];
 
@@ -49,7 +52,7 @@ pub(in crate::image) fn write(
     out.write_all(&head)?;
     let mut offsets = Vec::with_capacity(8 * blocks);
     let mut at = head.len() as u64;
-    let wave = 2 * rayon::current_num_threads();
+    let wave = wave(width, channels.len(), rayon::current_num_threads());
     for first in (0..blocks).step_by(wave) {
         let packed = (first..blocks.min(first + wave)).into_par_iter().map(|block| {
             let rows = block * ROWS..height.min((block + 1) * ROWS);
@@ -67,6 +70,12 @@ pub(in crate::image) fn write(
     out.write_all(&offsets)?;
     out.seek(SeekFrom::Start(begin + at))?;
     Ok(())
+}
+
+/// How many blocks of rows are compressed side by side: enough for all threads, but of at most so many bytes.
+fn wave(width: usize, channels: usize, threads: usize) -> usize {
+    let block = 4_usize.saturating_mul(ROWS * channels).saturating_mul(width).max(1);
+    (AT_ONCE / block).clamp(1, 2 * threads.max(1))
 }
 
 /// All channels, by their names.
@@ -219,5 +228,17 @@ fn channel_names(kind: LayerKind) -> Vec<String> {
         LayerKind::Aov(Aov::Normal | Aov::Position) => of(&["X", "Y", "Z"]),
         LayerKind::Aov(Aov::Uv) => of(&["U", "V"]),
         LayerKind::Aov(_) => vec![kind.name().into_owned()],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn blocks_that_are_compressed_side_by_side_have_no_more_bytes_than_are_allowed() {
+        assert_eq!(wave(640, 4, 2), 4, "two for each thread");
+        assert_eq!(wave(3840, 60, 64), 4, "14.7 MB each");
+        assert_eq!(wave(10_000_000, 60, 64), 1, "one there must be");
     }
 }
