@@ -45,6 +45,14 @@ fn a_picture_whose_head_says_that_it_is_too_large_is_not_decoded() {
 }
 
 #[test]
+fn a_pixel_that_a_whole_picture_exposes_takes_the_memory_of_that() {
+    let folder = given(&[("a.toml", BALLS)]);
+    let words = "explain a.toml 20 15 --samples 1 --size 20000x20000 --max-memory 1G";
+    folder.done(words);
+    folder.when(&format!("{words} --exposure auto")).is_refused(&["memory", "limit"]);
+}
+
+#[test]
 fn a_part_whose_head_says_that_it_is_too_large_is_not_read() {
     let folder = given(&[("a.toml", BALLS)]);
     folder.done("render a.toml --tile 0/2 --crop 0,0,40,1 --size 40000x30000 -o a.part");

@@ -351,7 +351,7 @@ pub(crate) fn _explain(
         let ready = snapshot.prepare(image, max_bytes)?;
         let told = phong::explain::explain(&ready.view, &options, [x, y]);
         let told = told.map(|mut told| {
-            told.tone = tone_of(&ready.scene, &ready.view, &options, cancel);
+            told.tone = tone_of(&ready.scene, &ready.view, &options, &|_| {}, cancel);
             let telling = Telling::default();
             (json(&told).to_string(), text(&told, &telling), latex(&told, &telling))
         });

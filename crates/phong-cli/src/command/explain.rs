@@ -3,21 +3,22 @@
 use std::io::{self, Cursor};
 use std::path::{Path, PathBuf};
 
-use phong::explain::{Explanation, explain, tone_of};
+use phong::explain::{Explanation, explain, exposed_by, tone_of};
 use phong::film::{LayerKind, Window};
-use phong::finish::{Finishing, finish};
+use phong::finish::{Finishing, ToneMap, finish};
 use phong::image::{self, Content, Encoding, Format};
-use phong::render::{Cancel, RenderOptions, render};
+use phong::render::{Cancel, Event, RenderOptions, render};
 use phong::view::View;
 use phong_lab::tell::html::{MAX_PIXELS, page};
 use phong_lab::tell::{self, Telling};
-use phong_scene::Tone;
+use phong_scene::{Scene, Tone};
 
 use crate::args::{self, ImageArgs, InputArgs, ToneArgs, ViewArgs};
 use crate::compile::compile;
 use crate::failure::Failure;
 use crate::output::{Output, keep_inputs_safe};
-use crate::{input, plan, report};
+use crate::progress::Meter;
+use crate::{input, interrupt, memory, plan, report};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -103,7 +104,11 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         let samples = options.samples();
         return Err(Failure::usage(format!("--sample {sample}: the pixel has {samples} samples")));
     }
-    let scene = compile(&input.scene, &args.input, 0)?;
+    // One pixel takes a whole picture where that is what exposes it.
+    let exposed = args.x.and_then(|_| exposed_by(&input.scene, &options));
+    let bytes = exposed.map_or(0, |options| options.film_bytes());
+    let scene = compile(&input.scene, &args.input, bytes)?;
+    memory::set_aside(bytes)?;
     if let (Some(x), Some(y)) = (args.x, args.y) {
         let mut told = explain(&scene, &options, [x, y]).map_err(|outside| {
             let [width, height] = outside.size;
@@ -113,7 +118,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
                 height - 1
             ))
         })?;
-        told.tone = tone_of(&input.scene, &scene, &options, &Cancel::new());
+        told.tone = exposing(&input.scene, &scene, &options)?;
         if let Some(output) = &mut svg {
             let drawing = tell::svg(&told, chosen(args)).ok_or_else(|| {
                 Failure::usage("--svg: the ray meets nothing, so there are no vectors to draw")
@@ -127,6 +132,22 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         write_page(args, (&scene, tone), options, output, path)?;
     }
     Output::commit(svg.into_iter().chain(html).collect())
+}
+
+/// How the picture becomes what is seen of it. Where all of it is rendered for that, a bar says how far that is.
+fn exposing(scene: &Scene, view: &View, options: &RenderOptions) -> Result<ToneMap, Failure> {
+    let mut meter = Meter::new(exposed_by(scene, options).is_none(), "exposing");
+    meter.samples();
+    let listen = |event: Event<'_>| {
+        if let Event::Progress(progress) = event {
+            meter.update(progress, 0);
+        }
+    };
+    let (tone, cancelled) = interrupt::heeding(|cancel| {
+        (tone_of(scene, view, options, &listen, cancel), cancel.is_cancelled())
+    });
+    meter.finish();
+    if cancelled { Err(interrupt::failure()) } else { Ok(tone) }
 }
 
 /// A column or a row.

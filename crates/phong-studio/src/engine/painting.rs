@@ -1,5 +1,7 @@
 //! A picture under way: first at an eighth of its size, then all of it in 1, 2, 4, … samples a pixel.
 
+use std::sync::OnceLock;
+
 use phong::film::{Film, Window};
 use phong::finish::{Finishing, ToneMap, finish};
 use phong::part::furniture_of;
@@ -31,6 +33,8 @@ pub(super) struct Painting {
     furniture: Option<Box<Scene>>,
     /// What there is so far; `None`: nothing.
     film: Option<Film>,
+    /// What automatic exposure makes of that film; empty: nobody asked yet.
+    exposed: OnceLock<ToneMap>,
     done: bool,
 }
 
@@ -71,8 +75,8 @@ impl Painting {
             options = options.with_share(index, count).map_err(said)?;
             preview = preview.filter(|_| index == 0);
         }
-        let film = None;
-        Ok(Self { number, view, options, preview, off, draws, furniture, film, done: false })
+        let (film, exposed, done) = (None, OnceLock::new(), false);
+        Ok(Self { number, view, options, preview, off, draws, furniture, film, exposed, done })
     }
 
     pub(super) fn number(&self) -> u32 {
@@ -101,7 +105,9 @@ impl Painting {
         self.film.as_ref()
     }
 
+    /// The film, for who puts something into it.
     pub(super) fn film_mut(&mut self) -> Option<&mut Film> {
+        self.exposed.take();
         self.film.as_mut()
     }
 
@@ -131,7 +137,7 @@ impl Painting {
         let tone = self.options.tone();
         match self.film.as_ref().filter(|film| film.is_complete()) {
             Some(film) if tone.exposure == Exposure::Auto => {
-                *finish(film, &Finishing::of(&self.options)).tone()
+                *self.exposed.get_or_init(|| *finish(film, &Finishing::of(&self.options)).tone())
             }
             _ => ToneMap::new(&tone, &[], None),
         }
@@ -150,6 +156,7 @@ impl Painting {
         emit: Emit<'_>,
     ) -> Result<(), String> {
         let passes = self.passes();
+        self.exposed.take();
         let Self { number, view, options, off, furniture, .. } = self;
         let furniture = furniture.as_deref();
         let (picture, off) = (*number, *off);

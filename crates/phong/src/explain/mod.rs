@@ -15,7 +15,7 @@ use crate::filter::Filter;
 use crate::finish::{Finishing, ToneMap, ToneSteps, finish};
 use crate::integrator::{Brings, Integrator, Radiance8, RayCounts, SampleGrid};
 use crate::math::Dir3;
-use crate::render::{Cancel, Drawn, RenderOptions, camera_ray, render};
+use crate::render::{Cancel, Drawn, Event, RenderOptions, camera_ray, render};
 use crate::sampling::Sampler;
 use crate::terms::{TermSet, Terms};
 use crate::texture::ImageLookUp;
@@ -333,16 +333,28 @@ pub fn explain(
     Ok(Explanation { pixel, size, eye, samples, terms, linear, alpha, tone })
 }
 
-/// How light becomes what a PNG of a scene's picture shows, for [`Explanation::tone`]. Automatic exposure
-/// is that of the picture, which is rendered to find it; who cancels that gets some exposure or other.
-pub fn tone_of(scene: &Scene, view: &View, options: &RenderOptions, cancel: &Cancel) -> ToneMap {
+/// Options of the picture that [`tone_of`] renders to find automatic exposure, for who makes room for its
+/// film; `None`: exposure is not automatic, and nothing is rendered.
+pub fn exposed_by(scene: &Scene, options: &RenderOptions) -> Option<RenderOptions> {
     let tone = scene.tone.unwrap_or_default();
-    if tone.exposure != Exposure::Auto {
-        return ToneMap::new(&tone, &[], None);
-    }
-    let bare = options.clone().with_terms(TermSet::NONE).with_aovs(&[]).with_lights(0);
-    let options = bare.with_finishing_of(scene);
-    let film = render(view, &options, &|_| {}, cancel).film;
+    let bare = || options.clone().with_terms(TermSet::NONE).with_aovs(&[]).with_lights(0);
+    (tone.exposure == Exposure::Auto).then(|| bare().with_finishing_of(scene))
+}
+
+/// How light becomes what a PNG of a scene's picture shows, for [`Explanation::tone`]. Automatic exposure
+/// is that of the picture, which is rendered to find it ([`exposed_by`]), and tells `listen` how far it is;
+/// who cancels that gets some exposure or other.
+pub fn tone_of(
+    scene: &Scene,
+    view: &View,
+    options: &RenderOptions,
+    listen: &(dyn Fn(Event<'_>) + Sync),
+    cancel: &Cancel,
+) -> ToneMap {
+    let Some(options) = exposed_by(scene, options) else {
+        return ToneMap::new(&scene.tone.unwrap_or_default(), &[], None);
+    };
+    let film = render(view, &options, listen, cancel).film;
     *finish(&film, &Finishing::of(&options)).tone()
 }
 
