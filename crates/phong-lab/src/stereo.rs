@@ -27,7 +27,7 @@ impl Pairing {
     pub fn pair(self, left: &Finished<'_>, right: &Finished<'_>) -> (Film, Vec<Patch>) {
         match self {
             Self::SideBySide => side_by_side([left, right]),
-            Self::Anaglyph => (anaglyph([left, right]), Vec::new()),
+            Self::Anaglyph => anaglyph([left, right]),
         }
     }
 }
@@ -60,11 +60,11 @@ fn side_by_side(eyes: [&Finished<'_>; 2]) -> (Film, Vec<Patch>) {
     (both, patches)
 }
 
-fn anaglyph([left, right]: [&Finished<'_>; 2]) -> Film {
-    let film = left.film();
+fn anaglyph(eyes: [&Finished<'_>; 2]) -> (Film, Vec<Patch>) {
+    let film = eyes[0].film();
     let mut both = empty([film.width(), film.height()], film.tile);
     for layer in &mut both.layers {
-        let [left, right] = [left, right].map(|eye| eye.values(layer.kind).unwrap_or_default());
+        let [left, right] = eyes.map(|eye| eye.beneath(layer.kind).unwrap_or_default());
         let n = layer.kind.channels();
         for (i, to) in layer.values.iter_mut().enumerate() {
             let (left, right) = (left.get(i), right.get(i));
@@ -77,7 +77,13 @@ fn anaglyph([left, right]: [&Finished<'_>; 2]) -> Film {
             *to = seen.unwrap_or_default();
         }
     }
-    both
+    let mut patches = Vec::new();
+    for (eye, channels) in eyes.into_iter().zip([[true, false, false], [false, true, true]]) {
+        let part = eye.film().window;
+        let seen = eye.patches().iter().filter_map(|patch| patch.cut(part, [0, 0]));
+        patches.extend(seen.map(|patch| Patch { channels, ..patch }));
+    }
+    (both, patches)
 }
 
 #[cfg(test)]
@@ -97,7 +103,8 @@ mod tests {
     fn inked() -> Finishing {
         let window = Window { x0: 1, y0: 0, x1: 2, y1: 1 };
         let mut finishing = Finishing::default();
-        finishing.patches = vec![Patch { window, pixels: vec![[255, 255, 255, 255]] }];
+        finishing.patches =
+            vec![Patch { window, pixels: vec![[255, 255, 255, 255]], channels: [true; 3] }];
         finishing
     }
 
@@ -117,7 +124,8 @@ mod tests {
         let (left, right) = (film(0.25), film(0.5));
         let [left, right] = [&left, &right].map(|film| finish(film, &inked()));
         let (both, patches) = Pairing::Anaglyph.pair(&left, &right);
-        assert_eq!(*both.layers[0].values, [0.25, 0.5, 0.5, 1.0, 1.0, 1.0]);
-        assert!(patches.is_empty());
+        assert_eq!(*both.layers[0].values, [0.25, 0.5, 0.5, 0.25, 0.5, 0.5], "no ink is light");
+        let inks: Vec<_> = patches.iter().map(|patch| (patch.window.x0, patch.channels)).collect();
+        assert_eq!(inks, [(1, [true, false, false]), (1, [false, true, true])]);
     }
 }

@@ -64,7 +64,7 @@ fn patch(group: &Group, window: Window) -> Option<Patch> {
     }
     let bytes = pixels.take_demultiplied();
     let pixels = bytes.as_chunks::<4>().0.to_vec();
-    Some(Patch { window, pixels })
+    Some(Patch { window, pixels, channels: [true; 3] })
 }
 
 fn fill(pixels: &mut Pixmap, path: &Path, ink: Ink) {

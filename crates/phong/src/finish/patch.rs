@@ -13,6 +13,8 @@ pub struct Patch {
     /// Red, green, blue and opacity of each pixel as levels from 0 to 255, of sRGB and straight; rows from
     /// the top. As many as the window has.
     pub pixels: Vec<[u8; 4]>,
+    /// Which of red, green and blue it covers: all, but in a picture whose channels are for different eyes.
+    pub channels: [bool; 3],
 }
 
 impl Patch {
@@ -46,7 +48,8 @@ impl Patch {
             let from = from + (both.x0 - self.window.x0) as usize;
             self.pixels.get(from..from + both.width() as usize).unwrap_or_default()
         });
-        Some(Self { window, pixels: rows.flatten().copied().collect() })
+        let pixels = rows.flatten().copied().collect();
+        Some(Self { window, pixels, channels: self.channels })
     }
 
     /// Lays it over linear values of a part of a picture: three a pixel and premultiplied, and their alpha.
@@ -54,7 +57,8 @@ impl Patch {
         self.over(part, |i, [r, g, b, a]| {
             let share = f32::from(a) / 255.0;
             let color = Rgb::from_srgb8([r, g, b]).to_array();
-            for (value, color) in picture[3 * i..].iter_mut().zip(color) {
+            let values = picture[3 * i..].iter_mut().zip(color).zip(self.channels);
+            for ((value, color), _) in values.filter(|(_, covered)| *covered) {
                 *value = *value * (1.0 - share) + color * share;
             }
             alpha[i] += (1.0 - alpha[i]) * share;
@@ -89,8 +93,9 @@ impl Patch {
             for (at, color) in [r, g, b].into_iter().enumerate() {
                 let color = f64::from(color) / 255.0;
                 let color = if linear { srgb_decode(color) } else { color };
-                let under = level(at, pixel) * below * (1.0 - share);
-                levels[at] = (color * share + under) / whole;
+                let under = level(at, pixel) * below;
+                let light = color * share + under * (1.0 - share);
+                levels[at] = if self.channels[at] { light } else { under } / whole;
             }
             for (to, level) in pixel.chunks_exact_mut(size).zip(levels) {
                 let level = (level * most + 0.5) as u16;
@@ -112,7 +117,18 @@ mod tests {
     /// Half red over the second pixel of the part, and something beside the part.
     fn patch() -> Patch {
         let window = Window { x0: 11, y0: 0, x1: 13, y1: 1 };
-        Patch { window, pixels: vec![[255, 0, 0, 51], [9, 9, 9, 255]] }
+        Patch { window, pixels: vec![[255, 0, 0, 51], [9, 9, 9, 255]], channels: [true; 3] }
+    }
+
+    #[test]
+    fn a_patch_of_some_channels_leaves_the_others_as_they_are() {
+        let patch = Patch { channels: [false, true, true], ..patch() };
+        let mut bytes = [100; 6];
+        patch.over_levels(PART, &mut bytes, false, 1, false);
+        assert_eq!(bytes, [100, 100, 100, 100, 80, 80]);
+        let mut values = [vec![0.5; 6], vec![0.5; 2]];
+        patch.over_linear(PART, &mut values);
+        assert_eq!(values[0], [0.5, 0.5, 0.5, 0.5, 0.4, 0.4]);
     }
 
     #[test]
