@@ -94,6 +94,34 @@ impl Camera {
         place.is_finite().then_some(place)
     }
 
+    /// The same of any camera, as far as its picture reaches: that of a fisheye ends at its circle, and of a
+    /// panorama every point has a place. In these two what is straight in the world is not.
+    pub fn seen_at(&self, point: DVec3, size: [u32; 2]) -> Option<DVec2> {
+        let (width, height) = (f64::from(size[0]), f64::from(size[1]));
+        if self.is_projective() {
+            return self.place(point, size);
+        }
+        let to = (point - self.eye).try_normalize()?;
+        let (x, y, z) = (to.dot(self.right), to.dot(self.up), to.dot(self.forward));
+        if self.kind == CameraKind::Panorama {
+            let turn = wide::atan2(x, z) / std::f64::consts::TAU + 0.5;
+            let rise = wide::atan2(y, (x * x + z * z).sqrt()) / std::f64::consts::PI;
+            // A full turn is none.
+            let turn = if turn < 1.0 { turn } else { 0.0 };
+            return Some(DVec2::new(turn * width, (0.5 - rise) * height));
+        }
+        let sin = (x * x + y * y).sqrt();
+        let r = wide::atan2(sin, z) / self.half;
+        // What is exactly behind is all around the circle.
+        if r > 1.0 || (sin == 0.0 && z < 0.0) {
+            return None;
+        }
+        let across = if sin > 0.0 { r / sin } else { 0.0 };
+        let radius = width.min(height) / 2.0;
+        let off = DVec2::new(x, -y) * (across * radius);
+        Some(DVec2::new(width, height) / 2.0 + off)
+    }
+
     /// The origin and the unit direction of [`Camera::ray`], neither of them rounded to f32.
     pub(crate) fn line(&self, place: DVec2, size: [u32; 2], lens: [f32; 2]) -> Option<[DVec3; 2]> {
         let (width, height) = (f64::from(size[0]), f64::from(size[1]));
@@ -389,6 +417,29 @@ mod tests {
         assert_eq!(perspective.place(DVec3::new(0.0, 0.0, 6.0), SIZE), None, "behind the eye");
         let around = Camera::new(&camera(CameraKind::Panorama));
         assert_eq!(around.place(DVec3::ZERO, SIZE), None);
+    }
+
+    #[test]
+    fn cameras_that_look_around_see_a_point_on_a_ray_where_it_starts() {
+        let kinds = [180.0, 300.0].map(|fov| CameraKind::Fisheye { fov });
+        for kind in kinds.into_iter().chain([CameraKind::Panorama]) {
+            let eye = DVec3::new(1.0, 2.5, 8.1);
+            let made = Camera::new(&phong_scene::Camera { eye, ..camera(kind) });
+            let places = [[20.0, 10.0], [12.5, 9.5], [20.0, 18.5], [27.1, 13.3]];
+            for place in places.map(DVec2::from_array) {
+                for size in [SIZE, [32, 48]] {
+                    let [origin, dir] = made.line(place, size, MIDDLE).unwrap();
+                    let seen = made.seen_at(origin + 7.5 * dir, size).unwrap();
+                    assert!((seen - place).length() < 1e-9, "{kind:?}: {seen} for {place}");
+                }
+            }
+            assert_eq!(made.seen_at(eye, SIZE), None, "where it stands nothing is seen");
+        }
+        let fisheye = Camera::new(&camera(CameraKind::Fisheye { fov: 180.0 }));
+        assert_eq!(fisheye.seen_at(DVec3::new(0.0, 1.0, 6.0), SIZE), None, "behind it");
+        let panorama = Camera::new(&camera(CameraKind::Panorama));
+        let behind = panorama.seen_at(DVec3::new(0.0, 0.0, 9.0), SIZE).unwrap();
+        assert_eq!(behind.x % 40.0, 0.0);
     }
 
     #[test]

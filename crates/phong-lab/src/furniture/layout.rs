@@ -321,7 +321,7 @@ pub(super) fn pixels_a_unit(camera: &phong_scene::Camera, size: [u32; 2]) -> Opt
 /// Where a point of the scene is in the picture, and how far away along the ray to it; `None`: nowhere.
 pub(super) fn place_of(point: DVec3, scene: &Scene, size: [u32; 2]) -> Option<(Point, f64)> {
     let camera = &scene.camera;
-    let place = Camera::new(camera).place(point, size)?;
+    let place = Camera::new(camera).seen_at(point, size)?;
     let [width, height] = size.map(f64::from);
     if !(0.0..width).contains(&place.x) || !(0.0..height).contains(&place.y) {
         return None;

@@ -2,7 +2,7 @@ use phong::film::Window;
 use phong::image::Encoding;
 use phong::render::{Cancel, RenderOptions, render};
 use phong::view::View;
-use phong_scene::{Limits, Memory, read};
+use phong_scene::{CameraKind, Limits, Memory, read};
 
 use super::*;
 
@@ -80,6 +80,24 @@ fn a_label_is_hidden_by_what_stands_before_its_point() {
     assert!(!label("[0, 0, 9]", "hidden = \"never\""), "behind the eye");
     assert!(!label("[40, 0, 0]", "hidden = \"never\""), "beside the picture");
     assert!(label("[1.5, 0, -1]", ""), "nothing is before it");
+}
+
+#[test]
+fn cameras_that_look_around_have_labels_too() {
+    for kind in [CameraKind::Fisheye { fov: 120.0 }, CameraKind::Panorama] {
+        let label = |at: &str, more: &str| {
+            let mut scene = scene(&format!("[[label]]\ntext = \"L\"\nat = {at}\n{more}\n"));
+            scene.camera.kind = kind;
+            let (film, settings) = drawn(&scene, None);
+            let patches = finishing(&film, &settings).patches;
+            patches.first().map(|patch| patch.window)
+        };
+        assert!(label("[0, 0, 1]", "").is_some(), "{kind:?}: on the ball");
+        assert_eq!(label("[0, 0, -1]", ""), None, "{kind:?}: behind it");
+        assert!(label("[0, 0, -1]", "hidden = \"never\"").is_some(), "{kind:?}");
+        let behind = label("[3, 0, 7]", "hidden = \"never\"");
+        assert_eq!(behind.is_some(), kind == CameraKind::Panorama, "it looks behind itself");
+    }
 }
 
 #[test]
