@@ -137,6 +137,10 @@ pub(super) fn probe(scene: &Scene, p: DVec3, eye: DVec3) -> Terms {
     scene.image.size = [1, 1];
     scene.camera.look_at = p;
     scene.camera.eye = p + 10.0 * eye;
+    if eye.cross(scene.camera.up).length() < 1e-6 {
+        // From right above, which side of the only pixel is up does not matter.
+        scene.camera.up = eye.any_orthonormal_vector();
+    }
     spots(&measured(&scene)).first().map(|spot| spot.terms).unwrap_or_default()
 }
 

@@ -140,7 +140,7 @@ fn letters_that_the_font_lacks_and_bars_without_a_scale_are_told() {
         ]
     );
     let mut around = scene("[scale_bar]\n");
-    around.camera.kind = phong_scene::CameraKind::Panorama;
+    around.camera.kind = CameraKind::Panorama;
     assert_eq!(warnings(&around).len(), 1);
     let (film, settings) = drawn(&around, None);
     assert!(finishing(&film, &settings).patches.is_empty());
