@@ -25,23 +25,32 @@ impl Scene {
 
 /// Makes a shape follow the one in its place.
 fn follow(mine: &mut Shape, first: &Shape) {
-    match (mine, first) {
-        (Shape::Mesh(mine), Shape::Mesh(first)) if are_same_meshes(mine, first) => {
-            mine.clone_from(first);
-        }
-        (Shape::Points(mine), Shape::Points(first)) => {
-            if mine.guessed.is_some() && first.guessed.is_some() {
-                mine.guessed = first.guessed;
-                mine.set_radius(first.spheres.first().map(|sphere| sphere[3]));
+    if let (Shape::Points(mine), Shape::Points(first)) = (&mut *mine, first)
+        && mine.guessed.is_some()
+        && first.guessed.is_some()
+    {
+        mine.guessed = first.guessed;
+        mine.set_radius(first.spheres.first().map(|sphere| sphere[3]));
+    }
+    mine.share(first);
+}
+
+impl Shape {
+    /// Takes the arrays of another shape where all of them are equal to its own, so that trees over them can
+    /// be taken over. Where anything differs, nothing is taken.
+    pub fn share(&mut self, other: &Self) {
+        match (self, other) {
+            (Self::Mesh(mine), Self::Mesh(other)) if are_same_meshes(mine, other) => {
+                mine.clone_from(other);
             }
-            if are_same_points(mine, first) {
-                mine.clone_from(first);
+            (Self::Points(mine), Self::Points(other)) if are_same_points(mine, other) => {
+                mine.clone_from(other);
             }
+            (Self::Cylinders(mine), Self::Cylinders(other)) if are_same_cylinders(mine, other) => {
+                mine.clone_from(other);
+            }
+            _ => {}
         }
-        (Shape::Cylinders(mine), Shape::Cylinders(first)) if are_same_cylinders(mine, first) => {
-            mine.clone_from(first);
-        }
-        _ => {}
     }
 }
 
@@ -59,7 +68,11 @@ fn are_same_meshes(a: &Mesh, b: &Mesh) -> bool {
 }
 
 fn are_same_points(a: &Points, b: &Points) -> bool {
-    a.origin == b.origin && a.spheres == b.spheres && a.colors == b.colors && a.fields == b.fields
+    a.origin == b.origin
+        && a.spheres == b.spheres
+        && a.colors == b.colors
+        && a.guessed == b.guessed
+        && a.fields == b.fields
 }
 
 fn are_same_cylinders(a: &Cylinders, b: &Cylinders) -> bool {

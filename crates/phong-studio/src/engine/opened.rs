@@ -6,8 +6,8 @@ use std::sync::Arc;
 use phong::geometry::{Geometry, GeometryOptions};
 use phong::look::Look;
 use phong::scene::{
-    Blob, Change, Diagnostic, Format, Memory, NamedLook, Reading, Scene, Shape, Source,
-    read_changed, trouble,
+    Blob, Change, Diagnostic, Format, Memory, NamedLook, Reading, Scene, Source, read_changed,
+    trouble,
 };
 use phong::terms::TermSet;
 use phong::view::View;
@@ -232,7 +232,7 @@ impl Opened {
         let before = self.base.as_ref();
         for (new, old) in scene.objects.iter_mut().zip(before.iter().flat_map(|b| &b.scene.objects))
         {
-            share(&mut new.shape, &old.shape);
+            new.shape.share(&old.shape);
         }
         let options =
             GeometryOptions { max_bytes: Some(bounds.bytes), ..GeometryOptions::default() };
@@ -359,36 +359,6 @@ impl Opened {
         look::laid_over(base.as_deref().ok_or("nothing can be drawn yet")?, &set)?;
         (self.base, self.set) = (base, set);
         Ok(())
-    }
-}
-
-/// Takes the arrays of another shape where they hold the same.
-fn share(new: &mut Shape, old: &Shape) {
-    match (new, old) {
-        (Shape::Mesh(new), Shape::Mesh(old)) => {
-            let same = new.origin == old.origin
-                && new.positions == old.positions
-                && new.indices == old.indices
-                && new.normals == old.normals
-                && new.normal_indices == old.normal_indices
-                && new.uvs == old.uvs
-                && new.uv_indices == old.uv_indices
-                && new.colors == old.colors
-                && new.face_materials == old.face_materials;
-            if same {
-                new.clone_from(old);
-            }
-        }
-        (Shape::Points(new), Shape::Points(old)) => {
-            let same = new.origin == old.origin
-                && new.spheres == old.spheres
-                && new.colors == old.colors
-                && new.guessed == old.guessed;
-            if same {
-                new.clone_from(old);
-            }
-        }
-        _ => {}
     }
 }
 

@@ -213,3 +213,36 @@ fn what_is_shown_is_exported_as_python_and_as_a_page() {
     talk.ask(&json!({ "do": "export", "format": "html" }));
     assert!(talk.page.last("error")["message"].as_str().unwrap().contains("at most"));
 }
+
+#[test]
+fn a_map_that_is_typed_has_the_numbers_of_its_file() {
+    use phong::scene::Memory;
+    use phong_studio::engine::{Bounds, Engine};
+
+    let points = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n\
+                  property float z\nproperty float T\nend_header\n-0.6 1 0 1\n0.6 1 0 2\n";
+    let plain =
+        format!("{SCENE}[[points]]\nfile = \"p.ply\"\nradius = 0.5\nmaterial = \"plastic\"\n");
+    let mapped = plain.replace("color = \"#c8402f\"", "color = { texture = \"t\" }")
+        + "[textures.t]\nkind = \"map\"\nof = \"T\"\nstops = \"viridis\"\n";
+    let mapped = mapped.replacen("material = \"plastic\"", "", 1);
+    let drawn = |first: &str, then: Option<&str>| {
+        let files = Memory::new().with("a.toml", first.as_bytes()).with("p.ply", points.as_bytes());
+        let mut talk = Talk {
+            engine: Engine::new(files, Bounds::default()),
+            page: crate::client::Page::default(),
+            stops: false,
+        };
+        talk.ask(&json!({ "do": "pixels", "kind": "linear" }));
+        talk.ask(&json!({ "do": "open", "path": "a.toml" }));
+        if let Some(text) = then {
+            talk.ask(&json!({ "do": "edit", "text": text }));
+        }
+        assert_eq!(talk.page.last("checked")["ok"], true, "{:?}", talk.page.last("checked"));
+        talk.draw();
+        seen(&talk.page)
+    };
+    let opened = drawn(&mapped, None);
+    assert!(opened == drawn(&plain, Some(&mapped)));
+    assert!(opened != drawn(&plain, None));
+}
