@@ -14,6 +14,7 @@ export class Editor {
     this.edit = edit;
     this.waiting = 0;
     this.chosen = -1;
+    this.shown = { text: "", value: "" }; // what was shown last, and what the text area made of it
     area.addEventListener("input", () => {
       clearTimeout(this.waiting);
       this.waiting = setTimeout(() => this.flush(), PAUSE);
@@ -25,8 +26,12 @@ export class Editor {
     // Tab leaves the text, as everywhere else; two blanks are typed as two blanks.
   }
 
+  // The text as its file has it. A text area has "\n" at the end of each line, whatever stood there: what was
+  // shown and not changed is the very text; what was changed has the line ends of what was shown.
   get text() {
-    return this.area.value;
+    const { value } = this.area;
+    if (value === this.shown.value) return this.shown.text;
+    return this.shown.text.includes("\r\n") ? value.replaceAll("\n", "\r\n") : value;
   }
 
   keys(schema) {
@@ -38,7 +43,7 @@ export class Editor {
     if (!this.waiting) return false;
     clearTimeout(this.waiting);
     this.waiting = 0;
-    this.edit(this.area.value);
+    this.edit(this.text);
     return true;
   }
 
@@ -46,9 +51,11 @@ export class Editor {
     clearTimeout(this.waiting);
     this.waiting = 0;
     this.area.disabled = text === null;
-    if (this.area.value === (text ?? "")) return;
+    const value = (text ?? "").replace(/\r\n?/g, "\n");
+    this.shown = { text: text ?? "", value };
+    if (this.area.value === value) return;
     const { scrollTop, selectionStart, selectionEnd } = this.area;
-    this.area.value = text ?? "";
+    this.area.value = value;
     this.area.scrollTop = scrollTop;
     this.area.setSelectionRange(selectionStart, selectionEnd);
   }

@@ -60,7 +60,7 @@ export class OpenFile {
     if (this.kept === null) return;
     this.sent = this.text();
     this.asked = true;
-    this.send({ do: "save", over });
+    this.send({ do: "save", over, text: this.sent });
   }
 
   // The engine has saved what it was sent.

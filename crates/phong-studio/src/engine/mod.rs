@@ -158,7 +158,7 @@ impl Engine {
             Request::Move { by } => self.changed(emit, |opened, files| opened.shift(by, files)),
             Request::Zoom { by } => self.changed(emit, |opened, files| opened.zoom(by, files)),
             Request::PutOn { look } => self.put_on(look.as_deref(), emit),
-            Request::Save { over } => self.save(over, emit),
+            Request::Save { over, text } => self.save(over, text.as_deref(), emit),
             Request::CheckFile => {
                 self.check_file(emit);
                 Ok(())

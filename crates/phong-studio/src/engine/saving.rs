@@ -24,12 +24,21 @@ impl Engine {
     }
 
     /// Writes the text into its file; over one that was changed by somebody else only if that is `over`.
-    pub(super) fn save(&mut self, over: bool, emit: Emit<'_>) -> Result<(), String> {
+    /// Where another text is `meant`, because this engine has refused that one, nothing is written.
+    pub(super) fn save(
+        &mut self,
+        over: bool,
+        meant: Option<&str>,
+        emit: Emit<'_>,
+    ) -> Result<(), String> {
         let keeper = self.keeper.as_ref().ok_or("this page has no folder to save in")?;
         let files = Files { source: &*self.source, bounds: &self.bounds };
         let opened = self.opened.as_mut().ok_or(NOTHING)?;
         let text = opened.text().ok_or("a bare model has no text to save")?.to_owned();
         let path = opened.path().to_owned();
+        if meant.is_some_and(|meant| meant != text) {
+            return Err(format!("{path} is not saved: the text of the page was not taken"));
+        }
         if !over && let Some(changed) = changed(opened, files) {
             say(emit, &changed);
             return Ok(());

@@ -49,6 +49,9 @@ pub enum Request {
         /// Whether it is written over such a change.
         #[serde(default)]
         over: bool,
+        /// The text that is meant: where the engine has another, nothing is written. `None`: the engine's.
+        #[serde(default)]
+        text: Option<String>,
     },
     /// Says whether somebody else has changed the file since it was read or saved; if not, nothing.
     CheckFile,

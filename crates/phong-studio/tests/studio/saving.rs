@@ -89,6 +89,21 @@ fn what_somebody_else_has_written_is_not_written_over_without_asking() {
 }
 
 #[test]
+fn a_text_that_the_engine_has_not_taken_is_not_said_to_be_saved() {
+    let folder = folder();
+    let mut talk = page(folder.path(), "a.toml");
+    let long = "#".repeat(Bounds::TEXT as usize + 1);
+    talk.ask(&json!({ "do": "edit", "text": long }));
+    talk.ask(&json!({ "do": "save", "text": long, "over": true }));
+    assert_eq!(error(&talk), "a.toml is not saved: the text of the page was not taken");
+    assert!(talk.page.all("saved").is_empty());
+    talk.ask(&json!({ "do": "edit", "text": changed() }));
+    talk.ask(&json!({ "do": "save", "text": changed() }));
+    assert_eq!(talk.page.all("saved").len(), 1);
+    assert_eq!(fs::read_to_string(folder.path().join("a.toml")).unwrap(), changed());
+}
+
+#[test]
 fn what_cannot_be_saved_says_why() {
     let mut talk = Talk::of(SCENE);
     talk.ask(&json!({ "do": "save" }));
