@@ -19,11 +19,14 @@ let kept = null;
 const asked = new Set();
 // What is said of files that are too large.
 const large = [];
+// The number of the newest picture.
+let picture = 0;
 const queue = [];
 let awake = false;
 
 // What the module calls.
 globalThis.hear = (reply) => {
+  if (reply.startsWith('{"is":"look"')) ({ picture } = JSON.parse(reply));
   if (kept) kept.push(reply);
   else postMessage(reply);
 };
@@ -70,7 +73,11 @@ function breath() {
 async function meet(message) {
   if (typeof message === "string") return receive(message);
   if (message.module) return begin(message);
-  if (message.join) return message.join.forEach((part) => studio.join(part));
+  if (message.join) {
+    // Shares of a picture whose place another has taken meanwhile are no use.
+    if ((message.picture ?? picture) === picture) message.join.forEach((part) => studio.join(part));
+    return;
+  }
   if (message.part) postMessage({ part: studio.part() ?? null });
 }
 

@@ -44,7 +44,6 @@ class Team {
     this.open = null; // the newest scene that was asked for
     this.parts = null; // who waits for shares
     this.exports = Promise.resolve(); // one export after another
-    this.changes = 0; // how often something was asked for that changes the picture
     this.ready = prepare().then(
       (kit) => {
         this.kit = kit;
@@ -72,7 +71,6 @@ class Team {
     this.ready.then(() => {
       if (!this.kit) return;
       if (request.do === "open") this.open = request;
-      if (!ASKED.has(request.do)) this.changes += 1;
       if (request.do === "export") this.exports = this.exports.then(() => this.exported(request));
       else this.tell(request, ASKED.has(request.do) ? 1 : this.count);
     });
@@ -91,12 +89,13 @@ class Team {
   // way by then, if it is asked of one picture alone.
   async exported(request) {
     const others = this.workers.slice(1);
-    const before = this.changes;
+    const isGone = () => request.do === "finish" && request.picture !== this.picture;
+    if (isGone()) return;
     const parts = new Promise((resolve) => (this.parts = { all: [], resolve }));
     others.forEach((worker) => worker.postMessage({ part: true }));
     const all = others.length > 0 ? await parts : [];
-    if (request.do === "finish" && before !== this.changes) return;
-    this.workers[0].postMessage({ join: all.filter((part) => part) });
+    if (isGone()) return;
+    this.workers[0].postMessage({ join: all.filter((part) => part), picture: request.picture });
     this.tell(request, 1);
   }
 
@@ -160,7 +159,6 @@ class Team {
   // An engine has come to a bad end: all begin anew with the scene that was opened last.
   restart(why) {
     this.workers.forEach((worker) => worker.terminate());
-    this.changes += 1;
     this.parts?.resolve([]); // nobody gives a share any more
     this.hear({ is: "error", message: words.failed + why });
     if (this.again) return; // twice in a row: it is the scene

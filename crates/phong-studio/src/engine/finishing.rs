@@ -4,7 +4,7 @@
 use std::borrow::Cow;
 
 use phong::film::{Film, LayerKind};
-use phong::finish::{Finishing, finish};
+use phong::finish::{Finishing, ToneMap, finish};
 use phong::image::{Encoding, srgb8};
 use phong::render::{Lines, RenderOptions};
 use phong::scene::{Scene, Tone};
@@ -65,19 +65,27 @@ pub(super) fn whole(
         PixelKind::Linear => {
             let values = |kind| finished.values(kind).unwrap_or_default();
             let (colors, alphas) = (values(LayerKind::Picture), values(LayerKind::Alpha));
-            for (color, &alpha) in colors.as_chunks::<3>().0.iter().zip(alphas) {
-                let straight = |v: f32| if alpha > 0.0 { v / alpha } else { 0.0 };
-                let toned = if finishing.tone == Tone::default() {
-                    *color
-                } else {
-                    let toned = finished.tone().steps(color.map(straight).into()).last();
-                    (toned * alpha).to_array()
-                };
-                toned.iter().chain([&alpha]).for_each(|v| bytes.extend(v.to_le_bytes()));
+            let colors = if finishing.tone == Tone::default() {
+                Cow::Borrowed(colors)
+            } else {
+                Cow::Owned(toned(colors, alphas, finished.tone()))
+            };
+            for (color, alpha) in colors.as_chunks::<3>().0.iter().zip(alphas) {
+                color.iter().chain([alpha]).for_each(|v| bytes.extend(v.to_le_bytes()));
             }
         }
     }
     bytes
+}
+
+/// Colours, premultiplied with their alphas, as tone makes them; not yet clamped.
+pub(super) fn toned(colors: &[f32], alphas: &[f32], tone: &ToneMap) -> Vec<f32> {
+    let pixels = colors.as_chunks::<3>().0.iter().zip(alphas);
+    let toned = pixels.flat_map(|(color, &alpha)| {
+        let straight = color.map(|v| if alpha > 0.0 { v / alpha } else { 0.0 });
+        (tone.steps(straight.into()).last() * alpha).to_array()
+    });
+    toned.collect()
 }
 
 /// The film whose picture lacks the terms that are left out.

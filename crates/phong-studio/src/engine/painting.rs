@@ -1,5 +1,6 @@
 //! A picture under way: first at an eighth of its size, then all of it in 1, 2, 4, … samples a pixel.
 
+use std::borrow::Cow;
 use std::sync::OnceLock;
 
 use phong::film::{Film, Window};
@@ -163,6 +164,9 @@ impl Painting {
         // What is drawn onto a picture needs all of it. Of a share, who puts it to the others has that.
         let draws = self.draws && options.share().is_none();
         let toned = options.tone() != Tone::default();
+        // A tile has its tone at once, but for an exposure that needs all of the picture.
+        let waits = toned && (draws || options.tone().exposure == Exposure::Auto);
+        let tone = toned.then(|| ToneMap::new(&options.tone(), &[], None));
         let whole = |film: &Film, options: &RenderOptions, pass: u32, step| {
             let sent = Sent { picture, pass: pass as u16, step, pixels };
             emit(Message::Frame(finishing::whole(film, options, furniture, off, sent)));
@@ -173,6 +177,11 @@ impl Painting {
                 let terms: Vec<&[f32]> = terms.iter().map(|values| &**values).collect();
                 finishing::without(&terms, off, colors.len())
             });
+            let colors = sum.as_deref().unwrap_or(colors);
+            let colors = match &tone {
+                Some(tone) => Cow::Owned(finishing::toned(colors, alphas, tone)),
+                None => Cow::Borrowed(colors),
+            };
             let frame = TileFrame {
                 picture,
                 pass: pass as u16 + 1,
@@ -181,7 +190,7 @@ impl Painting {
                 y: window.y0,
                 width: window.width(),
                 height: window.height(),
-                colors: sum.as_deref().unwrap_or(colors),
+                colors: &colors,
                 alphas,
             };
             emit(Message::Frame(frame.bytes(pixels)))
@@ -211,7 +220,7 @@ impl Painting {
             let goes_on = match event {
                 // Nothing that was drawn onto the pass before goes away until this one is whole, and no
                 // light is shown without its tone.
-                Event::Tile { pass, .. } if draws && (pass > 0 || toned) => emit(Message::Nothing),
+                Event::Tile { pass, .. } if waits || draws && pass > 0 => emit(Message::Nothing),
                 Event::Tile { pass, window, values, .. } => tile(pass, window, values),
                 Event::Pass { pass, samples, .. } => {
                     if draws {

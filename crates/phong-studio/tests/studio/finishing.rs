@@ -92,3 +92,24 @@ fn who_has_all_shares_finishes_the_picture_and_nobody_else_does() {
     assert_eq!(first.page.replies.len(), said + 1);
     assert_eq!(seen(&first.page), bits(&rendered().1));
 }
+
+#[test]
+fn tiles_of_a_share_have_their_tone_unless_that_needs_the_whole_picture() {
+    let scene = |tone: &str| format!("{SCENE}[tone]\n{tone}\n");
+    let toned = scene("exposure = 1.5\ncurve = \"filmic\"");
+    let mut whole = Talk::of(&toned);
+    whole.draw();
+    let mut seen = 0;
+    for index in 0..2 {
+        let mut talk = Talk::sharing(&toned, index, 2);
+        talk.draw();
+        for (part, whole) in talk.page.pixels.iter().zip(&whole.page.pixels) {
+            assert!(part.is_nan() || part.to_bits() == whole.to_bits(), "{part} {whole}");
+            seen += usize::from(!part.is_nan());
+        }
+    }
+    assert_eq!(seen, whole.page.pixels.len());
+    let mut talk = Talk::sharing(&scene("exposure = \"auto\""), 0, 2);
+    talk.draw();
+    assert!(talk.page.pixels.iter().all(|value| value.is_nan()));
+}
