@@ -3,8 +3,11 @@
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 
-/// Words as they may stand in XML and HTML, in quotes too.
+/// Words as they may stand in XML and HTML, in quotes too. Control characters, which XML has no way to
+/// write, are left out; tabs and line ends stay.
 pub(crate) fn escaped(words: &str) -> String {
+    let is_written = |c: &char| !matches!(c, '\0'..'\t' | '\x0b' | '\x0c' | '\x0e'..' ' | '\u{fffe}' | '\u{ffff}');
+    let words: String = words.chars().filter(is_written).collect();
     words.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
@@ -30,5 +33,10 @@ mod tests {
     #[test]
     fn words_cannot_end_an_element_or_an_attribute() {
         assert_eq!(escaped("a<b> & \"c\""), "a&lt;b&gt; &amp; &quot;c&quot;");
+    }
+
+    #[test]
+    fn characters_that_xml_does_not_have_are_left_out() {
+        assert_eq!(escaped("a\u{1}\0b\x0b\x1f\u{ffff}\tc\nÄ"), "ab\tc\nÄ");
     }
 }

@@ -49,10 +49,10 @@ pub fn finishing(film: &Film, settings: &Settings) -> Finishing {
 }
 
 /// The furniture of a scene as [`furniture_of`](phong::part::furniture_of) has it, drawn for a picture of `size`
-/// pixels of which this is the film.
+/// pixels of which this is the film. All of it together has at most three times as many pixels as the picture.
 pub fn patches(furniture: &Scene, film: &Film, size: [u32; 2]) -> Vec<Patch> {
     let groups = groups(&Font::new(), furniture, film, size);
-    groups.iter().flat_map(|group| raster::patches(group, size)).collect()
+    raster::patches(&groups, size)
 }
 
 /// The settings of a film's finished picture as a film of its own, whose furniture is still to be drawn: by
@@ -90,7 +90,10 @@ pub fn warnings(scene: &Scene) -> Vec<Diagnostic> {
         if !missing.is_empty() {
             let letters: Vec<String> = missing
                 .iter()
-                .map(|letter| format!("{letter} (U+{:04X})", u32::from(*letter)))
+                .map(|&letter| {
+                    let seen = if letter.is_control() { "?".into() } else { letter.to_string() };
+                    format!("{seen} (U+{:04X})", u32::from(letter))
+                })
                 .collect();
             let message = format!("{name}: the font has no {}, left out", letters.join(", "));
             let help =

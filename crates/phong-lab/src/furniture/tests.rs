@@ -159,3 +159,14 @@ fn furniture_of_any_size_is_bounded_by_the_picture() {
         assert!(patch.window.fits([96, 64]) && patch.pixels.len() as u64 == patch.window.pixels());
     }
 }
+
+#[test]
+fn many_labels_as_large_as_the_picture_take_a_few_pictures_of_memory() {
+    let label = "[[label]]\ntext = \"WW\"\nat = [0, 0, 1]\n";
+    let scene = scene(&format!("[furniture]\nsize = 900\n{}", label.repeat(40)));
+    let (film, settings) = drawn(&scene, None);
+    let patches = finishing(&film, &settings).patches;
+    let pixels: u64 = patches.iter().map(|patch| patch.window.pixels()).sum();
+    assert!(patches.len() > 1 && pixels <= 3 * 96 * 64, "{} {pixels}", patches.len());
+    assert!(patches.iter().all(|patch| patch.window.fits([96, 64])));
+}
