@@ -79,19 +79,19 @@ impl Target {
                 "leave it out, or give a name in .gif or .png without %d",
             ),
             Self::Files(names) => {
-                let is_pfm = match args.encoding.output_format {
-                    None => {
-                        names.path(0).extension().is_some_and(|e| e.eq_ignore_ascii_case("pfm"))
-                    }
-                    Some(format) => format == OutputFormat::Pfm,
+                let is_called =
+                    |end| names.path(0).extension().is_some_and(|e| e.eq_ignore_ascii_case(end));
+                let (is_pfm, is_svg) = match args.encoding.output_format {
+                    None => (is_called("pfm"), is_called("svg")),
+                    Some(format) => (format == OutputFormat::Pfm, format == OutputFormat::Svg),
                 };
-                if args.work.resume && is_pfm {
-                    return refuse(
-                        "--resume: PFM files do not say what they are of",
-                        "write PNG or EXR files",
-                    );
-                }
-                Ok(())
+                let what = match (is_pfm, is_svg) {
+                    _ if !args.work.resume => return Ok(()),
+                    (true, _) => "--resume: PFM files do not say what they are of",
+                    (_, true) => "--resume: SVG files do not say what they are of",
+                    _ => return Ok(()),
+                };
+                refuse(what, "write PNG or EXR files")
             }
             Self::Animation { .. } if args.work.resume => refuse(
                 "--resume: a file that moves is written in one go",

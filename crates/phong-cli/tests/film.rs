@@ -143,6 +143,7 @@ fn what_no_film_can_be_is_refused_with_a_way_out() {
         ("-o %d-%d.png", ["more than one place", "write %d or %04d once"]),
         ("-o -", ["standard output", "-o a-%04d.png"]),
         ("-o %d.pfm --resume", ["PFM files do not say what they are of", "PNG or EXR"]),
+        ("-o %d.svg --resume", ["SVG files do not say what they are of", "PNG or EXR"]),
         ("-o a.gif --resume", ["in one go", "%04d"]),
         ("-o a.gif --fps 60", ["at most 50", ".png"]),
         ("-o a.gif --terms", ["layers", "%04d"]),

@@ -62,7 +62,7 @@ fn what_cannot_be_written_is_known_before_anything_is_read() {
     let folder = given(&[("broken.toml", "not a scene")]);
     folder.when("render broken.toml -o no/such/a.png").is_refused(&["no such folder"]);
     folder.when("render broken.toml -o . --output-format png").is_refused(&["folder"]);
-    folder.when("render broken.toml -o a.jpeg").is_refused(&[".png, .pfm or .exr"]);
+    folder.when("render broken.toml -o a.jpeg").is_refused(&[".png, .pfm, .exr or .svg"]);
     assert_eq!(folder.names(), ["broken.toml"]);
 }
 

@@ -47,6 +47,11 @@ impl Pattern {
             let error = Diagnostic::error(message, span.clone());
             Box::new(Diagnostic { help, ..error })
         };
+        let ending = Path::new(text).extension();
+        if ending.is_some_and(|ending| ending.eq_ignore_ascii_case("svg")) {
+            let help = "end it in .png, .pfm or .exr; `phong render` alone writes SVG";
+            return Err(wrong("a batch writes no SVG".to_owned(), Some(help.to_owned())));
+        }
         let format = Format::of_path(Path::new(text));
         let stem = match format {
             Some(format) => &text[..text.len() - format.extension().len() - 1],
@@ -233,7 +238,7 @@ mod tests {
     fn the_ending_says_what_is_written_and_a_folder_is_no_name() {
         assert_eq!(pattern("{scene}.EXR", &[]).expect("a pattern").format, Format::Exr);
         assert_eq!(pattern("{scene}.5", &[]).expect("a pattern").format, Format::Png);
-        for wrong in ["a/{scene}", ".png", "..", "{scene", ".hidden.png"] {
+        for wrong in ["a/{scene}", ".png", "..", "{scene", ".hidden.png", "fig-{task}.SVG"] {
             assert!(pattern(wrong, &[]).is_err(), "{wrong}");
         }
     }
