@@ -6,6 +6,7 @@ use png::{BitDepth, ColorType, Decoder, Transformations};
 
 use super::allowed::allow;
 use super::{TexelValues, Texels};
+use crate::color::srgb_encode;
 use crate::limits::Limits;
 
 /// The pixels, or a clause that says what is wrong. Palettes become colours, depths below 8 bytes.
@@ -51,12 +52,12 @@ impl Texels {
         let values = TexelValues::Floats([least, most].concat());
         let bounds = Self::new([2, 1], 4, values).map_err(std::io::Error::other)?;
         let mut bytes = Vec::new();
-        bounds.write_png(&mut bytes)?;
+        bounds.write_png(false, &mut bytes)?;
         Ok(bytes)
     }
 
-    /// Writes it as PNG: floats with 16 bits, between 0 and 1.
-    pub(crate) fn write_png(&self, to: &mut dyn std::io::Write) -> std::io::Result<()> {
+    /// Writes it as PNG: floats with 16 bits, between 0 and 1; `srgb`: but for the opacity on the sRGB curve.
+    pub(crate) fn write_png(&self, srgb: bool, to: &mut dyn std::io::Write) -> std::io::Result<()> {
         let mut encoder = png::Encoder::new(to, self.size[0], self.size[1]);
         encoder.set_color(match self.channels {
             1 => ColorType::Grayscale,
@@ -64,14 +65,20 @@ impl Texels {
             3 => ColorType::Rgb,
             _ => ColorType::Rgba,
         });
-        let short = |value: &f32| (value.clamp(0.0, 1.0) * 65535.0 + 0.5) as u16;
+        let short = |(i, value): (usize, &f32)| {
+            let value = f64::from(value.clamp(0.0, 1.0));
+            let is_opacity =
+                matches!(self.channels, 2 | 4) && i % self.channels == self.channels - 1;
+            let value = if srgb && !is_opacity { srgb_encode(value) } else { value };
+            (value * 65535.0 + 0.5) as u16
+        };
         let (depth, bytes): (_, Vec<u8>) = match &self.values {
             TexelValues::Bytes(values) => (BitDepth::Eight, values.clone()),
             TexelValues::Shorts(values) => {
                 (BitDepth::Sixteen, values.iter().flat_map(|v| v.to_be_bytes()).collect())
             }
             TexelValues::Floats(values) => {
-                let shorts = values.iter().map(short);
+                let shorts = values.iter().enumerate().map(short);
                 (BitDepth::Sixteen, shorts.flat_map(u16::to_be_bytes).collect())
             }
         };

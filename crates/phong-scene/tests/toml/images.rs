@@ -211,3 +211,29 @@ fn a_sky_may_be_an_image_which_is_read_and_written_as_those_of_textures_are() {
     let said = read("a.toml", None, &files, &Limits::default()).diagnostics;
     assert!(said.iter().any(|d| d.is_error() && d.message.contains("map")), "{said:#?}");
 }
+
+#[test]
+fn a_sky_of_floats_is_as_bright_when_it_was_written_and_read_again() {
+    use phong_scene::{ExportOptions, Scene, SkyKind, TexelValues};
+    let texels = Texels::new([1, 1], 3, TexelValues::Floats(vec![0.5, 0.25, 0.0])).expect("one");
+    let kind = SkyKind::Image {
+        texels: texels.into(),
+        file: "sky.exr".to_owned(),
+        rotation: 0.0,
+        place: phong_scene::Place::default(),
+    };
+    let scene =
+        Scene { sky: Some(phong_scene::Sky { kind, ..Default::default() }), ..Scene::default() };
+    let export = scene.export(&ExportOptions::default(), "b.toml").expect("it is written");
+    let mut files = Memory::new();
+    for file in &export.files {
+        let mut bytes = Vec::new();
+        file.write(&mut bytes).expect("memory");
+        files = files.with(&file.name, bytes);
+    }
+    let again = read("b.toml", None, &files, &Limits::default()).into_scene().expect("a scene");
+    let Some(SkyKind::Image { texels, .. }) = again.sky.map(|sky| sky.kind) else { panic!("one") };
+    for (found, wanted) in texels.get([0, 0], true).into_iter().zip([0.5, 0.25, 0.0]) {
+        assert!((found - wanted).abs() < 1e-4, "{found} for {wanted}");
+    }
+}
