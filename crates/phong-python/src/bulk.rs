@@ -94,6 +94,13 @@ fn fields(fields: Option<&Bound<'_, PyDict>>, count: usize, points: usize) -> Py
         if name.is_empty() {
             return Err(value_error("fields: a name is empty"));
         }
+        if !Field::is_name(&name) {
+            let message = format!(
+                "fields: {name:?} is no name for numbers of points: it must be one word without blanks, \
+                 and not that of a place, normal, colour or radius"
+            );
+            return Err(value_error(&message));
+        }
         let named = |error: PyErr| {
             let message = format!("fields[{name:?}]: {}", error.value(fields.py()));
             value_error(message)

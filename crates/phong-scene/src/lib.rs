@@ -72,7 +72,7 @@ pub use keys::{batch_reference_markdown, batch_schema_json, reference_markdown, 
 pub use light::{Light, LightKind};
 pub use limits::{LARGEST, Limits};
 pub use looks::NamedLook;
-pub use maps::ColorScale;
+pub use maps::{ColorScale, properties_shown};
 pub use material::{
     AmbientRule, ConstantMaterial, Dialect, Distribution, Fresnel, Material, MaterialId, Model,
     NormalFormat, OpacityMode, ShadowRule, Shadowing, Tint, Viewer, WardForm,

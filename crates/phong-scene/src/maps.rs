@@ -93,9 +93,19 @@ impl Scene {
     /// The textures, with numbers for every `range = "auto"` of what something has some of.
     #[must_use]
     pub fn ranged_textures(&self) -> Vec<Texture> {
+        self.ranged(|_| true)
+    }
+
+    /// The same, but for the depth, whose range is another wherever the camera is.
+    pub(crate) fn textures_ranged_of_any_camera(&self) -> Vec<Texture> {
+        self.ranged(|source| source != MapSource::Depth)
+    }
+
+    fn ranged(&self, is_ranged: impl Fn(MapSource<'_>) -> bool) -> Vec<Texture> {
         let mut textures = self.textures.clone();
         for (number, texture) in textures.iter_mut().enumerate() {
-            if let TextureKind::Map { range: range @ MapRange::Auto, .. } = &mut texture.kind
+            if let TextureKind::Map { of, range: range @ MapRange::Auto, .. } = &mut texture.kind
+                && is_ranged(MapSource::of(of))
                 && let Some(found) = self.extremes(number as u32)
             {
                 *range = MapRange::Between(found);
@@ -159,6 +169,33 @@ impl Scene {
     }
 }
 
+/// The properties of points that textures show which these materials use, each once, with the number of the
+/// first texture that shows it; in the order of the textures. A scene draws the first [`Field::MOST`].
+#[must_use]
+pub fn properties_shown<'t>(
+    materials: &[Material],
+    is_used: impl Fn(usize) -> bool,
+    textures: &'t [Texture],
+) -> Vec<(&'t str, usize)> {
+    let used: BTreeSet<u32> = materials
+        .iter()
+        .enumerate()
+        .filter(|(number, _)| is_used(*number))
+        .flat_map(|(_, material)| material.textured())
+        .map(|(_, by)| by.texture.0)
+        .collect();
+    let mut shown: Vec<(&str, usize)> = Vec::new();
+    for number in used.into_iter().map(|number| number as usize) {
+        if let Some(TextureKind::Map { of, .. }) = textures.get(number).map(|texture| &texture.kind)
+            && let Some(name) = MapSource::of(of).property()
+            && !shown.iter().any(|(known, _)| *known == name)
+        {
+            shown.push((name, number));
+        }
+    }
+    shown
+}
+
 fn extremes(values: impl IntoIterator<Item = f64>) -> Option<[f64; 2]> {
     let all = |[low, high]: [f64; 2], v: f64| [low.min(v), high.max(v)];
     let found = values.into_iter().fold([f64::INFINITY, f64::NEG_INFINITY], all);
@@ -167,13 +204,17 @@ fn extremes(values: impl IntoIterator<Item = f64>) -> Option<[f64; 2]> {
 
 /// The field of this name, if the points of a shape have it.
 fn field<'s>(shape: &'s Shape, name: &str) -> Option<&'s Field> {
-    let fields = match shape {
+    fields_of(shape).iter().find(|field| *field.name == *name)
+}
+
+/// The numbers that the points of a shape have.
+pub(crate) fn fields_of(shape: &Shape) -> &[Field] {
+    match shape {
         Shape::Mesh(mesh) => &mesh.fields,
         Shape::Points(points) => &points.fields,
         Shape::Cylinders(cylinders) => &cylinders.fields,
-        _ => return None,
-    };
-    fields.iter().find(|field| *field.name == *name)
+        _ => &[],
+    }
 }
 
 /// The objects that a texture is on.
@@ -239,7 +280,6 @@ impl<'s> Users<'s> {
 
 /// Says which maps show what is not there.
 pub(crate) fn check(scene: &Scene, say: &mut dyn FnMut(Diagnostic)) {
-    let mut names = BTreeSet::new();
     for (number, texture) in scene.textures.iter().enumerate() {
         let TextureKind::Map { of, range, .. } = &texture.kind else { continue };
         let users = Users::of(scene, number as u32);
@@ -250,7 +290,6 @@ pub(crate) fn check(scene: &Scene, say: &mut dyn FnMut(Diagnostic)) {
         let source = MapSource::of(of);
         covered(scene, number as u32, &users, say);
         if let Some(name) = source.property() {
-            names.insert(name);
             let without: Vec<_> =
                 users.objects().filter(|object| field(&object.shape, name).is_none()).collect();
             let has_any = without.len() < users.objects().count();
@@ -260,7 +299,7 @@ pub(crate) fn check(scene: &Scene, say: &mut dyn FnMut(Diagnostic)) {
                 let message = format!(
                     "the texture {called} shows the property {name}, which no points have that it is on: {objects}"
                 );
-                let help = "properties are those of the vertices of PLY files; or one of `height`, `radius`, `x`, `y`, `z`, `depth` and `normal`";
+                let help = "properties are those of the vertices of PLY files, and an `[[include]]` that brings the map stands before them; or one of `height`, `radius`, `x`, `y`, `z`, `depth` and `normal`";
                 // Solids have none anyway; a file that was to bring some is a mistake.
                 let is_of_file = |object: &Object| {
                     matches!(object.shape, Shape::Mesh(_) | Shape::Points(_) | Shape::Cylinders(_))
@@ -289,13 +328,34 @@ pub(crate) fn check(scene: &Scene, say: &mut dyn FnMut(Diagnostic)) {
             say(Diagnostic::warning(message, at(&texture.place)).with_help(help));
         }
     }
-    if names.len() > Field::MOST {
+    let in_groups = scene.groups.iter().flat_map(|group| &group.objects);
+    let mut of_objects = BTreeSet::new();
+    for object in scene.objects.iter().chain(in_groups) {
+        match &object.shape {
+            Shape::Mesh(mesh) if !mesh.face_materials.is_empty() => {
+                of_objects.extend(mesh.face_materials.iter().map(|number| *number as usize));
+            }
+            _ => drop(of_objects.insert(object.material.0 as usize)),
+        }
+    }
+    let is_used = |number: usize| of_objects.contains(&number);
+    let shown = properties_shown(&scene.materials, is_used, &scene.textures);
+    if let Some((name, number)) = shown.get(Field::MOST) {
+        let texture = &scene.textures[*number];
         let message = format!(
-            "the scene draws {} properties of points; the most are {}",
-            names.len(),
-            Field::MOST
+            "the texture {} shows the property {}, but a scene draws at most {}, and there are {}",
+            quoted(&texture.name),
+            quoted(name),
+            Field::MOST,
+            shown.len()
         );
-        say(Diagnostic::error(message, None));
+        say(Diagnostic::error(message, at(&texture.place)));
+    }
+    let no_colors = scene.furniture.legend.is_some() && scene.legend().is_none();
+    if no_colors && !scene.objects.is_empty() {
+        let message = "the legend is not drawn: no material uses a texture with colours from one number to another";
+        let help = "name the legend's `texture`, or give it a `map`";
+        say(Diagnostic::warning(message, None).with_help(help));
     }
 }
 

@@ -188,9 +188,9 @@
 //! | `radius_scale` | a number above 0 | `1` | What all radii of spheres are multiplied by. |
 //! | `bond_radius` | a number above 0 | 0.13, for sticks alone 0.22, for tubes 0.5 | Radius of the sticks, or of the tubes, in Å. |
 //! | `vectors` | a list of names, in quotes | none | Three columns of numbers, like `["vx", "vy", "vz"]`: an arrow at every atom. |
-//! | `vector_scale` | a number above 0 | that at which the longest is 2.5 times as long as neighbours are apart | Length of the arrow of a vector of length 1. |
+//! | `vector_scale` | a number above 0 | that at which the longest of the frame is 2.5 times as long as neighbours are apart | Length of the arrow of a vector of length 1. |
 //! | `vector_radius` | a number above 0 | 0.03 times the longest | Radius of the arrows' shafts. |
-//! | `images` | a number or a list of numbers | `[1, 1, 1]` | How many cells are drawn along each edge of the cell. |
+//! | `images` | `[a, b, c]`, whole numbers from 1 to 1000 | `[1, 1, 1]` | How many cells are drawn along each edge of the cell. |
 //! | `image_layer` | a number 0 or above | `0` | How far around the cells more images of atoms are drawn. |
 //! | `cell` | `true` or `false` | `false` | Whether the edges of the cell are drawn. |
 //! | `material` | the name of a material, in quotes | the file's own, else the default material | The name of its material; replaces the file's own. |

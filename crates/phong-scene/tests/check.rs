@@ -208,3 +208,90 @@ proptest! {
         mesh.smooth(60.0);
     }
 }
+
+#[test]
+fn what_a_shifted_picture_shows_is_not_outside_of_it() {
+    let at = |y: f64| {
+        let ball = Shape::Sphere { center: DVec3::new(0.0, y, 0.0), radius: 0.1 };
+        let mut scene = lit(vec![ball.into(), Object::default()]);
+        scene.camera.eye = DVec3::new(0.0, 0.0, 10.0);
+        scene.camera.look_at = DVec3::ZERO;
+        scene.camera.up = DVec3::Y;
+        scene.camera.kind = CameraKind::Perspective { fov: 20.0 };
+        scene.camera.shift.y = 0.4;
+        scene.check().iter().any(|said| said.message.contains("outside the picture"))
+    };
+    // The half height at the balls is 1.763: the picture goes from -0.35 to 3.17.
+    assert!(!at(3.0), "above");
+    assert!(at(-1.0), "below");
+}
+
+#[test]
+fn the_colour_of_no_number_and_the_axis_of_a_map_are_judged_whatever_its_range() {
+    let kind = phong_scene::TextureKind::Map {
+        of: "height".to_owned(),
+        axis: Some(DVec3::ZERO),
+        range: phong_scene::MapRange::Auto,
+        stops: vec![(0.0, Rgb::BLACK)],
+        nan: Rgb::new(-1.0, 0.0, 0.0),
+        unit: None,
+    };
+    let mut scene = lit(vec![Object::default()]);
+    scene.textures = vec![phong_scene::Texture { kind, ..Default::default() }];
+    let said = said(&scene).join("\n");
+    assert!(said.contains("`nan`") && said.contains("`axis`"), "{said}");
+}
+
+#[test]
+fn fields_that_change_are_judged_anew() {
+    let mut mesh = triangle();
+    let field = |values: &[f32]| phong_scene::Field {
+        name: "t".into(),
+        values: values.iter().copied().collect(),
+    };
+    mesh.fields = vec![field(&[1.0, 2.0, 3.0])];
+    let scene = lit(vec![mesh.clone().into()]);
+    let mut known = SoundArrays::default();
+    assert!(scene.check_objects_again(&mut known).is_empty());
+    assert!(scene.check_objects_again(&mut known).is_empty());
+    mesh.fields = vec![field(&[1.0])];
+    let broken = lit(vec![mesh.into()]);
+    assert!(!broken.check_objects_again(&mut known).is_empty());
+}
+
+#[test]
+fn a_fifth_property_is_told_of_at_its_texture_and_what_is_not_used_is_not_counted() {
+    use phong_scene::{Texture, TextureId, TextureKind, TextureRef};
+    let texture = |name: &str| {
+        let kind = TextureKind::Map {
+            of: name.to_owned(),
+            axis: None,
+            range: phong_scene::MapRange::Between([0.0, 1.0]),
+            stops: vec![(0.0, Rgb::BLACK)],
+            nan: Rgb::BLACK,
+            unit: None,
+        };
+        Texture { name: name.to_owned(), kind, ..Texture::default() }
+    };
+    let names = ["p", "q", "r", "s", "t"];
+    let scene = |used: &[u32]| {
+        let mut objects = Vec::new();
+        let mut materials = Vec::new();
+        for (number, texture) in used.iter().enumerate() {
+            let mut mesh = triangle();
+            let field =
+                |name: &&str| phong_scene::Field { name: (*name).into(), values: [0.5; 3].into() };
+            mesh.fields = names.iter().map(field).collect();
+            objects.push(Object { material: MaterialId(number as u32), ..Object::from(mesh) });
+            let by = TextureRef::new(TextureId(*texture));
+            materials.push(Material { color: by.into(), ..Material::default() });
+        }
+        Scene { materials, textures: names.map(texture).to_vec(), ..lit(objects) }
+    };
+    assert!(!scene(&[4]).check().iter().any(Diagnostic::is_error));
+    let said = said(&scene(&[0, 1, 2, 3, 4]));
+    assert!(
+        said.iter().any(|s| s.contains("the texture \"t\" shows the property \"t\", but")),
+        "{said:?}"
+    );
+}

@@ -161,7 +161,9 @@ impl View {
         if reliefs.is_empty() && varied.iter().all(|&varied| varied == Varied::Nothing) {
             varied = Vec::new();
         }
-        let names = properties_of(&look.textures);
+        let of_parts = (0..geometry.world().parts() as u32)
+            .flat_map(|part| geometry.batch(part).materials_used());
+        let names = properties_of(&look.materials, &look.textures, of_parts);
         let context = MapContext { camera: &look.camera, properties: &names };
         let new = |texture| Texture::new(texture, context);
         let textures: Vec<_> = look.textures.iter().map(new).collect();

@@ -73,9 +73,8 @@ impl Scene {
             )
         };
         text.push(kind, Table::from_iter(shape.map(|(key, value)| (key.to_owned(), value))));
-        let (read, mut warnings) = text.read(py, "Material", &Folder)?;
-        // What maps find is told when the scene is checked.
-        warnings.retain(|warning| !warning.message.starts_with("the texture "));
+        // What maps find is told when the scene is checked, and left out here as all of a whole scene is.
+        let (read, warnings) = text.read(py, "Material", &Folder)?;
         let material = read.materials.into_iter().find(|material| material.name == name);
         Ok((material.unwrap_or_default(), read.textures, warnings))
     }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use glam::{DAffine3, DVec3};
 
 use crate::bounds::Bounds;
-use crate::mesh::{Cylinders, Mesh, Points, Shared};
+use crate::mesh::{Cylinders, Field, Mesh, Points, Shared};
 use crate::shape::Shape;
 
 /// The arrays of meshes, clouds and bundles of cylinders in which a check found nothing wrong. They
@@ -13,8 +13,9 @@ use crate::shape::Shape;
 #[derive(Clone, Debug, Default)]
 pub struct SoundArrays(BTreeMap<Key, Known>);
 
-/// The addresses of the arrays, 0 for empty ones, and the bits of what is added to positions.
-type Key = ([usize; 8], [u64; 3]);
+/// The addresses of the arrays, 0 for empty ones, the bits of what is added to positions, and the addresses
+/// of names and numbers of fields.
+type Key = ([usize; 8], [u64; 3], Vec<[usize; 2]>);
 
 #[derive(Clone, Debug)]
 struct Known {
@@ -66,24 +67,25 @@ fn key(shape: &Shape) -> Option<Key> {
     fn at<T>(array: &Shared<T>) -> usize {
         if array.is_empty() { 0 } else { Shared::address(array) }
     }
-    // Fields are few, and looked through anew.
-    let (arrays, origin) = match shape {
-        Shape::Mesh(mesh) if mesh.fields.is_empty() => {
+    let (arrays, origin, fields) = match shape {
+        Shape::Mesh(mesh) => {
             let Mesh { normals, normal_indices, uvs, uv_indices, colors, .. } = &**mesh;
             let [p, i, f] = [at(&mesh.positions), at(&mesh.indices), at(&mesh.face_materials)];
             let own = [at(normals), at(normal_indices), at(uvs), at(uv_indices), at(colors)];
             let [a, b, c, d, e] = own;
-            ([p, i, f, a, b, c, d, e], mesh.origin)
+            ([p, i, f, a, b, c, d, e], mesh.origin, &mesh.fields)
         }
-        Shape::Points(points) if points.fields.is_empty() => {
-            let Points { origin, spheres, colors, .. } = &**points;
-            ([at(spheres), at(colors), 0, 0, 0, 0, 0, 0], *origin)
+        Shape::Points(points) => {
+            let Points { origin, spheres, colors, fields, .. } = &**points;
+            ([at(spheres), at(colors), 0, 0, 0, 0, 0, 0], *origin, fields)
         }
-        Shape::Cylinders(cylinders) if cylinders.fields.is_empty() => {
-            let Cylinders { origin, segments, colors, caps, .. } = &**cylinders;
-            ([at(segments), at(colors), *caps as usize, 0, 0, 0, 0, 0], *origin)
+        Shape::Cylinders(cylinders) => {
+            let Cylinders { origin, segments, colors, fields, caps } = &**cylinders;
+            ([at(segments), at(colors), *caps as usize, 0, 0, 0, 0, 0], *origin, fields)
         }
         _ => return None,
     };
-    Some((arrays, DVec3::to_array(&origin).map(f64::to_bits)))
+    let field = |field: &Field| [field.name.as_ptr().addr(), at(&field.values)];
+    let fields = fields.iter().map(field).collect();
+    Some((arrays, DVec3::to_array(&origin).map(f64::to_bits), fields))
 }

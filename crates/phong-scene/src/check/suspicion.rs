@@ -126,11 +126,12 @@ fn edges(scene: &Scene) -> Option<[DVec3; 5]> {
     let [width, height] = scene.image.size.map(f64::from);
     let tan_y = libm::tan(0.5 * fov.to_radians());
     let tan_x = tan_y * width / height;
+    let [by_x, by_y] = (2.0 * tan_y * scene.camera.shift).to_array();
     Some([
-        right - tan_x * forward,
-        -right - tan_x * forward,
-        up - tan_y * forward,
-        -up - tan_y * forward,
+        right - (tan_x + by_x) * forward,
+        -right - (tan_x - by_x) * forward,
+        up - (tan_y + by_y) * forward,
+        -up - (tan_y - by_y) * forward,
         -forward,
     ])
 }

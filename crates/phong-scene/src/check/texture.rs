@@ -25,15 +25,16 @@ pub(crate) fn texture(texture: &Texture, faults: &mut Faults) {
         let message = "`axes` has z, which is 0 everywhere in `uv`: all would be line";
         faults.say("axes", message);
     }
-    if let TextureKind::Map { range: MapRange::Between([low, high]), nan, axis, .. } = texture.kind
-    {
+    if let TextureKind::Map { range, nan, axis, .. } = texture.kind {
         faults.color("nan", nan, LARGEST);
         if let Some(axis) = axis {
             faults.direction("axis", axis);
         }
-        let finite = faults.finite("range", low) && faults.finite("range", high);
-        if finite && low == high {
-            faults.say("range", "`range` ends where it begins: it has no length");
+        if let MapRange::Between([low, high]) = range {
+            let finite = faults.finite("range", low) && faults.finite("range", high);
+            if finite && low == high {
+                faults.say("range", "`range` ends where it begins: it has no length");
+            }
         }
     }
     shape::transform(&texture.transform, faults);

@@ -83,6 +83,8 @@ pub(crate) enum Kind {
     Files,
     /// A number, or a list of numbers.
     Numbers,
+    /// Three whole numbers, each from 1 to so many.
+    Counts(u32),
     /// `[low, high]`, two numbers that differ, or "auto".
     Interval,
     /// Values by the path of a scene's key.
@@ -146,6 +148,7 @@ impl Kind {
             Self::Names => "a list of names, in quotes".to_owned(),
             Self::Files => "the path of a file or a list of paths, in quotes".to_owned(),
             Self::Numbers => "a number or a list of numbers".to_owned(),
+            Self::Counts(most) => format!("`[a, b, c]`, whole numbers from 1 to {most}"),
             Self::Interval => "two numbers, `[low, high]`, or \"auto\"".to_owned(),
             Self::Values => "lists of values by the path of a key".to_owned(),
             Self::Options => "words and numbers by name".to_owned(),

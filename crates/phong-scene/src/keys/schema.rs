@@ -171,6 +171,7 @@ fn kind(kind: Kind) -> Value {
         Kind::Numbers => json!({ "anyOf": [any_number(), {
             "type": "array", "items": any_number(), "minItems": 1,
         }] }),
+        Kind::Counts(most) => list(&json!({ "type": "integer", "minimum": 1, "maximum": most }), 3),
         Kind::Interval => json!({ "anyOf": [{ "enum": ["auto"] }, list(&any_number(), 2)] }),
         Kind::Values => json!({ "type": "object", "additionalProperties": { "anyOf": [
             { "type": "array", "minItems": 1 },

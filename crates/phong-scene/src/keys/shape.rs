@@ -422,7 +422,7 @@ pub(crate) static MOLECULE: Table = Table {
                 "vector_scale",
                 Kind::Number(Range::POSITIVE),
                 Default::Said(
-                    "that at which the longest is 2.5 times as long as neighbours are apart",
+                    "that at which the longest of the frame is 2.5 times as long as neighbours are apart",
                 ),
                 "Length of the arrow of a vector of length 1.",
             ),
@@ -434,7 +434,7 @@ pub(crate) static MOLECULE: Table = Table {
             ),
             Key::new(
                 "images",
-                Kind::Numbers,
+                Kind::Counts(1000),
                 Default::Said("`[1, 1, 1]`"),
                 "How many cells are drawn along each edge of the cell.",
             ),

@@ -17,6 +17,16 @@ impl Field {
     /// The most that a scene draws.
     pub const MOST: usize = 4;
 
+    /// Whether a file can hold numbers of this name beside places, normals, colours and radii: one word, none of
+    /// theirs.
+    #[must_use]
+    pub fn is_name(name: &str) -> bool {
+        const TAKEN: [&str; 10] =
+            ["x", "y", "z", "nx", "ny", "nz", "red", "green", "blue", "radius"];
+        let is_of_word = |letter: char| !letter.is_whitespace() && !letter.is_control();
+        !name.is_empty() && name.chars().all(is_of_word) && !TAKEN.contains(&name)
+    }
+
     /// Bytes that several take in memory.
     pub(crate) fn bytes(all: &[Self]) -> u64 {
         all.iter().map(|field| 4 * field.values.len() as u64).sum()

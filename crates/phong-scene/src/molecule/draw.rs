@@ -6,7 +6,7 @@ use super::bonds::by_radii;
 use super::color::by_column;
 use super::style::{Drawing, Style};
 use super::wrong::Wrong;
-use super::{Images, Molecule, Selection, Topology, names};
+use super::{Cell, Images, Molecule, Selection, Topology, names};
 use crate::color::Rgb;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::elements::van_der_waals_radius;
@@ -102,6 +102,16 @@ impl Molecule {
         let cell = self.cell.filter(|_| drawing.cell);
         if drawing.cell && cell.is_none() {
             return Err(no_cell(&drawing.spans.cell));
+        }
+        if cell.is_some() {
+            let edges = Cell::edges(drawing.images.cells);
+            if edges > limits.vertices || edges.saturating_mul(BYTES_OF_A_PIECE) > limits.bytes {
+                let message = format!(
+                    "the cells have {edges} edges, which is more than {} or than {} bytes, the limits",
+                    limits.vertices, limits.bytes
+                );
+                return Err(error(Wrong { message, help: None }, &drawing.spans.images));
+            }
         }
         if drawing.images != Images::ONE {
             let of = &drawing.spans.images;

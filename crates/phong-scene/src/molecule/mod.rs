@@ -133,6 +133,13 @@ impl Cell {
         volume / areas.into_iter().fold(0.0, f64::max).max(f64::MIN_POSITIVE)
     }
 
+    /// How many edges so many cells side by side have, each counted once.
+    pub(crate) fn edges(cells: [u32; 3]) -> u64 {
+        let [a, b, c] = cells.map(u64::from);
+        let along = |n: u64, m: u64, l: u64| n.saturating_mul(m + 1).saturating_mul(l + 1);
+        along(a, b, c).saturating_add(along(b, a, c)).saturating_add(along(c, a, b))
+    }
+
     /// The ends of the edges of so many cells side by side, each once.
     pub(crate) fn outline(&self, cells: [u32; 3]) -> Vec<[DVec3; 2]> {
         let mut edges = Vec::new();

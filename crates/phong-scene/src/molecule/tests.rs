@@ -257,6 +257,9 @@ fn images_repeat_atoms_along_the_edges_and_bonds_lead_over_them() {
     let images = Images { cells: [2, 1, 1], layer: 0.0 };
     let none = draw(none, &Drawing { images, ..Drawing::default() }).unwrap_err();
     assert_eq!(none, "the file says nothing of a cell");
+    let cells = [3, 1, 2];
+    let cell = periodic().cell.unwrap();
+    assert_eq!(Cell::edges(cells), cell.outline(cells).len() as u64);
 }
 
 #[test]

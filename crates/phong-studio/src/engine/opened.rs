@@ -6,8 +6,8 @@ use std::sync::Arc;
 use phong::geometry::{Geometry, GeometryOptions};
 use phong::look::Look;
 use phong::scene::{
-    Blob, Change, Diagnostic, Format, Memory, NamedLook, Reading, Scene, Source, read_changed,
-    trouble,
+    Blob, Change, Diagnostic, Format, MapRange, Memory, NamedLook, Reading, Scene, Source, Texture,
+    TextureKind, read_changed, trouble,
 };
 use phong::terms::TermSet;
 use phong::view::View;
@@ -256,7 +256,7 @@ impl Opened {
     pub(super) fn shown(&self) -> Result<Shown, String> {
         let base = self.base()?;
         let (scene, values) = look::laid_over(base, &self.set)?;
-        let view = View::new(Arc::clone(&base.geometry), Look::new(&scene));
+        let view = View::new(Arc::clone(&base.geometry), look_of(base, &scene));
         let view = view.map_err(|error| error.to_string())?;
         let wells = look::wells(&scene);
         let whole = Scene { objects: base.scene.objects.clone(), ..scene };
@@ -278,7 +278,8 @@ impl Opened {
             set.insert(path.clone(), value.clone());
         }
         let (scene, _) = look::laid_over(base, &set)?;
-        View::new(Arc::clone(&base.geometry), Look::new(&scene)).map_err(|error| error.to_string())
+        View::new(Arc::clone(&base.geometry), look_of(base, &scene))
+            .map_err(|error| error.to_string())
     }
 
     /// The scene with what is laid over it, objects and all.
@@ -390,4 +391,16 @@ impl Source for Edited<'_> {
         }
         self.source.open(path)
     }
+}
+
+/// The look of what is laid over a scene, whose objects some ranges of numbers are found from.
+fn look_of(base: &Base, scene: &Scene) -> Look {
+    let is_open =
+        |texture: &Texture| matches!(texture.kind, TextureKind::Map { range: MapRange::Auto, .. });
+    if !scene.textures.iter().any(is_open) {
+        return Look::new(scene);
+    }
+    let Scene { objects, groups, .. } = &base.scene;
+    let (objects, groups) = (objects.clone(), groups.clone());
+    Look::new(&Scene { objects, groups, ..scene.clone() })
 }

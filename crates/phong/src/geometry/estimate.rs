@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 use std::mem::size_of;
 
-use glam::{DAffine3, Vec2};
+use glam::{DAffine3, Vec2, Vec3};
 use phong_bvh::{Cylinder, Sphere};
-use phong_scene::{Material, Mesh, Object, Rgb, Scene, Shape, Shared};
+use phong_scene::{Field, Material, Mesh, Object, Rgb, Scene, Shape, Shared};
 
 use super::ObjectRecord;
 use super::batch::Batch;
@@ -45,6 +45,8 @@ fn tangents(scene: &Scene) -> u64 {
     let turned = |number: u32| scene.materials.get(number as usize).is_some_and(is_turned);
     let mut seen = BTreeSet::new();
     let (mut triangles, mut largest) = (0_u64, 0);
+    // While they are made, each normal is kept made unit once.
+    let mut normals_of_one = 0;
     let in_groups = scene.groups.iter().flat_map(|group| &group.objects);
     for object in scene.objects.iter().chain(in_groups) {
         let Shape::Mesh(mesh) = &object.shape else { continue };
@@ -63,10 +65,12 @@ fn tangents(scene: &Scene) -> u64 {
         if !uvs.is_empty() && is_turned && seen.insert(key) {
             triangles = triangles.saturating_add(indices.len() as u64);
             largest = largest.max(indices.len() as u64);
+            normals_of_one = normals_of_one.max((normals.len() * size_of::<Vec3>()) as u64);
         }
     }
     let kept = triangles.saturating_mul(TANGENTS as u64);
     kept.saturating_add(largest.saturating_mul(MAKING_TANGENTS as u64))
+        .saturating_add(normals_of_one)
 }
 
 /// Bytes that the arrays of an object take with their tree, unless they were seen before.
@@ -81,17 +85,25 @@ fn bytes(object: &Object, seen: &mut BTreeSet<usize>) -> usize {
                 + array(&mesh.uv_indices, 0, seen)
                 + array::<Rgb>(&mesh.colors, 0, seen)
                 + array(&mesh.face_materials, 0, seen)
+                + fields(&mesh.fields, seen)
         }
         Shape::Points(points) => {
             array(&points.spheres, size_of::<Sphere>() + SPHERE, seen)
                 + array(&points.colors, 0, seen)
+                + fields(&points.fields, seen)
         }
         Shape::Cylinders(cylinders) => {
             array(&cylinders.segments, size_of::<Cylinder>() + CYLINDER, seen)
                 + array(&cylinders.colors, 0, seen)
+                + fields(&cylinders.fields, seen)
         }
         _ => 0,
     }
+}
+
+/// Bytes of the numbers of points.
+fn fields(fields: &[Field], seen: &mut BTreeSet<usize>) -> usize {
+    fields.iter().map(|field| array(&field.values, 0, seen)).sum()
 }
 
 /// Bytes of an array, and as many more for each value in it.

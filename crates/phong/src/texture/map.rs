@@ -105,19 +105,24 @@ impl Map {
     }
 }
 
-/// The properties that textures show, each once, in the order of the textures.
-pub(crate) fn properties_of(textures: &[phong_scene::Texture]) -> Vec<String> {
-    let mut names: Vec<String> = Vec::new();
-    for texture in textures {
-        if let phong_scene::TextureKind::Map { of, .. } = &texture.kind
-            && let Some(name) = MapSource::of(of).property()
-            && !names.iter().any(|known| known == name)
-            && names.len() < Field::MOST
-        {
-            names.push(name.to_owned());
+/// The properties of points that are drawn, where these numbers of materials are used.
+pub(crate) fn properties_of(
+    materials: &[phong_scene::Material],
+    textures: &[phong_scene::Texture],
+    numbers: impl Iterator<Item = u32>,
+) -> Vec<String> {
+    // Most scenes have none, and need not look through the materials of their triangles.
+    if phong_scene::properties_shown(materials, |_| true, textures).is_empty() {
+        return Vec::new();
+    }
+    let mut used = vec![false; materials.len()];
+    for number in numbers {
+        if let Some(used) = used.get_mut(number as usize) {
+            *used = true;
         }
     }
-    names
+    let shown = phong_scene::properties_shown(materials, |i| used[i], textures);
+    shown.into_iter().take(Field::MOST).map(|(name, _)| name.to_owned()).collect()
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ use super::{Account, Writing, split_all};
 use crate::color::Rgb;
 use crate::diagnostic::{Diagnostic, Place, Span};
 use crate::light::Light;
+use crate::maps::fields_of;
 use crate::scene::{Image, Object, Scene};
 use crate::shape::Shape;
 
@@ -118,6 +119,15 @@ pub(crate) fn say_unfolded(scene: &Scene, account: &mut Account) {
     if count > 0 {
         account.map(format!("{count} instances are unfolded into what they place"));
     }
+}
+
+/// What is to be said where numbers of points, which maps show, are not written; `None`: there are none.
+pub(crate) fn fields_lost(scene: &Scene) -> Option<Diagnostic> {
+    let mut with_fields = each_object(scene).filter(|object| !fields_of(&object.shape).is_empty());
+    let first = with_fields.next()?;
+    let message =
+        format!("the numbers of points that maps show are not written: those of {}", first.name);
+    Some(warning(message, &first.place))
 }
 
 /// Every object that is written somewhere in the scene, once.

@@ -186,3 +186,27 @@ fn cells_of_degrees_cosines_and_matrices_are_the_same() {
     let matrix = cell([4.0, -2.0, 4.0, 0.0, 0.0, 5.0]);
     assert_eq!(matrix.edges[0], DVec3::new(4.0, -2.0, 0.0));
 }
+
+#[test]
+fn atoms_of_a_dump_take_the_places_of_their_numbers() {
+    let dump = |columns: &str, rows: &str| {
+        let text = format!(
+            "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp pp\n0 9\n0 9\n0 9\n\
+             ITEM: ATOMS {columns}\n{rows}"
+        );
+        let files = files(PLAIN.file()).with("dir/a.lammpstrj", text.into_bytes());
+        read_changed("dir/a.lammpstrj", None, &files, &Limits::default(), &changes())
+    };
+    let radii = |reading: &crate::scene::Reading| {
+        let scene = reading.scene.as_ref().expect("a scene");
+        let crate::shape::Shape::Points(points) = &scene.objects[0].shape else { panic!() };
+        points.spheres.iter().map(|s| s[3]).collect::<Vec<_>>()
+    };
+    let ordered = dump("id radius x y z", "1 0.5 0 0 0\n2 0.25 3 0 0\n");
+    let turned = dump("id radius x y z", "2 0.25 3 0 0\n1 0.5 0 0 0\n");
+    assert_eq!(radii(&turned), radii(&ordered));
+    assert_eq!(places(&turned.scene.unwrap()), places(&ordered.scene.unwrap()));
+    let without = dump("radius x y z", "0.5 0 0 0\n0.25 3 0 0\n");
+    assert!(without.scene.is_none());
+    assert!(without.diagnostics[0].message.contains("no `id`"), "{:?}", without.diagnostics);
+}

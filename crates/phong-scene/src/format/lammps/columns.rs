@@ -44,6 +44,8 @@ pub(super) fn layout(named: &[&str], drawing: &Drawing) -> Result<(Layout, Place
             }
             ("q", _) if drawing.uses(names::CHARGE) => column(names::CHARGE, false, &mut layout),
             (other, _) if drawing.uses(other) => column(other, false, &mut layout),
+            // A trajectory has the atoms in the order of their numbers.
+            ("id", _) if drawing.trajectory.is_some() => column("id", false, &mut layout),
             _ => Slot::Skip,
         };
         layout.slots.push(slot);

@@ -41,7 +41,7 @@ struct Heading {
 }
 
 /// The largest number of an atom that is told from the next one.
-const MOST_IDS: f32 = (1 << 24) as f32;
+pub(super) const MOST_IDS: f32 = (1 << 24) as f32;
 
 /// Headings of a file, at most.
 const MOST: usize = 1000;
@@ -183,12 +183,35 @@ impl Header {
     }
 }
 
+/// The styles of atoms that are read.
+const STYLES: [&str; 12] = [
+    "atomic",
+    "charge",
+    "dipole",
+    "bond",
+    "angle",
+    "molecular",
+    "full",
+    "sphere",
+    "body",
+    "ellipsoid",
+    "line",
+    "tri",
+];
+
 /// The layout of atoms of the style that the heading says, or that fits the first of them.
 fn style(blob: &dyn Blob, heading: &Heading) -> io::Result<Result<Layout, String>> {
     let first = first_row(blob, heading)?;
-    // A style is one word; several are a remark.
-    let named = heading.text.split('#').nth(1).map(str::trim);
-    let named = named.filter(|named| !named.contains(char::is_whitespace)).unwrap_or_default();
+    // A style is one word; several are a remark, unless the first is a style: `hybrid` names others.
+    let named = heading.text.split('#').nth(1).map(str::trim).unwrap_or_default();
+    let mut words = named.split_ascii_whitespace();
+    let named = match (words.next(), words.next()) {
+        (Some(first), Some(_)) if first == "hybrid" || STYLES.contains(&first) => {
+            return Ok(Err(format!("atoms of the style `{named}` are not read")));
+        }
+        (Some(style), None) => style,
+        _ => "",
+    };
     // Three whole numbers at the end say in which image of the box an atom is.
     let images = first.len() > 7 && first[first.len() - 3..].iter().all(|word| is_integer(word));
     let count = first.len() - if images { 3 } else { 0 };

@@ -16,6 +16,7 @@ use glam::DVec3;
 
 use super::boxes::{cell_of, cell_of_bounds};
 use super::columns::{Places, layout};
+use super::data::MOST_IDS;
 use crate::diagnostic::Diagnostic;
 use crate::format::atoms::{Table, read_atoms};
 use crate::format::input::Input;
@@ -71,6 +72,14 @@ fn atoms(
             return Ok(None);
         }
     };
+    if drawing.trajectory.is_some() && !names.contains(&"id") {
+        let message = || {
+            "the atoms have no `id`, by which a trajectory orders them: dumps have them in any order"
+                .to_owned()
+        };
+        findings.error("columns", || whole(file), message);
+        return Ok(None);
+    }
     let shares = places == Places::Scaled;
     if shares && cell.is_none() {
         let message =
@@ -94,6 +103,19 @@ fn atoms(
         }
     }
     molecule.cell = cell;
+    if drawing.trajectory.is_some() {
+        let ids = molecule.numbers("id").unwrap_or_default();
+        if ids.iter().any(|id| *id > MOST_IDS) {
+            let message =
+                || format!("atoms are numbered beyond {MOST_IDS}: a trajectory cannot order them");
+            findings.error("trajectories", || whole(file), message);
+            return Ok(None);
+        }
+        molecule.sort_by_column("id");
+        if !drawing.uses("id") {
+            molecule.columns.retain(|column| column.name != "id");
+        }
+    }
     Ok(Some(molecule))
 }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::diagnostic::Diagnostic;
 use crate::format::export::flat::{
-    each_object, has_colors, say_unfolded, split_scene, triangles_alone, warning,
+    each_object, fields_lost, has_colors, say_unfolded, split_scene, triangles_alone, warning,
 };
 use crate::format::export::merge::{Merged, merge};
 use crate::format::export::{Account, File, Writing, free_name};
@@ -23,6 +23,7 @@ pub(crate) fn write_obj(
     let colors = each_object(&scene).any(|object| has_colors(&object.shape));
     let mut materials = scene.materials.clone();
     say_unfolded(&scene, account);
+    fields_lost(&scene).into_iter().for_each(|lost| account.drop(lost));
     let scene = if colors { split_scene(scene) } else { scene };
     let mut merged = merge(scene, colors, options.bare);
     account.carry("triangle", merged.mesh.indices.len());

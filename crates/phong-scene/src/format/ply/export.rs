@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::diagnostic::Diagnostic;
 use crate::format::export::flat::{
-    each_object, has_colors, is_cylinders, is_spheres, is_triangles, leave_out, listed, nothing,
-    say_unfolded, split_scene, used_by, warning,
+    each_object, fields_lost, has_colors, is_cylinders, is_spheres, is_triangles, leave_out,
+    listed, nothing, say_unfolded, split_scene, used_by, warning,
 };
 use crate::format::export::merge::{Size, cylinders, merge, spheres};
 use crate::format::export::{Account, File, Writing};
@@ -38,6 +38,7 @@ pub(crate) fn write_ply(
         return Err(nothing(HOLDS));
     }
     say_unfolded(&scene, account);
+    let lost = fields_lost(&scene);
     if !solid && !round {
         say_ends(&scene, account);
     }
@@ -62,6 +63,7 @@ pub(crate) fn write_ply(
         let merged = merge(if colors { split_scene(scene) } else { scene }, colors, true);
         account.carry("triangle", merged.mesh.indices.len());
         let mesh = merged.mesh;
+        lost.filter(|_| mesh.fields.is_empty()).into_iter().for_each(|lost| account.drop(lost));
         File::new(name, move |to| mesh.write_ply(encoding, to))
     } else if !round {
         let mut uneven = BTreeMap::new();
@@ -71,6 +73,7 @@ pub(crate) fn write_ply(
             return Err(nothing(HOLDS));
         }
         account.carry("cylinder", cylinders.segments.len());
+        lost.into_iter().for_each(|lost| account.drop(lost));
         File::new(name, move |to| cylinders.write_ply(encoding, to))
     } else {
         let mut uneven = BTreeMap::new();
@@ -80,6 +83,7 @@ pub(crate) fn write_ply(
             return Err(nothing(HOLDS));
         }
         account.carry("sphere", points.spheres.len());
+        lost.into_iter().for_each(|lost| account.drop(lost));
         File::new(name, move |to| points.write_ply(encoding, to))
     };
     Ok(vec![file])

@@ -110,7 +110,10 @@ impl Plan {
             }
         }
         let mut fields = Vec::new();
-        for name in input.fields.iter().take(Field::MOST) {
+        for name in input.fields {
+            if fields.len() == Field::MOST {
+                break;
+            }
             // What is drawn anyway may be shown by a map as well.
             if let Some(property) = element.find(name)
                 && element.properties[property].list.is_none()

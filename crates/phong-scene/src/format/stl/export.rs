@@ -6,7 +6,8 @@ use glam::DVec3;
 
 use crate::diagnostic::Diagnostic;
 use crate::format::export::flat::{
-    each_object, has_colors, is_triangles, listed, say_unfolded, triangles_alone, used_by, warning,
+    each_object, fields_lost, has_colors, is_triangles, listed, say_unfolded, triangles_alone,
+    used_by, warning,
 };
 use crate::format::export::merge::merge;
 use crate::format::export::{Account, File, Writing};
@@ -22,6 +23,7 @@ pub(crate) fn write_stl(
 ) -> Result<Vec<File>, Box<Diagnostic>> {
     triangles_alone(&scene, options, account)?;
     say_unfolded(&scene, account);
+    fields_lost(&scene).into_iter().for_each(|lost| account.drop(lost));
     let held: Vec<_> = each_object(&scene).filter(|object| is_triangles(&object.shape)).collect();
     let used: BTreeSet<u32> = held.iter().flat_map(|object| used_by(object)).collect();
     let own = |m: &u32| !(options.bare && *m == 0);

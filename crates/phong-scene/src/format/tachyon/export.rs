@@ -11,7 +11,7 @@ use crate::camera::CameraKind;
 use crate::color::Rgb;
 use crate::diagnostic::Diagnostic;
 use crate::fog::{FogDistance, FogKind};
-use crate::format::export::flat::{each_object, listed, say_unfolded, warning};
+use crate::format::export::flat::{each_object, fields_lost, listed, say_unfolded, warning};
 use crate::format::export::merge::{Size, each_placed};
 use crate::format::export::{Account, File, Writing};
 use crate::light::LightKind;
@@ -30,6 +30,7 @@ pub(crate) fn write_tachyon(
 ) -> Result<Vec<File>, Box<Diagnostic>> {
     Size::of(&scene).check(options.max_bytes)?;
     say_unfolded(&scene, account);
+    fields_lost(&scene).into_iter().for_each(|lost| account.drop(lost));
     let head = head(&scene, account);
     let surfaces = surfaces(&scene, account);
     leave_out(&scene, account);

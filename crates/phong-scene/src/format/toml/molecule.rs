@@ -17,8 +17,8 @@ use crate::keys;
 use crate::molecule::{Arrows, ColorMap, Drawing, Images, Selection, Spans, Style};
 use crate::wording::{self, Word};
 
-/// Cells along an edge, at most.
-const MOST_CELLS: f64 = 1000.0;
+/// Cells that are drawn, at most.
+const MOST_CELLS: f64 = 1e6;
 
 impl<'a> Reader<'a> {
     /// `[[molecule]]`: the atoms and bonds of its file.
@@ -118,14 +118,14 @@ impl<'a> Reader<'a> {
             }
         });
         let cells = v.numbers("images").map(|numbers| {
-            let whole = |n: &f64| n.fract() == 0.0 && (1.0..=MOST_CELLS).contains(n);
-            match numbers[..] {
-                [a, b, c] if numbers.iter().all(whole) => [a as u32, b as u32, c as u32],
+            let counts: Vec<u32> = numbers.iter().map(|n| *n as u32).collect();
+            let count: f64 = numbers.iter().product();
+            match counts[..] {
+                [a, b, c] if count <= MOST_CELLS => [a, b, c],
                 _ => {
                     sound = false;
                     let message = format!(
-                        "`images` must be three whole numbers from 1 to {MOST_CELLS}: how many cells along \
-                         each edge"
+                        "`images` must be at most {MOST_CELLS} cells in all; these are {count}"
                     );
                     self.notes.error(v.spot_of("images"), message);
                     [1; 3]

@@ -1,6 +1,6 @@
 //! One file after another, in the order of the text, into the parts of a scene.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use glam::DAffine3;
@@ -227,11 +227,23 @@ impl<'a> Reader<'a> {
             self.settings_not_written(document, head, path);
         }
         items.sort_by_key(|(spot, _)| spot.start);
-        // Files that stand before the maps that show something of them must be read with it.
+        // Files that stand before the maps that show something of them must be read with it; first what
+        // materials of the same text use, for a file has the first few only.
+        let mut used = BTreeSet::new();
         for (_, item) in &items {
-            if let Item::Texture(name, text) = item {
-                let over = self.changes.over("textures", &[name]);
-                texture::note_property(text, &over, &mut self.fields);
+            if let Item::Material(name, text) = item {
+                let over = self.changes.over("materials", &[name]);
+                texture::note_used(text, &over, &mut used);
+            }
+        }
+        for first in [true, false] {
+            for (_, item) in &items {
+                if let Item::Texture(name, text) = item
+                    && used.contains(*name) == first
+                {
+                    let over = self.changes.over("textures", &[name]);
+                    texture::note_property(text, &over, &mut self.fields);
+                }
             }
         }
         for (spot, item) in items {

@@ -111,7 +111,7 @@ impl Reader<'_> {
                 |name| format!("no instance places the group {name}"),
                 &mut notes,
             );
-            scene.textures = scene.ranged_textures();
+            scene.textures = scene.textures_ranged_of_any_camera();
             for diagnostic in scene.check() {
                 notes.say_located(diagnostic);
             }

@@ -16,7 +16,6 @@ use super::text::Spot;
 use crate::check::{material as judge, texture as texture_judge};
 use crate::limits::Limits;
 use crate::material::Material;
-use crate::mesh::Field;
 use crate::source::Source;
 use crate::texels::{self, Texels};
 use crate::texture::{MapSource, Texture, TextureId, TextureKind, TextureRef};
@@ -86,6 +85,15 @@ pub(super) fn texture(
     sound.then_some(texture)
 }
 
+/// Notes the names of the textures that a material uses.
+pub(super) fn note_used(text: &DeTable<'_>, over: &[&Laid<'_>], names: &mut BTreeSet<String>) {
+    let values = text.values().map(|value| value.get_ref());
+    for value in values.chain(over.iter().map(|laid| laid.value.get_ref())) {
+        let texture = value.get("texture").and_then(|name| name.get_ref().as_str());
+        names.extend(texture.map(str::to_owned));
+    }
+}
+
 /// Notes the property of points that a texture shows, if it does.
 pub(super) fn note_property(text: &DeTable<'_>, over: &[&Laid<'_>], names: &mut Vec<String>) {
     let laid = |key: &str| over.iter().find(|laid| laid.target.key.name == key);
@@ -95,7 +103,7 @@ pub(super) fn note_property(text: &DeTable<'_>, over: &[&Laid<'_>], names: &mut 
     };
     let (Some("map"), Some(of)) = (said("kind"), said("of")) else { return };
     let Some(name) = MapSource::of(of).property() else { return };
-    if !names.iter().any(|known| known == name) && names.len() < Field::MOST {
+    if !names.iter().any(|known| known == name) {
         names.push(name.to_owned());
     }
 }

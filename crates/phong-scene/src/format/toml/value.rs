@@ -108,6 +108,14 @@ impl ValueReader<'_> {
             Kind::Names if !value.get_ref().is_array() => self.mismatch(value),
             Kind::Files | Kind::Names => self.files(value).map(Value::Texts),
             Kind::Numbers => self.some_numbers(value).map(Value::Numbers),
+            Kind::Counts(most) => {
+                let counts = self.numbers::<3>(value)?;
+                let fits = |n: &f64| n.fract() == 0.0 && (1.0..=f64::from(most)).contains(n);
+                if !counts.iter().all(fits) {
+                    return self.mismatch(value);
+                }
+                Some(Value::Numbers(counts.to_vec()))
+            }
             Kind::Interval if value.get_ref().as_str() == Some("auto") => Some(Value::Word("auto")),
             Kind::Interval => self.numbers::<2>(value).map(|range| Value::Numbers(range.to_vec())),
             Kind::Map => self.mismatch(value),

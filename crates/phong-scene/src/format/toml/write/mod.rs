@@ -20,13 +20,15 @@ use crate::format::export::{Account, File, PlyEncoding, Writing, free_name, spli
 use crate::furniture::Furniture;
 use crate::keys::{self, Key, Keyed, Kind, Table, Value};
 use crate::limits::LARGEST;
+use crate::maps::fields_of;
 use crate::material::{Material, MaterialId};
-use crate::mesh::{Cylinders, Mesh};
+use crate::mesh::{Cylinders, Field, Mesh};
 use crate::scene::{Object, Scene};
 use crate::shape::Shape;
 use crate::sky::SkyKind;
 use crate::texels::{TexelValues, Texels};
 use crate::texture::{Encoding, Texture, TextureKind};
+use crate::wording::quoted;
 
 /// The scene as the text of `file` and the files that it names, in the order of the text.
 ///
@@ -98,7 +100,7 @@ pub(crate) fn write_toml(
             "sky" => {
                 if let Some(mut sky) = sky.clone() {
                     if let SkyKind::Image { file, texels, .. } = &mut sky.kind {
-                        out.image(&header, texels, file);
+                        out.image(&header, texels, Curve::Srgb, file);
                     }
                     let kind = table.word_of(&sky);
                     out.table(&header, table, kind, |key| key.get(&sky));
@@ -175,6 +177,15 @@ fn said<T: Keyed>(key: &Key, of: &T) -> Option<Value> {
     key.get(of).filter(|value| !matches!(value, Value::Text(text) if text.is_empty()))
 }
 
+/// How the linear floats of an image become the whole numbers of a PNG.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Curve {
+    /// Unchanged: a texture says that they are linear.
+    AsTheyAre,
+    /// Encoded as sRGB, which is what a sky takes whole numbers for.
+    Srgb,
+}
+
 struct Writer<'a> {
     text: String,
     /// What the names of files begin with.
@@ -189,7 +200,7 @@ struct Writer<'a> {
     /// Whether images are written beside the text.
     images: bool,
     /// The images that are written, by their names.
-    written: Vec<(Arc<Texels>, String)>,
+    written: Vec<(Arc<Texels>, Curve, String)>,
     account: &'a mut Account,
     /// The first number that cannot be written.
     trouble: Option<Diagnostic>,
@@ -283,12 +294,16 @@ impl Writer<'_> {
 
     /// Writes an image beside the text, once, and gives `file` its name: where the file was is somewhere
     /// else from there.
-    fn image(&mut self, header: &str, texels: &Arc<Texels>, file: &mut String) {
+    fn image(&mut self, header: &str, texels: &Arc<Texels>, curve: Curve, file: &mut String) {
         if !self.images {
             return;
         }
-        let known = self.written.iter().find(|(other, _)| Arc::ptr_eq(other, texels));
-        if let Some((_, name)) = known {
+        let same = |(other, by, _): &&(Arc<Texels>, Curve, String)| {
+            // Whole numbers are written as they are.
+            let is_whole = !matches!(texels.values(), TexelValues::Floats(_));
+            Arc::ptr_eq(other, texels) && (is_whole || *by == curve)
+        };
+        if let Some((.., name)) = self.written.iter().find(same) {
             file.clone_from(name);
             return;
         }
@@ -301,8 +316,9 @@ impl Writer<'_> {
             self.account.drop(Diagnostic::warning(message, None));
         }
         let pixels = Arc::clone(texels);
-        self.files.push(File::new(file.clone(), move |to| pixels.write_png(to)));
-        self.written.push((Arc::clone(texels), file.clone()));
+        let srgb = curve == Curve::Srgb;
+        self.files.push(File::new(file.clone(), move |to| pixels.write_png(srgb, to)));
+        self.written.push((Arc::clone(texels), curve, file.clone()));
     }
 
     fn textures(&mut self, textures: &[Texture]) {
@@ -316,7 +332,7 @@ impl Writer<'_> {
                 if let (TexelValues::Floats(_), Encoding::Auto) = (texels.values(), *encoding) {
                     *encoding = Encoding::Linear;
                 }
-                self.image(&header, texels, file);
+                self.image(&header, texels, Curve::AsTheyAre, file);
             }
             let texture = &texture;
             let kind = keys::TEXTURE.word_of(texture);
@@ -353,6 +369,7 @@ impl Writer<'_> {
             if !is_seen(&object, self.account) {
                 continue;
             }
+            say_unwritten(&object, self.account);
             let beside = sidecar(&mut object, &file, self.ply);
             self.counts.insert(kind, number);
             self.account.carry(kind, 1);
@@ -391,6 +408,19 @@ fn is_seen(object: &Object, account: &mut Account) -> bool {
         account.drop(Diagnostic::warning(message, span));
     }
     !empty
+}
+
+/// Says which numbers of points a file beside the text has no name for.
+fn say_unwritten(object: &Object, account: &mut Account) {
+    for field in fields_of(&object.shape).iter().filter(|field| !Field::is_name(&field.name)) {
+        let message = format!(
+            "the numbers {} of {} are not written: a PLY file names them by one word that nothing else in it has",
+            quoted(&field.name),
+            object.name
+        );
+        let span = Span { place: object.place.clone(), ..Span::default() };
+        account.drop(Diagnostic::warning(message, span));
+    }
 }
 
 /// What goes into a file beside the text, if anything does.
