@@ -68,7 +68,9 @@ fn pieces(groups: &[Group], window: Window) -> impl Iterator<Item = Patch> {
 fn patch(groups: &[Group], window: Window) -> Option<Patch> {
     let mut pixels = Pixmap::new(window.width(), window.height())?;
     let from = Point::new(f64::from(window.x0), f64::from(window.y0));
-    groups.iter().for_each(|group| paint(&mut pixels, group, from));
+    for group in groups {
+        paint(&mut pixels, group, from);
+    }
     let bytes = pixels.take_demultiplied();
     let pixels = bytes.as_chunks::<4>().0.to_vec();
     Some(Patch { window, pixels, channels: [true; 3] })
