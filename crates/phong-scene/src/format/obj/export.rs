@@ -23,7 +23,9 @@ pub(crate) fn write_obj(
     let colors = each_object(&scene).any(|object| has_colors(&object.shape));
     let mut materials = scene.materials.clone();
     say_unfolded(&scene, account);
-    fields_lost(&scene).into_iter().for_each(|lost| account.drop(lost));
+    if let Some(lost) = fields_lost(&scene) {
+        account.drop(lost);
+    }
     let scene = if colors { split_scene(scene) } else { scene };
     let mut merged = merge(scene, colors, options.bare);
     account.carry("triangle", merged.mesh.indices.len());

@@ -73,7 +73,9 @@ pub(crate) fn write_ply(
             return Err(nothing(HOLDS));
         }
         account.carry("cylinder", cylinders.segments.len());
-        lost.into_iter().for_each(|lost| account.drop(lost));
+        if let Some(lost) = lost {
+            account.drop(lost);
+        }
         File::new(name, move |to| cylinders.write_ply(encoding, to))
     } else {
         let mut uneven = BTreeMap::new();
@@ -83,7 +85,9 @@ pub(crate) fn write_ply(
             return Err(nothing(HOLDS));
         }
         account.carry("sphere", points.spheres.len());
-        lost.into_iter().for_each(|lost| account.drop(lost));
+        if let Some(lost) = lost {
+            account.drop(lost);
+        }
         File::new(name, move |to| points.write_ply(encoding, to))
     };
     Ok(vec![file])

@@ -23,7 +23,9 @@ pub(crate) fn write_stl(
 ) -> Result<Vec<File>, Box<Diagnostic>> {
     triangles_alone(&scene, options, account)?;
     say_unfolded(&scene, account);
-    fields_lost(&scene).into_iter().for_each(|lost| account.drop(lost));
+    if let Some(lost) = fields_lost(&scene) {
+        account.drop(lost);
+    }
     let held: Vec<_> = each_object(&scene).filter(|object| is_triangles(&object.shape)).collect();
     let used: BTreeSet<u32> = held.iter().flat_map(|object| used_by(object)).collect();
     let own = |m: &u32| !(options.bare && *m == 0);

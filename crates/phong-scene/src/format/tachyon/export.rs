@@ -30,7 +30,9 @@ pub(crate) fn write_tachyon(
 ) -> Result<Vec<File>, Box<Diagnostic>> {
     Size::of(&scene).check(options.max_bytes)?;
     say_unfolded(&scene, account);
-    fields_lost(&scene).into_iter().for_each(|lost| account.drop(lost));
+    if let Some(lost) = fields_lost(&scene) {
+        account.drop(lost);
+    }
     let head = head(&scene, account);
     let surfaces = surfaces(&scene, account);
     leave_out(&scene, account);

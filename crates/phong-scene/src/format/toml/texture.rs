@@ -87,7 +87,7 @@ pub(super) fn texture(
 
 /// Notes the names of the textures that a material uses.
 pub(super) fn note_used(text: &DeTable<'_>, over: &[&Laid<'_>], names: &mut BTreeSet<String>) {
-    let values = text.values().map(|value| value.get_ref());
+    let values = text.values().map(toml::Spanned::get_ref);
     for value in values.chain(over.iter().map(|laid| laid.value.get_ref())) {
         let texture = value.get("texture").and_then(|name| name.get_ref().as_str());
         names.extend(texture.map(str::to_owned));
