@@ -2,7 +2,7 @@
 //! labels.
 //!
 //! It is outlines, those of the letters too, so it is sharp at any size. [`finish`] draws it in pixels onto a
-//! film's picture, [`svg`] writes it as outlines over one. It is no part of the film, and comes after exposure
+//! film's picture, [`svg()`] writes it as outlines over one. It is no part of the film, and comes after exposure
 //! and tone: ink is ink.
 
 mod layout;
