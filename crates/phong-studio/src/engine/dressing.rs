@@ -1,12 +1,12 @@
 //! A look by its name, put on what is open: written into its text, or put on a bare model itself.
 
-use phong::scene::{NamedLook, Scene, Shape, closest};
+use phong::scene::{NamedLook, Scene, closest};
 use serde_json::{Map, Value as Json};
 use toml_edit::{DocumentMut, Item, Table};
 
 use super::look;
 use super::opened::{Files, Opened};
-use super::writing::{self, written};
+use super::writing::{as_text, make_table, parsed, put_all};
 
 /// The tables that a look replaces as they are.
 const TABLES: [&str; 6] = ["light", "ambient", "ambient_occlusion", "sky", "fog", "outline"];
@@ -88,20 +88,12 @@ fn is_changed(path: &str) -> bool {
 
 /// Whether any object has colours of its own beside its material's.
 fn brings_colors(scene: &Scene) -> bool {
-    let in_groups = scene.groups.iter().flat_map(|group| &group.objects);
-    scene.objects.iter().chain(in_groups).any(|object| match &object.shape {
-        Shape::Mesh(mesh) => !mesh.colors.is_empty(),
-        Shape::Points(points) => !points.colors.is_empty(),
-        Shape::Cylinders(cylinders) => !cylinders.colors.is_empty(),
-        _ => false,
-    })
+    scene.all_objects().any(|object| object.shape.has_colors())
 }
 
 /// A text with what changes from one text of a look to the other; all else of it stays.
 fn dressed(text: &str, before: &str, after: &str) -> Result<String, String> {
-    let read =
-        |text: &str| text.parse::<DocumentMut>().map_err(|_| "the text is no TOML".to_owned());
-    let (mut document, before, after) = (read(text)?, read(before)?, read(after)?);
+    let (mut document, before, after) = (parsed(text)?, parsed(before)?, parsed(after)?);
     for name in TABLES {
         let [old, new] = [&before, &after].map(|document| document.get(name));
         if old.map(Item::to_string) == new.map(Item::to_string) {
@@ -141,11 +133,11 @@ fn dressed(text: &str, before: &str, after: &str) -> Result<String, String> {
         if changes.is_empty() {
             continue;
         }
-        writing::make_table(&mut document, "materials", name);
+        make_table(&mut document, "materials", name);
         set.append(&mut changes);
     }
-    let out = written(&document.to_string(), &set)?;
-    Ok(if text.contains("\r\n") { out.replace("\r\n", "\n").replace('\n', "\r\n") } else { out })
+    put_all(&mut document, &set)?;
+    Ok(as_text(&document, text))
 }
 
 /// Puts new tables in the place of the one that is gone, under the comment that stood above it.

@@ -11,13 +11,31 @@ const MADE: [&str; 4] = ["image", "camera", "ambient", "ambient_occlusion"];
 /// # Errors
 /// Which path leads nowhere.
 pub(super) fn written(text: &str, set: &Map<String, Json>) -> Result<String, String> {
-    let mut document: DocumentMut = text.parse().map_err(|_| "the text is no TOML".to_owned())?;
-    for (path, value) in set {
-        put(&mut document, path, value)?;
-    }
+    let mut document = parsed(text)?;
+    put_all(&mut document, set)?;
+    Ok(as_text(&document, text))
+}
+
+/// A text as tables with all its blanks and comments.
+///
+/// # Errors
+/// If it is no TOML.
+pub(super) fn parsed(text: &str) -> Result<DocumentMut, String> {
+    text.parse().map_err(|_| "the text is no TOML".to_owned())
+}
+
+/// Puts these values in, by the paths of their keys; `null` takes a key out.
+///
+/// # Errors
+/// Which path leads nowhere.
+pub(super) fn put_all(document: &mut DocumentMut, set: &Map<String, Json>) -> Result<(), String> {
+    set.iter().try_for_each(|(path, value)| put(document, path, value))
+}
+
+/// The text again, its lines ended as those of `before`: the writer knows one end of line only.
+pub(super) fn as_text(document: &DocumentMut, before: &str) -> String {
     let out = document.to_string();
-    // Lines end as they did: the writer knows one end of line only.
-    Ok(if text.contains("\r\n") { out.replace("\r\n", "\n").replace('\n', "\r\n") } else { out })
+    if before.contains("\r\n") { out.replace("\r\n", "\n").replace('\n', "\r\n") } else { out }
 }
 
 /// Makes a table in another one where the text lacks it.
