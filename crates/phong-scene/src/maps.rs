@@ -8,7 +8,7 @@ use crate::bounds::Bounds;
 use crate::color::Rgb;
 use crate::diagnostic::{Diagnostic, Place, Severity, Span};
 use crate::furniture::Legend;
-use crate::material::{Material, MaterialId};
+use crate::material::Material;
 use crate::mesh::Field;
 use crate::scene::{Object, Scene};
 use crate::shape::Shape;
@@ -204,17 +204,7 @@ fn extremes(values: impl IntoIterator<Item = f64>) -> Option<[f64; 2]> {
 
 /// The field of this name, if the points of a shape have it.
 fn field<'s>(shape: &'s Shape, name: &str) -> Option<&'s Field> {
-    fields_of(shape).iter().find(|field| *field.name == *name)
-}
-
-/// The numbers that the points of a shape have.
-pub(crate) fn fields_of(shape: &Shape) -> &[Field] {
-    match shape {
-        Shape::Mesh(mesh) => &mesh.fields,
-        Shape::Points(points) => &points.fields,
-        Shape::Cylinders(cylinders) => &cylinders.fields,
-        _ => &[],
-    }
+    shape.fields().iter().find(|field| *field.name == *name)
 }
 
 /// The objects that a texture is on.
@@ -236,22 +226,13 @@ impl<'s> Users<'s> {
     }
 
     fn is_one(&self, object: &Object) -> bool {
-        match &object.shape {
-            Shape::Instance(_) => false,
-            Shape::Mesh(mesh) if !mesh.face_materials.is_empty() => {
-                mesh.face_materials.iter().any(|number| self.is_of(*number))
-            }
-            _ => {
-                let MaterialId(number) = object.material;
-                self.is_of(number)
-            }
-        }
+        !matches!(object.shape, Shape::Instance(_))
+            && object.material_numbers().any(|number| self.is_of(number))
     }
 
     /// Those of the scene, and those of its groups.
     fn objects(&self) -> impl Iterator<Item = &'s Object> {
-        let in_groups = self.scene.groups.iter().flat_map(|group| &group.objects);
-        self.scene.objects.iter().chain(in_groups).filter(|object| self.is_one(object))
+        self.scene.all_objects().filter(|object| self.is_one(object))
     }
 
     /// The box of them all, each in its own space.
@@ -328,17 +309,9 @@ pub(crate) fn check(scene: &Scene, say: &mut dyn FnMut(Diagnostic)) {
             say(Diagnostic::warning(message, at(&texture.place)).with_help(help));
         }
     }
-    let in_groups = scene.groups.iter().flat_map(|group| &group.objects);
-    let mut of_objects = BTreeSet::new();
-    for object in scene.objects.iter().chain(in_groups) {
-        match &object.shape {
-            Shape::Mesh(mesh) if !mesh.face_materials.is_empty() => {
-                of_objects.extend(mesh.face_materials.iter().map(|number| *number as usize));
-            }
-            _ => drop(of_objects.insert(object.material.0 as usize)),
-        }
-    }
-    let is_used = |number: usize| of_objects.contains(&number);
+    let of_objects: BTreeSet<u32> =
+        scene.all_objects().flat_map(Object::material_numbers).collect();
+    let is_used = |number: usize| of_objects.contains(&(number as u32));
     let shown = properties_shown(&scene.materials, is_used, &scene.textures);
     if let Some((name, number)) = shown.get(Field::MOST) {
         let texture = &scene.textures[*number];
@@ -361,18 +334,12 @@ pub(crate) fn check(scene: &Scene, say: &mut dyn FnMut(Diagnostic)) {
 
 /// Says which objects have colours of their own, in place of those of a map.
 fn covered(scene: &Scene, texture: u32, users: &Users<'_>, say: &mut dyn FnMut(Diagnostic)) {
-    let colored = |object: &&Object| match &object.shape {
-        Shape::Mesh(mesh) => !mesh.colors.is_empty(),
-        Shape::Points(points) => !points.colors.is_empty(),
-        Shape::Cylinders(cylinders) => !cylinders.colors.is_empty(),
-        _ => false,
-    };
     let by_color = |object: &&Object| {
         let material = scene.materials.get(object.material.0 as usize);
         let color = material.and_then(|material| material.color.texture());
         color.is_some_and(|by| by.texture.0 == texture)
     };
-    for object in users.objects().filter(colored).filter(by_color) {
+    for object in users.objects().filter(|object| object.shape.has_colors()).filter(by_color) {
         let name = quoted(&scene.textures[texture as usize].name);
         let message = format!(
             "the points of {} have colours of their own, which are drawn in place of the texture {name}",

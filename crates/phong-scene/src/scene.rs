@@ -195,6 +195,13 @@ impl Default for Scene {
     }
 }
 
+impl Scene {
+    /// The objects, and then those of the groups: what instances place is among them once.
+    pub fn all_objects(&self) -> impl Iterator<Item = &Object> {
+        self.objects.iter().chain(self.groups.iter().flat_map(|group| &group.objects))
+    }
+}
+
 /// What reading gave: a scene unless there was an error, and everything there is to say.
 #[derive(Clone, Debug, Default)]
 pub struct Reading {
@@ -348,6 +355,18 @@ impl Default for Object {
             transform: DAffine3::IDENTITY,
             place: Place::default(),
         }
+    }
+}
+
+impl Object {
+    /// The numbers of its materials: those of its faces, or its own; as many times as it has them.
+    pub fn material_numbers(&self) -> impl Iterator<Item = u32> {
+        let of_faces = match &self.shape {
+            Shape::Mesh(mesh) => &mesh.face_materials[..],
+            _ => &[],
+        };
+        let own = of_faces.is_empty().then_some(self.material.0);
+        of_faces.iter().copied().chain(own)
     }
 }
 

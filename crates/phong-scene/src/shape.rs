@@ -233,7 +233,7 @@ use std::array::from_fn;
 
 use glam::{BVec3, DVec2, DVec3};
 
-use crate::mesh::{Caps, Cylinders, Mesh, Points};
+use crate::mesh::{Caps, Cylinders, Field, Mesh, Points};
 use crate::wording::{Word, words};
 
 /// Index into [`Scene::groups`](crate::Scene::groups).
@@ -386,6 +386,28 @@ impl Shape {
     #[must_use]
     pub fn kind(&self) -> &'static str {
         self.word()
+    }
+
+    /// The numbers that its points have besides their place.
+    #[must_use]
+    pub fn fields(&self) -> &[Field] {
+        match self {
+            Self::Mesh(mesh) => &mesh.fields,
+            Self::Points(points) => &points.fields,
+            Self::Cylinders(cylinders) => &cylinders.fields,
+            _ => &[],
+        }
+    }
+
+    /// Whether its points or faces have colours of their own, in place of their material's.
+    #[must_use]
+    pub fn has_colors(&self) -> bool {
+        match self {
+            Self::Mesh(mesh) => !mesh.colors.is_empty(),
+            Self::Points(points) => !points.colors.is_empty(),
+            Self::Cylinders(cylinders) => !cylinders.colors.is_empty(),
+            _ => false,
+        }
     }
 
     /// The largest `p · n` of all its points p, for each n of `along`; `None` if it has no end, or is

@@ -120,9 +120,7 @@ impl Scene {
             let old = self.state().scene.objects[place].material;
             let alone = {
                 let state = self.state();
-                let of_old = |object: &Object| is_of(object, old);
-                let inside = state.scene.groups.iter().flat_map(|group| &group.objects);
-                let users = state.scene.objects.iter().chain(inside).filter(|o| of_old(o)).count();
+                let users = state.scene.all_objects().filter(|object| is_of(object, old)).count();
                 let own = !matches!(&state.scene.objects[place].shape, Shape::Mesh(mesh) if !mesh.face_materials.is_empty());
                 users == 1 && own
             };
@@ -158,12 +156,7 @@ impl Scene {
 
 /// Whether anything of an object is of a material.
 fn is_of(object: &Object, material: MaterialId) -> bool {
-    match &object.shape {
-        Shape::Mesh(mesh) if !mesh.face_materials.is_empty() => {
-            mesh.face_materials.contains(&material.0)
-        }
-        _ => object.material == material,
-    }
+    object.material_numbers().any(|number| number == material.0)
 }
 
 /// A file as it is found from the current folder, where a scene in another one names it.

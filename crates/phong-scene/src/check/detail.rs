@@ -16,8 +16,7 @@ const UNSEEN: f32 = 1.0 / 64.0;
 
 /// Says of which objects the picture loses detail, and how much.
 pub(super) fn check(scene: &Scene, say: &mut dyn FnMut(Diagnostic)) {
-    let in_groups = scene.groups.iter().flat_map(|group| &group.objects);
-    scene.objects.iter().chain(in_groups).for_each(|object| lost(object, say));
+    scene.all_objects().for_each(|object| lost(object, say));
 }
 
 fn lost(object: &Object, say: &mut dyn FnMut(Diagnostic)) {

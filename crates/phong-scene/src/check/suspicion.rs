@@ -51,14 +51,12 @@ fn without_coordinates(scene: &Scene, say: &mut dyn FnMut(Diagnostic)) {
     if asked.iter().all(Option::is_none) {
         return;
     }
-    let in_groups = scene.groups.iter().flat_map(|group| &group.objects);
-    for object in scene.objects.iter().chain(in_groups) {
+    for object in scene.all_objects() {
         let Shape::Mesh(mesh) = &object.shape else { continue };
         if !mesh.uvs.is_empty() {
             continue;
         }
-        let of_faces = mesh.face_materials.iter().copied().collect::<BTreeSet<u32>>();
-        let numbers = if of_faces.is_empty() { [object.material.0].into() } else { of_faces };
+        let numbers: BTreeSet<u32> = object.material_numbers().collect();
         let asked = |number: &u32| asked.get(*number as usize).copied().flatten();
         let Some(texture) = numbers.iter().find_map(asked) else { continue };
         let texture = quoted(texture);

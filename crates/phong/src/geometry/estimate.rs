@@ -28,8 +28,7 @@ const INSTANCE: usize = 4 * size_of::<DAffine3>() + SPHERE;
 /// build's own included, and each array once however many objects share it.
 pub(super) fn estimate(scene: &Scene, count: u64) -> u64 {
     let mut seen = BTreeSet::new();
-    let in_groups = scene.groups.iter().flat_map(|group| &group.objects);
-    let arrays = scene.objects.iter().chain(in_groups).map(|object| bytes(object, &mut seen));
+    let arrays = scene.all_objects().map(|object| bytes(object, &mut seen));
     let arrays = arrays.fold(tangents(scene), |sum, bytes| sum.saturating_add(bytes as u64));
     let each = size_of::<Object>() + size_of::<ObjectRecord>() + size_of::<Batch>() + INSTANCE;
     arrays.saturating_add(count.saturating_mul(each as u64))
@@ -47,10 +46,9 @@ fn tangents(scene: &Scene) -> u64 {
     let (mut triangles, mut largest) = (0_u64, 0);
     // While they are made, each normal is kept made unit once.
     let mut normals_of_one = 0;
-    let in_groups = scene.groups.iter().flat_map(|group| &group.objects);
-    for object in scene.objects.iter().chain(in_groups) {
+    for object in scene.all_objects() {
         let Shape::Mesh(mesh) = &object.shape else { continue };
-        let Mesh { positions, indices, normals, uvs, uv_indices, face_materials, .. } = &**mesh;
+        let Mesh { positions, indices, normals, uvs, uv_indices, .. } = &**mesh;
         let key = [
             Shared::address(positions),
             Shared::address(indices),
@@ -58,11 +56,7 @@ fn tangents(scene: &Scene) -> u64 {
             Shared::address(uv_indices),
             Shared::address(normals),
         ];
-        let is_turned = match &face_materials[..] {
-            [] => turned(object.material.0),
-            each => each.iter().any(|&number| turned(number)),
-        };
-        if !uvs.is_empty() && is_turned && seen.insert(key) {
+        if !uvs.is_empty() && object.material_numbers().any(turned) && seen.insert(key) {
             triangles = triangles.saturating_add(indices.len() as u64);
             largest = largest.max(indices.len() as u64);
             normals_of_one = normals_of_one.max((normals.len() * size_of::<Vec3>()) as u64);

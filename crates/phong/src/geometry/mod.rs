@@ -147,8 +147,7 @@ fn soonest(scene: &Scene, rays: u64) -> BuildOptions {
         Shape::Cylinders(cylinders) => cylinders.segments.len() as u64,
         _ => 1,
     };
-    let in_groups = scene.groups.iter().flat_map(|group| &group.objects);
-    let primitives = scene.objects.iter().chain(in_groups).map(primitives).sum();
+    let primitives = scene.all_objects().map(primitives).sum();
     BuildOptions { preset: Preset::for_rays(primitives, rays), ..BuildOptions::default() }
 }
 

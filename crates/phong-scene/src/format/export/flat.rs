@@ -1,13 +1,12 @@
 //! What is said of a scene where a format holds but its triangles or spheres.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use super::merge::Size;
 use super::{Account, Writing, split_all};
 use crate::color::Rgb;
 use crate::diagnostic::{Diagnostic, Place, Span};
 use crate::light::Light;
-use crate::maps::fields_of;
 use crate::scene::{Image, Object, Scene};
 use crate::shape::Shape;
 
@@ -88,7 +87,7 @@ pub(crate) fn leave_out(
         }
     }
     let mut kinds: BTreeMap<&str, Vec<&Object>> = BTreeMap::new();
-    for object in each_object(scene) {
+    for object in scene.all_objects() {
         if !matches!(object.shape, Shape::Instance(_)) && !holds(&object.shape) {
             kinds.entry(object.shape.kind()).or_default().push(object);
         }
@@ -115,24 +114,25 @@ pub(crate) fn split_scene(mut scene: Scene) -> Scene {
 /// Says that instances are there as copies.
 pub(crate) fn say_unfolded(scene: &Scene, account: &mut Account) {
     let is_instance = |object: &&Object| matches!(object.shape, Shape::Instance(_));
-    let count = each_object(scene).filter(is_instance).count();
+    let count = scene.all_objects().filter(is_instance).count();
     if count > 0 {
         account.map(format!("{count} instances are unfolded into what they place"));
     }
 }
 
+/// Says that numbers of points, which maps show, are not written.
+pub(crate) fn say_fields(scene: &Scene, account: &mut Account) {
+    if let Some(lost) = fields_lost(scene) {
+        account.drop(lost);
+    }
+}
+
 /// What is to be said where numbers of points, which maps show, are not written; `None`: there are none.
 pub(crate) fn fields_lost(scene: &Scene) -> Option<Diagnostic> {
-    let mut with_fields = each_object(scene).filter(|object| !fields_of(&object.shape).is_empty());
-    let first = with_fields.next()?;
+    let first = scene.all_objects().find(|object| !object.shape.fields().is_empty())?;
     let message =
         format!("the numbers of points that maps show are not written: those of {}", first.name);
     Some(warning(message, &first.place))
-}
-
-/// Every object that is written somewhere in the scene, once.
-pub(crate) fn each_object(scene: &Scene) -> impl Iterator<Item = &Object> {
-    scene.objects.iter().chain(scene.groups.iter().flat_map(|group| &group.objects))
 }
 
 pub(crate) fn is_triangles(shape: &Shape) -> bool {
@@ -145,25 +145,6 @@ pub(crate) fn is_spheres(shape: &Shape) -> bool {
 
 pub(crate) fn is_cylinders(shape: &Shape) -> bool {
     matches!(shape, Shape::Cylinders(_))
-}
-
-pub(crate) fn has_colors(shape: &Shape) -> bool {
-    match shape {
-        Shape::Mesh(mesh) => !mesh.colors.is_empty(),
-        Shape::Points(points) => !points.colors.is_empty(),
-        Shape::Cylinders(cylinders) => !cylinders.colors.is_empty(),
-        _ => false,
-    }
-}
-
-/// The materials of an object.
-pub(crate) fn used_by(object: &Object) -> BTreeSet<u32> {
-    match &object.shape {
-        Shape::Mesh(mesh) if !mesh.face_materials.is_empty() => {
-            mesh.face_materials.iter().copied().collect()
-        }
-        _ => BTreeSet::from([object.material.0]),
-    }
 }
 
 pub(crate) fn warning(message: String, place: &Place) -> Diagnostic {

@@ -10,7 +10,7 @@ use super::surface::{base_color, surface};
 use crate::camera::CameraKind;
 use crate::color::Rgb;
 use crate::diagnostic::Diagnostic;
-use crate::format::export::flat::{each_object, leave_out, listed};
+use crate::format::export::flat::{leave_out, listed};
 use crate::format::export::merge::Size;
 use crate::format::export::{Account, File, Writing};
 use crate::light::LightKind;
@@ -174,9 +174,9 @@ impl<'s> Writer<'s> {
         }
         self.root.insert("scenes".into(), json!([{ "nodes": roots }]));
         self.root.insert("scene".into(), json!(0));
-        let count = each_object(self.scene).filter(|o| has_radius(&o.shape)).count();
+        let count = self.scene.all_objects().filter(|o| has_radius(&o.shape)).count();
         if count > 0 {
-            let names = each_object(self.scene).filter(|o| has_radius(&o.shape));
+            let names = self.scene.all_objects().filter(|o| has_radius(&o.shape));
             let names = listed(names.map(|o| o.name.as_str()), count);
             account
                 .map(format!("spheres are points, cylinders lines, without their radius: {names}"));

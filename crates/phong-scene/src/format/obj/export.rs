@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::diagnostic::Diagnostic;
 use crate::format::export::flat::{
-    each_object, fields_lost, has_colors, say_unfolded, split_scene, triangles_alone, warning,
+    say_fields, say_unfolded, split_scene, triangles_alone, warning,
 };
 use crate::format::export::merge::{Merged, merge};
 use crate::format::export::{Account, File, Writing, free_name};
@@ -20,12 +20,10 @@ pub(crate) fn write_obj(
     account: &mut Account,
 ) -> Result<Vec<File>, Box<Diagnostic>> {
     triangles_alone(&scene, options, account)?;
-    let colors = each_object(&scene).any(|object| has_colors(&object.shape));
+    let colors = scene.all_objects().any(|object| object.shape.has_colors());
     let mut materials = scene.materials.clone();
     say_unfolded(&scene, account);
-    if let Some(lost) = fields_lost(&scene) {
-        account.drop(lost);
-    }
+    say_fields(&scene, account);
     let scene = if colors { split_scene(scene) } else { scene };
     let mut merged = merge(scene, colors, options.bare);
     account.carry("triangle", merged.mesh.indices.len());

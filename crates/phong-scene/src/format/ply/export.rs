@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::diagnostic::Diagnostic;
 use crate::format::export::flat::{
-    each_object, fields_lost, has_colors, is_cylinders, is_spheres, is_triangles, leave_out,
-    listed, nothing, say_unfolded, split_scene, used_by, warning,
+    fields_lost, is_cylinders, is_spheres, is_triangles, leave_out, listed, nothing, say_unfolded,
+    split_scene, warning,
 };
 use crate::format::export::merge::{Size, cylinders, merge, spheres};
 use crate::format::export::{Account, File, Writing};
@@ -38,7 +38,7 @@ pub(crate) fn write_ply(
         return Err(nothing(HOLDS));
     }
     say_unfolded(&scene, account);
-    let lost = fields_lost(&scene);
+    let mut lost = fields_lost(&scene);
     if !solid && !round {
         say_ends(&scene, account);
     }
@@ -46,10 +46,11 @@ pub(crate) fn write_ply(
         let automatic = options.bare && *m == 0;
         !automatic && scene.materials.get(*m as usize).is_some_and(|m| !is_default(m))
     };
-    let held: Vec<_> = each_object(&scene).filter(|object| holds(&object.shape)).collect();
-    let materials: BTreeSet<u32> = held.iter().flat_map(|object| used_by(object)).collect();
+    let held: Vec<_> = scene.all_objects().filter(|object| holds(&object.shape)).collect();
+    let materials: BTreeSet<u32> =
+        held.iter().flat_map(|object| object.material_numbers()).collect();
     let own: Vec<_> = materials.iter().filter(|m| own_color(m)).collect();
-    let colors = !own.is_empty() || held.iter().any(|object| has_colors(&object.shape));
+    let colors = !own.is_empty() || held.iter().any(|object| object.shape.has_colors());
     if !own.is_empty() {
         let names = own.iter().filter_map(|m| scene.materials.get(**m as usize));
         let names = listed(names.map(|m| m.name.as_str()), own.len());
@@ -63,7 +64,10 @@ pub(crate) fn write_ply(
         let merged = merge(if colors { split_scene(scene) } else { scene }, colors, true);
         account.carry("triangle", merged.mesh.indices.len());
         let mesh = merged.mesh;
-        lost.filter(|_| mesh.fields.is_empty()).into_iter().for_each(|lost| account.drop(lost));
+        // A mesh that is written as it is keeps them.
+        if !mesh.fields.is_empty() {
+            lost = None;
+        }
         File::new(name, move |to| mesh.write_ply(encoding, to))
     } else if !round {
         let mut uneven = BTreeMap::new();
@@ -73,9 +77,6 @@ pub(crate) fn write_ply(
             return Err(nothing(HOLDS));
         }
         account.carry("cylinder", cylinders.segments.len());
-        if let Some(lost) = lost {
-            account.drop(lost);
-        }
         File::new(name, move |to| cylinders.write_ply(encoding, to))
     } else {
         let mut uneven = BTreeMap::new();
@@ -85,11 +86,11 @@ pub(crate) fn write_ply(
             return Err(nothing(HOLDS));
         }
         account.carry("sphere", points.spheres.len());
-        if let Some(lost) = lost {
-            account.drop(lost);
-        }
         File::new(name, move |to| points.write_ply(encoding, to))
     };
+    if let Some(lost) = lost {
+        account.drop(lost);
+    }
     Ok(vec![file])
 }
 
@@ -99,7 +100,7 @@ fn say_ends(scene: &Scene, account: &mut Account) {
         Shape::Cylinders(cylinders) => cylinders.caps != Caps::Round,
         _ => false,
     };
-    let objects: Vec<_> = each_object(scene).filter(flat).collect();
+    let objects: Vec<_> = scene.all_objects().filter(flat).collect();
     if let [first, ..] = objects[..] {
         let names = listed(objects.iter().map(|o| o.name.as_str()), objects.len());
         let message = format!("PLY does not say that ends are not round: {names}");

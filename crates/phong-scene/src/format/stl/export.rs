@@ -6,8 +6,7 @@ use glam::DVec3;
 
 use crate::diagnostic::Diagnostic;
 use crate::format::export::flat::{
-    each_object, fields_lost, has_colors, is_triangles, listed, say_unfolded, triangles_alone,
-    used_by, warning,
+    is_triangles, listed, say_fields, say_unfolded, triangles_alone, warning,
 };
 use crate::format::export::merge::merge;
 use crate::format::export::{Account, File, Writing};
@@ -23,11 +22,9 @@ pub(crate) fn write_stl(
 ) -> Result<Vec<File>, Box<Diagnostic>> {
     triangles_alone(&scene, options, account)?;
     say_unfolded(&scene, account);
-    if let Some(lost) = fields_lost(&scene) {
-        account.drop(lost);
-    }
-    let held: Vec<_> = each_object(&scene).filter(|object| is_triangles(&object.shape)).collect();
-    let used: BTreeSet<u32> = held.iter().flat_map(|object| used_by(object)).collect();
+    say_fields(&scene, account);
+    let held: Vec<_> = scene.all_objects().filter(|object| is_triangles(&object.shape)).collect();
+    let used: BTreeSet<u32> = held.iter().flat_map(|object| object.material_numbers()).collect();
     let own = |m: &u32| !(options.bare && *m == 0);
     let own: Vec<_> =
         used.iter().filter(|m| own(m)).filter_map(|m| scene.materials.get(*m as usize)).collect();
@@ -36,7 +33,7 @@ pub(crate) fn write_stl(
         let message = format!("STL holds no materials: {names}");
         account.drop(warning(message, &first.place));
     }
-    if let Some(colored) = held.iter().find(|object| has_colors(&object.shape)) {
+    if let Some(colored) = held.iter().find(|object| object.shape.has_colors()) {
         let message = format!("STL holds no colours, like those of {}", colored.name);
         account.drop(warning(message, &colored.place));
     }

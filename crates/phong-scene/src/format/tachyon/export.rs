@@ -11,7 +11,7 @@ use crate::camera::CameraKind;
 use crate::color::Rgb;
 use crate::diagnostic::Diagnostic;
 use crate::fog::{FogDistance, FogKind};
-use crate::format::export::flat::{each_object, fields_lost, listed, say_unfolded, warning};
+use crate::format::export::flat::{listed, say_fields, say_unfolded, warning};
 use crate::format::export::merge::{Size, each_placed};
 use crate::format::export::{Account, File, Writing};
 use crate::light::LightKind;
@@ -30,9 +30,7 @@ pub(crate) fn write_tachyon(
 ) -> Result<Vec<File>, Box<Diagnostic>> {
     Size::of(&scene).check(options.max_bytes)?;
     say_unfolded(&scene, account);
-    if let Some(lost) = fields_lost(&scene) {
-        account.drop(lost);
-    }
+    say_fields(&scene, account);
     let head = head(&scene, account);
     let surfaces = surfaces(&scene, account);
     leave_out(&scene, account);
@@ -324,7 +322,7 @@ fn leave_out(scene: &Scene, account: &mut Account) {
         let message = format!("Tachyon holds no {what}: {names}");
         account.drop(Diagnostic::warning(message, None));
     }
-    let uneven = each_object(scene).map(|object| match &object.shape {
+    let uneven = scene.all_objects().map(|object| match &object.shape {
         Shape::Cylinders(all) => all.segments.iter().filter(|[a, b]| a[3] != b[3]).count(),
         _ => 0,
     });

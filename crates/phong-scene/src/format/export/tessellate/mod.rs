@@ -283,7 +283,7 @@ fn say_uv(scene: &Scene, account: &mut Account) {
                 })
             })
     };
-    let lost: Vec<&Object> = super::flat::each_object(scene).filter(on_surface).collect();
+    let lost: Vec<&Object> = scene.all_objects().filter(on_surface).collect();
     if let [first, ..] = &lost[..] {
         let names = listed(lost.iter().map(|object| object.name.as_str()), lost.len());
         let message = format!("triangles get no texture coordinates: {names}");

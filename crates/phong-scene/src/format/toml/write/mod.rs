@@ -20,7 +20,6 @@ use crate::format::export::{Account, File, PlyEncoding, Writing, free_name, spli
 use crate::furniture::Furniture;
 use crate::keys::{self, Key, Keyed, Kind, Table, Value};
 use crate::limits::LARGEST;
-use crate::maps::fields_of;
 use crate::material::{Material, MaterialId};
 use crate::mesh::{Cylinders, Field, Mesh};
 use crate::scene::{Object, Scene};
@@ -412,7 +411,7 @@ fn is_seen(object: &Object, account: &mut Account) -> bool {
 
 /// Says which numbers of points a file beside the text has no name for.
 fn say_unwritten(object: &Object, account: &mut Account) {
-    for field in fields_of(&object.shape).iter().filter(|field| !Field::is_name(&field.name)) {
+    for field in object.shape.fields().iter().filter(|field| !Field::is_name(&field.name)) {
         let message = format!(
             "the numbers {} of {} are not written: a PLY file names them by one word that nothing else in it has",
             quoted(&field.name),
