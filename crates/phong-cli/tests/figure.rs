@@ -17,7 +17,7 @@ fn without_a_name_it_lists_the_figures_and_writes_nothing() {
     let words = String::from_utf8(answer.get_output().stdout.clone()).unwrap();
     let names: Vec<&str> = words.lines().filter_map(|line| line.split(' ').next()).collect();
     let wanted = "normal vectors shading ambient diffuse scattering cosine specular reflection \
-                  shininess grid halfway peak speed blinn terms examples microfacets";
+                  shininess grid halfway peak speed blinn terms examples sky microfacets";
     assert_eq!(names, wanted.split(' ').collect::<Vec<_>>());
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
 }
