@@ -82,14 +82,6 @@
 //! | `hidden` | `behind` or `never` | `"behind"` | Whether they are hidden where something stands before the point, or never. |
 //! | `radius` | a number 0 or above | `0` | How far before the point something may stand without hiding it, in scene units: the radius of the ball whose middle the point is. |
 //! | `offset` | two numbers, `[x, y]` | `[0, 0]` | How far from the point they begin, points, to the right and up; to the left (below 0) they end there, and at 0 they are over its middle. |
-//!
-//! `[[clip]]`:
-//!
-//! | key | value | default | meaning |
-//! |---|---|---|---|
-//! | `kind` | `plane` or `box` | `"plane"` | What it cuts along. |
-//! | `point` (plane) | three numbers, `[x, y, z]` | required | Any point of the plane. |
-//! | `normal` (plane) | three numbers, `[x, y, z]`, not all 0 | required | What lies on the side that it points to is cut away; any length. |
 
 use glam::{DVec2, DVec3};
 

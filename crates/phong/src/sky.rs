@@ -190,10 +190,6 @@ mod tests {
         Sky::new(&phong_scene::Sky { kind, ..phong_scene::Sky::default() }, 16)
     }
 
-    fn luminance(color: Rgb) -> f32 {
-        0.212_6 * color.r + 0.715_2 * color.g + 0.072_2 * color.b
-    }
-
     #[test]
     fn a_gradient_runs_from_the_horizon_to_the_zenith() {
         let [zenith, horizon] = [Rgb::new(0.0, 0.0, 1.0), Rgb::new(1.0, 0.0, 0.0)];
@@ -213,8 +209,8 @@ mod tests {
         let clear = daylight(2.0);
         let above = clear.radiance(Vec3::Y);
         assert!(above.b > 1.5 * above.r, "{above:?}");
-        let at_sun = luminance(clear.radiance(Vec3::new(1.0, 1.0, 0.0).normalize_or_zero()));
-        let opposite = luminance(clear.radiance(Vec3::new(-1.0, 1.0, 0.0).normalize_or_zero()));
+        let at_sun = clear.radiance(Vec3::new(1.0, 1.0, 0.0).normalize_or_zero()).luminance();
+        let opposite = clear.radiance(Vec3::new(-1.0, 1.0, 0.0).normalize_or_zero()).luminance();
         assert!(at_sun > 3.0 * opposite, "{at_sun} {opposite}");
         let hazy = daylight(9.0).radiance(Vec3::Y);
         assert!(hazy.b / hazy.r < above.b / above.r, "{hazy:?}");
@@ -229,7 +225,7 @@ mod tests {
                 let (u, v) = (f64::from(i % n) + 0.5, f64::from(i / n) + 0.5);
                 let [x, z] = crate::camera::concentric_disc([u / f64::from(n), v / f64::from(n)]);
                 let dir = DVec3::new(x, (1.0 - x * x - z * z).sqrt(), z).as_vec3();
-                sum += f64::from(luminance(sky.radiance(dir)));
+                sum += f64::from(sky.radiance(dir).luminance());
             }
             let mean = sum / f64::from(n * n);
             assert!((mean - 1.0).abs() < 0.01, "turbidity {turbidity}: {mean}");

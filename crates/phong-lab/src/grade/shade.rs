@@ -264,7 +264,7 @@ fn colors(light: &LightPoint, wrong: &Wrong, facts: &Facts) -> [Rgb; 2] {
         let grey = |c: Rgb| match wrong.light_color {
             LightColor::Brightest => Rgb::grey(c.max_channel()),
             LightColor::Mean => Rgb::grey((c.r + c.g + c.b) / 3.0),
-            LightColor::Luminance => Rgb::grey(0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b),
+            LightColor::Luminance => Rgb::grey(c.luminance()),
             LightColor::Right | LightColor::White | LightColor::WhiteSpecular => Rgb::WHITE,
         };
         // Whatever attenuates the light attenuates its wrong colour too.

@@ -33,7 +33,7 @@ pub(super) enum Tone {
 pub(super) fn encode(color: Rgb, tone: Tone) -> [f32; 3] {
     let each = |f: &dyn Fn(f64) -> f64| color.to_array().map(|v| f(f64::from(v)) as f32);
     let curve = |v: f64| srgb_encode(v.clamp(0.0, 1.0));
-    let luminance = || f64::from(0.2126 * color.r + 0.7152 * color.g + 0.0722 * color.b).max(0.0);
+    let luminance = || f64::from(color.luminance()).max(0.0);
     match tone {
         Tone::Right => each(&curve),
         Tone::Missing => each(&|v| v.clamp(0.0, 1.0)),

@@ -63,6 +63,25 @@ impl Rgb {
         self.r.max(self.g).max(self.b)
     }
 
+    /// How bright it is to the eye, Y of Rec. 709; of white 1.
+    #[must_use]
+    pub fn luminance(self) -> f32 {
+        0.2126 * self.r + 0.7152 * self.g + 0.0722 * self.b
+    }
+
+    /// The colour at `t` of stops, each of a `t`, never falling, and a colour: linear between them, and beyond
+    /// them as they are. Black where there are none.
+    #[must_use]
+    pub fn of_stops(stops: &[(f32, Self)], t: f32) -> Self {
+        let next = stops.partition_point(|&(at, _)| at <= t);
+        let (before, after) = stops.split_at(next);
+        match (before.last(), after.first()) {
+            (Some(&(from, a)), Some(&(to, b))) => a + (t - from) / (to - from) * (b - a),
+            (Some(&(_, only)), None) | (None, Some(&(_, only))) => only,
+            (None, None) => Self::BLACK,
+        }
+    }
+
     /// Applies `f` to each channel.
     #[must_use]
     pub fn map(self, f: impl Fn(f32) -> f32) -> Self {

@@ -143,7 +143,7 @@ impl Lit<'_> {
         pixels
             .map(|i| {
                 let share = self.alpha.and_then(|alpha| alpha.get(i)).map_or(1.0, |&alpha| alpha);
-                luminance(self.picture[i].into()) / share
+                Rgb::from(self.picture[i]).luminance() / share
             })
             .filter(|&y| y > 0.0 && y < f32::INFINITY)
     }
@@ -200,15 +200,10 @@ impl Lit<'_> {
     }
 }
 
-/// The luminance of a colour.
-fn luminance(color: Rgb) -> f32 {
-    0.212_6 * color.r + 0.715_2 * color.g + 0.072_2 * color.b
-}
-
 /// See [`ToneCurve::Reinhard`].
 fn reinhard(light: Rgb, white: f32) -> Rgb {
     let light: Rgb = light.to_array().map(|v| v.min(BRIGHTEST)).into();
-    let y = luminance(light);
+    let y = light.luminance();
     if y > 0.0 { light * ((1.0 + y / (white * white)) / (1.0 + y)) } else { light }
 }
 
@@ -352,7 +347,7 @@ mod tests {
         for neutral in [[1.0, 0.5, 0.2], [0.2, 0.3, 2.0], [1.0, 0.0, 0.0]].map(Rgb::from) {
             let tone = Tone { neutral: Some(neutral), ..Tone::default() };
             let [r, g, b] = map(tone).steps(neutral).last().to_array();
-            let wanted = luminance(neutral);
+            let wanted = neutral.luminance();
             for channel in [r, g, b] {
                 assert!((channel - wanted).abs() < 1e-4, "{neutral:?}: {r} {g} {b}, {wanted}");
             }

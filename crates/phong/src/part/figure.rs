@@ -44,12 +44,13 @@ pub(super) fn from_line(line: &str) -> Option<Scene> {
 
 /// Black or white, whichever stands out from the background.
 fn ink(scene: &Scene) -> Rgb {
-    let luminance = |Rgb { r, g, b }: Rgb| 0.2126 * r + 0.7152 * g + 0.0722 * b;
     let behind = match (&scene.sky, scene.image.background) {
         // Transparent pictures are laid on paper more often than not.
         (_, Background::Transparent) | (Some(_), _) => 1.0,
-        (None, Background::Color(color)) => luminance(color),
-        (None, Background::Gradient { top, bottom }) => 0.5 * (luminance(top) + luminance(bottom)),
+        (None, Background::Color(color)) => color.luminance(),
+        (None, Background::Gradient { top, bottom }) => {
+            0.5 * (top.luminance() + bottom.luminance())
+        }
     };
     // Where the contrasts of black and of white, as (L + 0.05) / (l + 0.05), are the same.
     if behind > 0.179 { Rgb::BLACK } else { Rgb::WHITE }

@@ -26,13 +26,7 @@ impl Ramp {
 
     /// The colour at t; black where there are no stops.
     pub(super) fn at(&self, t: f32) -> Rgb {
-        let next = self.stops.partition_point(|&(at, _)| at <= t);
-        let (before, after) = self.stops.split_at(next);
-        match (before.last(), after.first()) {
-            (Some(&(from, a)), Some(&(to, b))) => a + (t - from) / (to - from) * (b - a),
-            (Some(&(_, only)), None) | (None, Some(&(_, only))) => only,
-            (None, None) => Rgb::BLACK,
-        }
+        Rgb::of_stops(&self.stops, t)
     }
 
     /// The mean of the colours from `t − half` to `t + half`.
