@@ -1,5 +1,6 @@
-//! What is asked of the renderer: figures, what a figure needs beside its picture, fits, grades, comparisons, formulas evaluated by name,
-//! measured memory and speed, and explanations of a pixel as text, JSON, LaTeX, SVG and HTML.
+//! What is asked of the renderer: figures, what a figure needs beside its picture, fits, grades,
+//! comparisons, formulas evaluated by name, measured memory and speed, and explanations of a pixel as
+//! text, JSON, LaTeX, SVG and HTML.
 //!
 //! Everything here is made from the public items of [`phong`]. A program that only draws pictures
 //! does not need this crate.
@@ -9,6 +10,7 @@
 extern crate serial as rayon;
 
 pub mod compare;
+mod draw;
 pub mod eval;
 pub mod figures;
 pub mod fit;

@@ -1,19 +1,15 @@
 //! A drawing as pixels, and pixels as PNG.
 
-use tiny_skia::{
-    FillRule, FilterQuality, LineCap, LineJoin, Paint, PathBuilder, Pixmap, PixmapPaint,
-    StrokeDash, Transform,
-};
+use tiny_skia::{FilterQuality, Pixmap, PixmapPaint, Transform};
 
 use super::drawing::Drawing;
-use super::mark::{Anchor, Bitmap, Ink, Mark, Path, Point, Run, Script, Step, Stroke, Text};
+use super::mark::{Anchor, Bitmap, Ink, Mark, Path, Point, Run, Script, Stroke, Text};
 use super::style;
 use super::text::Faces;
+use crate::draw;
 
 /// Pixels a unit: a slide comes out 1920 wide.
 pub(super) const SCALE: f64 = 2.0;
-/// The lengths of a dash and of the gap after it.
-pub(super) const DASH: [f64; 2] = [6.0, 6.0];
 
 /// The drawing at [`SCALE`], as a PNG file.
 pub(super) fn png(drawing: &Drawing) -> Vec<u8> {
@@ -26,7 +22,7 @@ fn paint(drawing: &Drawing) -> Bitmap {
         pixels: Pixmap::new(width.max(1), height.max(1)).expect("a canvas of moderate size"),
         faces: Faces::new(),
     };
-    canvas.pixels.fill(color(drawing.paper));
+    canvas.pixels.fill(draw::color(drawing.paper));
     for mark in &drawing.marks {
         match mark {
             Mark::Shape { path, fill, stroke } => canvas.shape(path, *fill, *stroke),
@@ -86,20 +82,11 @@ impl Canvas {
         stroke: Option<Stroke>,
         transform: Transform,
     ) {
-        let Some(path) = outline(path) else { return };
         if let Some(ink) = fill {
-            self.pixels.fill_path(&path, &solid(ink), FillRule::Winding, transform, None);
+            draw::fill(&mut self.pixels, path, ink, transform);
         }
-        if let Some(Stroke { ink, width, dashed }) = stroke {
-            let dash = dashed.then(|| DASH.map(|side| side as f32).to_vec());
-            let stroke = tiny_skia::Stroke {
-                width: width as f32,
-                line_cap: LineCap::Round,
-                line_join: LineJoin::Round,
-                dash: dash.and_then(|dash| StrokeDash::new(dash, 0.0)),
-                ..tiny_skia::Stroke::default()
-            };
-            self.pixels.stroke_path(&path, &solid(ink), &stroke, transform, None);
+        if let Some(line) = stroke {
+            draw::stroke(&mut self.pixels, path, line, transform);
         }
     }
 
@@ -127,43 +114,6 @@ impl Canvas {
         let paint = PixmapPaint { quality: FilterQuality::Bilinear, ..PixmapPaint::default() };
         self.pixels.draw_pixmap(0, 0, pixels.as_ref(), &paint, transform, None);
     }
-}
-
-pub(crate) fn outline(path: &Path) -> Option<tiny_skia::Path> {
-    let mut builder = PathBuilder::new();
-    let xy = |p: Point| (p.x as f32, p.y as f32);
-    for step in &path.0 {
-        match *step {
-            Step::Move(p) => {
-                let (x, y) = xy(p);
-                builder.move_to(x, y);
-            }
-            Step::Line(p) => {
-                let (x, y) = xy(p);
-                builder.line_to(x, y);
-            }
-            Step::Quad(c, p) => {
-                let ((x1, y1), (x, y)) = (xy(c), xy(p));
-                builder.quad_to(x1, y1, x, y);
-            }
-            Step::Cubic(c, d, p) => {
-                let ((x1, y1), (x2, y2), (x, y)) = (xy(c), xy(d), xy(p));
-                builder.cubic_to(x1, y1, x2, y2, x, y);
-            }
-            Step::Close => builder.close(),
-        }
-    }
-    builder.finish()
-}
-
-fn color(Ink { srgb: [r, g, b], opacity }: Ink) -> tiny_skia::Color {
-    tiny_skia::Color::from_rgba8(r, g, b, (opacity * 255.0 + 0.5) as u8)
-}
-
-pub(crate) fn solid(ink: Ink) -> Paint<'static> {
-    let mut paint = Paint::default();
-    paint.set_color(color(ink));
-    paint
 }
 
 /// A bitmap as a PNG file: 8 bits, sRGB.

@@ -6,10 +6,10 @@
 use std::fmt::Write;
 
 use super::drawing::Drawing;
-use super::mark::Script;
-use super::mark::{Anchor, Bitmap, Ink, Mark, Path, Point, Step, Stroke, Text};
+use super::mark::{Anchor, Bitmap, Mark, Path, Point, Script, Text};
 use super::raster;
 use super::text;
+use crate::draw::{number, paint, shape};
 use crate::markup::{data_url, escaped};
 
 /// Names of the faces, with common ones behind them.
@@ -69,43 +69,6 @@ fn element(drawing: &Drawing, title: &str, description: &str, head: &str) -> Str
     out + "</svg>\n"
 }
 
-pub(crate) fn shape(path: &Path, fill: Option<Ink>, stroke: Option<Stroke>) -> String {
-    let mut out = String::from("<path d=\"");
-    for step in &path.0 {
-        let (letter, points): (char, &[Point]) = match step {
-            Step::Move(p) => ('M', &[*p]),
-            Step::Line(p) => ('L', &[*p]),
-            Step::Quad(c, p) => ('Q', &[*c, *p]),
-            Step::Cubic(c, d, p) => ('C', &[*c, *d, *p]),
-            Step::Close => ('Z', &[]),
-        };
-        out.push(letter);
-        let numbers: Vec<String> = points.iter().flat_map(|p| [number(p.x), number(p.y)]).collect();
-        out += &numbers.join(" ");
-    }
-    out += "\"";
-    out += &paint("fill", fill);
-    if let Some(Stroke { ink, width, dashed }) = stroke {
-        out += &paint("stroke", Some(ink));
-        let _ = write!(out, " stroke-width=\"{}\"", number(width));
-        if dashed {
-            let _ = write!(out, " stroke-dasharray=\"{}\"", raster::DASH.map(number).join(" "));
-        }
-    }
-    out + "/>\n"
-}
-
-fn paint(attribute: &str, ink: Option<Ink>) -> String {
-    let Some(Ink { srgb: [r, g, b], opacity }) = ink else {
-        return format!(" {attribute}=\"none\"");
-    };
-    let mut out = format!(" {attribute}=\"#{r:02x}{g:02x}{b:02x}\"");
-    if opacity < 1.0 {
-        let _ = write!(out, " {attribute}-opacity=\"{}\"", number(opacity));
-    }
-    out
-}
-
 fn words(text: &Text) -> String {
     let Text { at, anchor, size, ink, bold, upright, runs } = text;
     let mut out = if *upright {
@@ -158,21 +121,9 @@ fn image(at: Point, size: Point, bitmap: &Bitmap) -> String {
     )
 }
 
-/// Hundredths, without trailing zeros.
-pub(crate) fn number(value: f64) -> String {
-    let rounded = format!("{value:.2}");
-    let trimmed = rounded.trim_end_matches('0').trim_end_matches('.');
-    if trimmed == "-0" { "0".to_owned() } else { trimmed.to_owned() }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn numbers_are_short() {
-        assert_eq!([1.0, -0.001, 0.5, 12.345_6].map(number), ["1", "0", "0.5", "12.35"]);
-    }
 
     #[test]
     fn words_are_escaped_and_scripts_come_back_to_the_line() {

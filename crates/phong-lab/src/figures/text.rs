@@ -2,9 +2,10 @@
 //!
 //! The markup is what one would write in a mail: `*k*_d (*l*·*n*)`, `(*r*·*e*)^{*α*}`.
 
-use ttf_parser::{Face, GlyphId, OutlineBuilder};
+use ttf_parser::{Face, GlyphId};
 
 use super::mark::{Anchor, Path, Point, Run, Script, Text};
+use crate::draw::Pen;
 use crate::markup::escaped;
 
 /// Splits markup into runs: `*…*` is italic; `_` and `^` lower and raise the next letter or group in
@@ -114,7 +115,8 @@ impl Faces {
 
     /// The outlines of `runs` with the pen first at `at`.
     pub(super) fn outline(&self, runs: &[Run], at: Point, size: f64, bold: bool) -> Path {
-        let mut pen = Pen { path: Path::default(), at, scale: 1.0 };
+        let mut path = Path::default();
+        let mut pen = Pen { path: &mut path, at, scale: 1.0 };
         for run in runs {
             let size_here = size * run.script.scale();
             pen.at.y = at.y + run.script.drop() * size;
@@ -125,38 +127,7 @@ impl Faces {
                 pen.at.x += f64::from(face.glyph_hor_advance(glyph).unwrap_or(0)) * pen.scale;
             }
         }
-        pen.path
-    }
-}
-
-/// Collects glyph outlines, font units up to canvas units down.
-struct Pen {
-    path: Path,
-    at: Point,
-    scale: f64,
-}
-
-impl Pen {
-    fn to(&self, x: f32, y: f32) -> Point {
-        self.at + Point::new(f64::from(x), -f64::from(y)) * self.scale
-    }
-}
-
-impl OutlineBuilder for Pen {
-    fn move_to(&mut self, x: f32, y: f32) {
-        self.path.move_to(self.to(x, y));
-    }
-    fn line_to(&mut self, x: f32, y: f32) {
-        self.path.line_to(self.to(x, y));
-    }
-    fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
-        self.path.quad_to(self.to(x1, y1), self.to(x, y));
-    }
-    fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
-        self.path.cubic_to(self.to(x1, y1), self.to(x2, y2), self.to(x, y));
-    }
-    fn close(&mut self) {
-        self.path.close();
+        path
     }
 }
 

@@ -9,7 +9,7 @@ use phong_scene::{
 use super::round::{Round, number};
 use super::sheet::{Group, Paint, ink};
 use super::text::{CAPITAL, Font};
-use crate::figures::mark::{Ink, Path, Point, Stroke};
+use crate::draw::{Ink, Path, Point, Stroke};
 
 /// The most pixels of a point: where there were more, there are so many.
 const MOST_PIXELS: f64 = 500.0;
@@ -58,7 +58,7 @@ impl<'a> Layout<'a> {
         let style = scene.furniture.style;
         let point = (scene.image.dpi.unwrap_or(super::DPI) / 72.0).min(MOST_PIXELS);
         let color = style.color.unwrap_or(Rgb::BLACK);
-        let dark = 0.2126 * color.r + 0.7152 * color.g + 0.0722 * color.b <= 0.179;
+        let dark = color.luminance() <= 0.179;
         let around = if dark { Ink::rgb(255, 255, 255) } else { Ink::rgb(0, 0, 0) };
         Self {
             font,

@@ -1,13 +1,12 @@
-//! Furniture as pixels. The coverage of a pixel is computed without vector instructions, in the same
-//! order on every machine.
+//! Furniture as pixels.
 
 use phong::film::Window;
 use phong::finish::Patch;
-use tiny_skia::{FillRule, LineCap, LineJoin, Pixmap, Transform};
+use phong::scene::Rgb;
+use tiny_skia::{Pixmap, Transform};
 
-use super::sheet::{Group, Paint, color_at, ink};
-use crate::figures::mark::{Ink, Path, Point, Stroke};
-use crate::figures::raster::{outline, solid};
+use super::sheet::{Group, Paint, ink};
+use crate::draw::{self, Path, Point, Stroke};
 
 /// The most pixels of one piece: what has more is painted in several.
 const MOST_PIXELS: u64 = 1 << 26;
@@ -78,6 +77,7 @@ fn patch(groups: &[Group], window: Window) -> Option<Patch> {
 
 /// Paints a group onto a piece whose corner is at `from`.
 fn paint(pixels: &mut Pixmap, group: &Group, from: Point) {
+    let still = Transform::identity();
     if let Some((color, width)) = group.halo {
         for paint in &group.paints {
             let (path, more) = match paint {
@@ -85,13 +85,14 @@ fn paint(pixels: &mut Pixmap, group: &Group, from: Point) {
                 Paint::Line(path, stroke) => (path.moved(-from), stroke.width),
                 Paint::Ramp { .. } => continue,
             };
-            stroke(pixels, &path, Stroke::new(color, more + 2.0 * width));
+            let stroke = Stroke::new(color, more + 2.0 * width);
+            draw::stroke(pixels, &path, stroke, still);
         }
     }
     for paint in &group.paints {
         match paint.moved(-from) {
-            Paint::Fill(path, ink) => fill(pixels, &path, ink),
-            Paint::Line(path, line) => stroke(pixels, &path, line),
+            Paint::Fill(path, ink) => draw::fill(pixels, &path, ink, still),
+            Paint::Line(path, line) => draw::stroke(pixels, &path, line, still),
             Paint::Ramp { at, size, stops } => {
                 let rows = size.y.max(1.0) as u32;
                 for row in 0..rows {
@@ -99,27 +100,10 @@ fn paint(pixels: &mut Pixmap, group: &Group, from: Point) {
                     let corners = [(0.0, 0.0), (size.x, 0.0), (size.x, 1.0), (0.0, 1.0)];
                     let corners = corners.map(|(x, y)| Point::new(at.x + x, top + y));
                     let t = 1.0 - (f64::from(row) + 0.5) / f64::from(rows);
-                    fill(pixels, &Path::polygon(corners), ink(color_at(&stops, t as f32)));
+                    let color = ink(Rgb::of_stops(&stops, t as f32));
+                    draw::fill(pixels, &Path::polygon(corners), color, still);
                 }
             }
         }
-    }
-}
-
-fn fill(pixels: &mut Pixmap, path: &Path, ink: Ink) {
-    if let Some(path) = outline(path) {
-        pixels.fill_path(&path, &solid(ink), FillRule::Winding, Transform::identity(), None);
-    }
-}
-
-fn stroke(pixels: &mut Pixmap, path: &Path, Stroke { ink, width, .. }: Stroke) {
-    let stroke = tiny_skia::Stroke {
-        width: width as f32,
-        line_cap: LineCap::Round,
-        line_join: LineJoin::Round,
-        ..tiny_skia::Stroke::default()
-    };
-    if let Some(path) = outline(path) {
-        pixels.stroke_path(&path, &solid(ink), &stroke, Transform::identity(), None);
     }
 }

@@ -2,7 +2,7 @@
 
 use phong_scene::{Rgb, srgb_encode};
 
-use crate::figures::mark::{Ink, Path, Point, Stroke};
+use crate::draw::{Ink, Path, Point, Stroke};
 
 /// Something painted; places are in pixels of the full picture, y down.
 #[derive(Clone, Debug)]
@@ -70,18 +70,4 @@ pub(super) fn ink(color: Rgb) -> Ink {
     let level = |c: f32| (srgb_encode(f64::from(c).clamp(0.0, 1.0)) * 255.0 + 0.5) as u8;
     let [r, g, b] = color.to_array().map(level);
     Ink::rgb(r, g, b)
-}
-
-/// The linear colour of stops at `t`, and at the ends beyond them.
-pub(super) fn color_at(stops: &[(f32, Rgb)], t: f32) -> Rgb {
-    let after = stops.partition_point(|(at, _)| *at <= t);
-    match (after.checked_sub(1).map(|before| stops[before]), stops.get(after)) {
-        (Some((from, a)), Some(&(to, b))) => {
-            let share = (t - from) / (to - from);
-            let mix = |a: f32, b: f32| a * (1.0 - share) + b * share;
-            Rgb::new(mix(a.r, b.r), mix(a.g, b.g), mix(a.b, b.b))
-        }
-        (Some((_, color)), None) | (None, Some(&(_, color))) => color,
-        (None, None) => Rgb::BLACK,
-    }
 }

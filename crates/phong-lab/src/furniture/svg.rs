@@ -3,16 +3,15 @@
 use std::fmt::Write as _;
 use std::io::Cursor;
 
-use phong::film::Film;
-use phong::film::LayerKind;
+use phong::film::{Film, LayerKind};
 use phong::finish::{Finished, finish};
 use phong::image::{Content, Encoding, Format, WriteError, write};
 use phong::part::Settings;
+use phong::scene::Rgb;
 
-use super::sheet::{Group, Paint, color_at, ink};
+use super::sheet::{Group, Paint, ink};
 use super::{groups, text::Font};
-use crate::figures::mark::{Point, Stroke};
-use crate::figures::svg::{number, shape};
+use crate::draw::{Point, Stroke, number, shape};
 use crate::markup::{data_url, escaped};
 
 /// Colours of a bar that are written; between them an SVG mixes the levels of sRGB.
@@ -98,7 +97,7 @@ fn put(out: &mut String, group: &Group, number_of: usize) {
                 );
                 for step in 0..=RAMP {
                     let t = f64::from(step) / f64::from(RAMP);
-                    let [r, g, b] = ink(color_at(stops, t as f32)).srgb;
+                    let [r, g, b] = ink(Rgb::of_stops(stops, t as f32)).srgb;
                     let _ = write!(
                         out,
                         "<stop offset=\"{}\" stop-color=\"#{r:02x}{g:02x}{b:02x}\"/>",

@@ -1,9 +1,9 @@
 //! Words as outlines, in the one font of furniture.
 
-use rustybuzz::ttf_parser::{GlyphId, OutlineBuilder};
+use rustybuzz::ttf_parser::GlyphId;
 use rustybuzz::{Face, UnicodeBuffer, shape};
 
-use crate::figures::mark::{Path, Point};
+use crate::draw::{Path, Pen, Point};
 
 /// The font; see `font/README.md`.
 const FONT: &[u8] = include_bytes!("font/sans.ttf");
@@ -59,7 +59,7 @@ impl Font {
             let mut pen = Point::new(0.0, words.drop);
             for (glyph, place) in glyphs.glyph_infos().iter().zip(glyphs.glyph_positions()) {
                 let off = Point::new(f64::from(place.x_offset), -f64::from(place.y_offset));
-                let mut outline = Outline { path: &mut words.path, at: pen + off * scale, scale };
+                let mut outline = Pen { path: &mut words.path, at: pen + off * scale, scale };
                 let glyph = GlyphId(glyph.glyph_id as u16);
                 self.0.outline_glyph(glyph, &mut outline);
                 pen.x += f64::from(place.x_advance) * scale;
@@ -67,41 +67,6 @@ impl Font {
             words.width = words.width.max(pen.x);
         }
         words
-    }
-}
-
-/// Collects the outline of a letter, font units up to pixels down.
-struct Outline<'a> {
-    path: &'a mut Path,
-    at: Point,
-    scale: f64,
-}
-
-impl Outline<'_> {
-    fn to(&self, x: f32, y: f32) -> Point {
-        self.at + Point::new(f64::from(x), -f64::from(y)) * self.scale
-    }
-}
-
-impl OutlineBuilder for Outline<'_> {
-    fn move_to(&mut self, x: f32, y: f32) {
-        self.path.move_to(self.to(x, y));
-    }
-
-    fn line_to(&mut self, x: f32, y: f32) {
-        self.path.line_to(self.to(x, y));
-    }
-
-    fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
-        self.path.quad_to(self.to(x1, y1), self.to(x, y));
-    }
-
-    fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
-        self.path.cubic_to(self.to(x1, y1), self.to(x2, y2), self.to(x, y));
-    }
-
-    fn close(&mut self) {
-        self.path.close();
     }
 }
 
