@@ -3,8 +3,9 @@
 
 PHONG is the program, with `wasm` beside it as `bash .ci/wasm` makes it; into FOLDER go pictures and
 screenshots. Every scene of the gallery is drawn at 320 × 180 in Node, with vector instructions and without,
-and by two workers of the page of static files in Debian's Chromium. The EXR and PNG files have to be those of the program, byte for byte, and a pixel explained the same. The page is served
-from a folder below the root with the strictest policy it can work under.
+and by two workers of the page of static files in Debian's Chromium. The EXR and PNG files have to be those of
+the program, byte for byte, and a pixel explained the same. The page is served from a folder below the root
+with the strictest policy it can work under.
 """
 
 import base64

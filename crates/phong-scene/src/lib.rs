@@ -2,7 +2,8 @@
 //!
 //! The door is [`Scene`]: resolved (no name left to look up), checked, with every default filled
 //! in. This crate knows no rays and no pixels, and never imports another crate of the project (but
-//! the stand-in for rayon where there are no threads). It never prints, exits or panics on input: reading gives *all* [`Diagnostic`]s as data.
+//! the stand-in for rayon where there are no threads). It never prints, exits or panics on input:
+//! reading gives *all* [`Diagnostic`]s as data.
 
 // It has no threads; everything else in this crate says `rayon`.
 #[cfg(target_arch = "wasm32")]

@@ -9,7 +9,7 @@
 //!
 //! | key | value | default | meaning |
 //! |---|---|---|---|
-//! | `exposure` | a number from -100 to 100, or "auto" | `0` | Stops by which the picture is made brighter: each doubles the light. `"auto"` makes the mean luminance of what is lit 0.18. |
+//! | `exposure` | a number from -100 to 100, or "auto" | `0` | Stops by which the picture is made brighter: each doubles the light. `"auto"` makes the geometric mean luminance of what is lit 0.18. |
 //! | `white_balance` | a number from 1700 to 25000 | none | Colour temperature of the light that is to look white, kelvin. |
 //! | `neutral` | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name | none | The colour that is to look grey, in place of `white_balance`. |
 //! | `curve` | `clamp`, `reinhard` or `filmic` | `"clamp"` | How light beyond white is brought into the range of a display. |
@@ -46,7 +46,7 @@ impl Tone {
 /// How much brighter a picture is made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Exposure {
-    /// So much that the mean luminance of what is lit becomes 0.18.
+    /// So much that the geometric mean luminance of what is lit becomes 0.18.
     Auto,
     /// So many stops, from −100 to 100: each doubles the light.
     Stops(f64),

@@ -130,7 +130,7 @@ pub(crate) struct EncodingArgs {
 #[derive(Args, Clone, Debug, Default)]
 #[command(next_help_heading = "File")]
 pub(crate) struct ToneArgs {
-    /// Stops of exposure in a PNG: every one doubles the light; `auto` makes the mean of what is lit 0.18
+    /// Stops of exposure in a PNG: every one doubles the light; `auto` makes the geometric mean of what is lit 0.18
     #[arg(long, value_name = "EV|auto", value_parser = values::exposure, allow_hyphen_values = true)]
     pub(crate) exposure: Option<Exposure>,
 

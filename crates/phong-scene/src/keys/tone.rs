@@ -20,7 +20,7 @@ pub(crate) static TONE: Table = Table {
             Kind::NumberOr(Tone::EXPOSURE, "auto"),
             Default::Number(0.0),
             "Stops by which the picture is made brighter: each doubles the light. `\"auto\"` makes the \
-             mean luminance of what is lit 0.18.",
+             geometric mean luminance of what is lit 0.18.",
         )
         .of(field!(Tone.exposure)),
         Key::new(

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use crate::math::wide;
 
-/// What automatic exposure makes of the mean luminance of what is lit: a grey in the middle between black
+/// What automatic exposure makes of the geometric mean luminance of what is lit: a grey in the middle between black
 /// and white to the eye, as photographers and Reinhard's paper have it.
 const MIDDLE_GREY: f64 = 0.18;
 
@@ -115,9 +115,9 @@ impl ToneMap {
     }
 }
 
-/// The stops that bring the mean of what is lit to a middle grey; 0 where nothing is.
+/// The stops that bring the geometric mean of what is lit to a middle grey; 0 where nothing is.
 ///
-/// The mean is that of the logarithms of the luminances of all pixels that have any.
+/// It is taken over the luminances of all pixels that have any, each at most ten stops from their median.
 fn automatic(picture: &[f32], alpha: Option<&[f32]>) -> f64 {
     let lit = Lit { picture: picture.as_chunks::<3>().0, alpha };
     let Some((median, count)) = lit.median() else { return 0.0 };
