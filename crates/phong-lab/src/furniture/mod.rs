@@ -139,4 +139,6 @@ fn is_seen(label: &PointLabel, scene: &Scene, film: &Film, size: [u32; 2]) -> bo
 }
 
 #[cfg(test)]
+mod golden;
+#[cfg(test)]
 mod tests;
