@@ -12,7 +12,9 @@ use phong::render::{Cancel, RenderOptions, render};
 use phong::terms::{Term, TermSet};
 use phong::view::View;
 use phong_bvh::{BuildOptions, Level, Preset};
-use phong_scene::{Background, CameraKind, FilterKind, Limits, Memory, Reading, Rgb, Scene};
+use phong_scene::{
+    AmbientRule, Background, CameraKind, FilterKind, Fog, Limits, Memory, Reading, Rgb, Scene,
+};
 
 /// A scene with its picture as everybody else must draw it: one thread, the default tiles.
 struct Case {
@@ -280,6 +282,50 @@ fn every_camera_filter_and_background_is_drawn_as_explained_in_tiles_of_any_size
             for (term, value) in told.terms.iter() {
                 is(LayerKind::Term(term), &value.to_array());
             }
+        }
+    }
+}
+
+#[test]
+fn a_lights_layer_has_the_bits_of_a_picture_in_which_all_else_is_dark() {
+    let text = include_str!("agreement/lights.toml");
+    // So many that they are not all kept at once.
+    let more =
+        |i: u32| format!("[[light]]\nkind = \"point\"\nposition = [{i}, 4, 5]\ncolor = 0.0{i}\n");
+    let text = text.to_owned() + &(1..=12).map(more).collect::<String>();
+    let source = Memory::new().with("scene.toml", text.into_bytes());
+    let read = phong_scene::read("scene.toml", None, &source, &Limits::default());
+    let lit = read.scene.unwrap_or_else(|| panic!("{:#?}", read.diagnostics));
+    let options = RenderOptions::of(&lit.image).expect("checked");
+    let count = lit.lights.len() as u32;
+    let picture = |scene: &Scene, options: &RenderOptions| {
+        drawn(&View::of(scene).expect("compiles"), options, 1)
+    };
+    for samples in [1, 2] {
+        let options = options.clone().with_samples(samples).expect("a few");
+        let film = picture(&lit, &options.clone().with_lights(count));
+        for kind in (0..count).map(LayerKind::Light).chain([LayerKind::Unlit]) {
+            let mut dark = lit.clone();
+            for (number, light) in (0..).zip(&mut dark.lights) {
+                if kind != LayerKind::Light(number) {
+                    (light.color, light.specular_color) = (Rgb::BLACK, Rgb::BLACK);
+                }
+            }
+            if kind != LayerKind::Unlit {
+                dark.image.background = Background::Color(Rgb::BLACK);
+                dark.fog = dark.fog.map(|fog| Fog { color: Some(Rgb::BLACK), ..fog });
+                for material in &mut dark.materials {
+                    material.emission_color = Some(Rgb::BLACK.into());
+                    if material.ambient_rule == AmbientRule::Once {
+                        material.ambient_color = Some(Rgb::BLACK.into());
+                    }
+                }
+            }
+            let alone = picture(&dark, &options);
+            let (layer, alone) = (film.layer(kind), alone.layer(LayerKind::Picture));
+            let [layer, alone] = [layer, alone].map(|layer| &layer.expect("a layer").values);
+            assert_eq!(layer, alone, "{} of {samples}", kind.name());
+            assert!(alone.iter().any(|value| *value > 0.0), "{} is seen", kind.name());
         }
     }
 }

@@ -13,7 +13,7 @@ use thiserror::Error;
 use crate::film::Sums8;
 use crate::filter::Filter;
 use crate::finish::{Finishing, ToneMap, ToneSteps, finish};
-use crate::integrator::{Brings, Integrator, Radiance8, RayCounts, SampleGrid};
+use crate::integrator::{Integrator, Radiance8, RayCounts, SampleGrid, Shares};
 use crate::math::Dir3;
 use crate::render::{Cancel, Drawn, Event, RenderOptions, camera_ray, render};
 use crate::sampling::Sampler;
@@ -395,7 +395,7 @@ impl<'a> Road<'a> {
             shadows: options.shadows(),
             terminator: options.terminator(),
             grid: SampleGrid { size, samples: options.samples() },
-            brings: Brings::All,
+            shares: Shares::NONE,
             stop: None,
         };
         Ok(Self { integrator, options, filter: Filter::new(options.filter()), pixel })

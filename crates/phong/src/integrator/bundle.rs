@@ -3,8 +3,10 @@
 use phong_bvh::{Ray, Rays8};
 use phong_scene::Rgb;
 
+use crate::math::lanes::set;
 use crate::sampling::{Sampler, Samplers8};
 use crate::terms::{TermSet, Terms8};
+use crate::witness::Branch;
 
 /// A ray from the camera.
 #[derive(Clone, Copy, Debug)]
@@ -81,6 +83,18 @@ impl Radiance8 {
             (true, false) => 0.0,
             (true, true) => self.seen_through[lane],
         }
+    }
+
+    /// Takes the light of a ray that went on from `lane` this way, already weighted, as that way's term.
+    pub(super) fn take(&mut self, branch: Branch, lane: usize, light: Rgb) {
+        let term = branch.term();
+        match branch {
+            Branch::Through => self.terms.add(term, lane, light),
+            Branch::Reflection | Branch::Transmission => {
+                set(&mut self.terms[term], lane, light.to_array());
+            }
+        }
+        self.brought = self.brought.with(term);
     }
 
     /// What a refracted ray adds to how much of a transparent background `lane` sees: that ray is

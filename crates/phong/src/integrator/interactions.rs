@@ -8,7 +8,7 @@ use phong_scene::{Background, Rgb};
 use super::bundle::Radiance8;
 use super::crossing::{Crossings, Departure};
 use super::lamps::{self, Lamps8};
-use super::{Brings, Integrator, Paths};
+use super::{Integrator, Paths};
 use crate::interaction::SurfaceInteraction;
 use crate::material::Material;
 use crate::math::lanes::{
@@ -81,7 +81,6 @@ impl Interactions {
             rays,
             interactions: self,
             passed,
-            brings: integrator.brings,
             out,
         });
     }
@@ -218,7 +217,6 @@ struct BeginRadiance<'a> {
     interactions: &'a mut Interactions,
     /// How many see-through surfaces are behind the rays.
     passed: u32,
-    brings: Brings,
     out: &'a mut [Radiance8],
 }
 
@@ -229,7 +227,7 @@ impl Kernel for BeginRadiance<'_> {
     fn run<S: Simd>(self, simd: S) {
         /// What lights add to in any case, and the ambient term.
         const LOCAL: TermSet = TermSet::of(&[Term::Ambient, Term::Diffuse, Term::Specular]);
-        let Self { scene, lift, height, rays, interactions, passed, brings, out } = self;
+        let Self { scene, lift, height, rays, interactions, passed, out } = self;
         let Interactions { hits, surfaces, shading, made, covers, widths, lamps, .. } =
             interactions;
         let eights = rays.iter().zip(hits).zip(surfaces).zip(shading).zip(out);
@@ -241,15 +239,12 @@ impl Kernel for BeginRadiance<'_> {
                 out.brought = out.brought.with(Term::Emission);
                 for lane in lanes(seen) {
                     let number = lamps.light[lane] as usize;
-                    if !brings.light(number) {
-                        continue;
-                    }
                     let light = &scene.lights()[number];
                     set(&mut out.terms[Term::Emission], lane, light.color().to_array());
                 }
             }
             let missed = rays.there & !met & !seen;
-            if missed != 0 && brings.unlit() {
+            if missed != 0 {
                 out.brought = out.brought.with(Term::Background);
                 let to = &mut out.terms[Term::Background];
                 match (scene.background(), scene.sky()) {
@@ -302,9 +297,6 @@ impl Kernel for BeginRadiance<'_> {
                     cover = Some(own);
                 }
                 let there = |color| cover.map_or(color, |cover| scale(cover, color));
-                if !brings.unlit() {
-                    continue;
-                }
                 let own = there(material.ambient_of(color, scene.ambient()));
                 add_in(simd, &mut out.terms[Term::Ambient], same, own);
                 if material.glows() {

@@ -17,11 +17,13 @@ mod lights;
 mod openness;
 mod optics;
 mod shadow_rays;
+mod shares;
 mod widths;
 
 pub use bundle::RayCounts;
 pub(crate) use bundle::{Bundle, CameraRay, Radiance8};
 pub(crate) use crossing::first_met;
+pub(crate) use shares::Shares;
 pub(crate) use widths::SampleGrid;
 
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -29,7 +31,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use phong_bvh::{Ray, Rays8, lanes};
 use phong_scene::{Background, Rgb};
 
-use crate::math::lanes::set;
 use crate::sampling::{Sampler, Samplers8};
 use crate::texture::Cone;
 use crate::view::View;
@@ -57,39 +58,11 @@ pub(crate) struct Integrator<'a> {
     pub(crate) terminator: bool,
     /// The picture that rays are samples of.
     pub(crate) grid: SampleGrid,
-    /// What is asked for.
-    pub(crate) brings: Brings,
+    /// Which shares of the light are kept beside all of it.
+    pub(crate) shares: Shares,
     /// Once true, whatever is under way ends soon, and what it brought is unspecified. `None`:
     /// nothing stops it.
     pub(crate) stop: Option<&'a AtomicBool>,
-}
-
-/// What rays are to bring.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) enum Brings {
-    /// All light.
-    #[default]
-    All,
-    /// What this light brings.
-    Light(u32),
-    /// What no light brings.
-    Unlit,
-}
-
-impl Brings {
-    /// Whether what a light brings is asked for.
-    pub(super) fn light(self, number: usize) -> bool {
-        match self {
-            Self::All => true,
-            Self::Light(light) => light as usize == number,
-            Self::Unlit => false,
-        }
-    }
-
-    /// Whether what no light brings is asked for.
-    pub(super) fn unlit(self) -> bool {
-        !matches!(self, Self::Light(_))
-    }
 }
 
 /// Memory for tracing a bundle, used again for the next one.
@@ -101,8 +74,18 @@ pub(crate) struct ScratchBuffer {
     ways: Vec<[Way; 8]>,
     lights: LightSamples,
     out: Vec<Radiance8>,
+    /// The shares of that light which are kept beside it, in their order.
+    shares: Vec<Vec<Radiance8>>,
     /// The mirror or refracted rays of this bundle, and the memory for tracing them.
     deeper: Option<Box<(SecondaryRays, ScratchBuffer)>>,
+}
+
+impl ScratchBuffer {
+    /// The shares of what the bundle brought that was traced last, in the order of [`Shares`]: each result is
+    /// in its ray's lane.
+    pub(crate) fn shares(&self) -> &[Vec<Radiance8>] {
+        &self.shares
+    }
 }
 
 /// The mirror rays, or the refracted rays, of a bundle.
@@ -232,7 +215,8 @@ impl Integrator<'_> {
     }
 
     /// Traces a bundle. `height` gives the place in a gradient background, 0 to 1, of a ray that hits
-    /// nothing. `paths` are what the rays have behind them. The results are in `scratch.out`.
+    /// nothing. `paths` are what the rays have behind them. The results are in `scratch.out`, and what is kept
+    /// beside them in `scratch.shares`.
     #[expect(clippy::too_many_arguments, reason = "the state of the recursion")]
     fn trace_bundle<W: Witness>(
         &self,
@@ -245,9 +229,10 @@ impl Integrator<'_> {
         counts: &mut RayCounts,
         witness: &mut W,
     ) {
-        let ScratchBuffer { interactions, openness, ways, lights, out, deeper } = scratch;
+        let ScratchBuffer { interactions, openness, ways, lights, out, shares, deeper } = scratch;
         if self.is_stopped() {
             out.resize(rays.len(), Radiance8::NONE);
+            self.shares.begin(interactions, out, shares);
             return;
         }
         interactions.intersect(self, rays, paths, steps.passed, height, out);
@@ -256,12 +241,10 @@ impl Integrator<'_> {
         }
         openness.begin();
         if let Some(occlusion) = self.scene.occlusion() {
-            // Otherwise there is no ambient light to dim.
-            if self.brings.unlit() || self.scene.has_ambient_per_light() {
-                counts.shadow += self.look_around(occlusion, interactions, samplers, openness);
-                openness.dim(out);
-            }
+            counts.shadow += self.look_around(occlusion, interactions, samplers, openness);
+            openness.dim(out);
         }
+        self.shares.begin(interactions, out, shares);
         lights.begin();
         if W::LISTENS {
             for (i, (rays8, out)) in rays.iter().zip(&*out).enumerate() {
@@ -296,22 +279,22 @@ impl Integrator<'_> {
             if self.is_stopped() {
                 return;
             }
-            if !self.brings.light(light) {
-                continue;
-            }
             if let Some(bounds) = bounds
                 && !bounds.is_some_and(|bounds| self.scene.lights()[light].may_reach(bounds))
             {
                 continue;
             }
             counts.shadow += self.sample_light(light, rays, interactions, samplers, lights);
-            if self.scene.has_ambient_per_light() {
-                self.ambient_of_light(light, interactions, lights, openness, out);
-            }
             if W::LISTENS {
                 self.report_light(light, rays, interactions, lights, witness);
             }
-            self.shade(light, rays, interactions, lights, out);
+            let share = self.shares.place(light).and_then(|place| shares.get_mut(place));
+            for out in std::iter::once(&mut *out).chain(share) {
+                if self.scene.has_ambient_per_light() {
+                    self.ambient_of_light(light, interactions, lights, openness, out);
+                }
+                self.shade(light, rays, interactions, lights, out);
+            }
         }
         let is_transparent = self.scene.background() == Background::Transparent;
         for branch in [Branch::Reflection, Branch::Transmission, Branch::Through] {
@@ -366,19 +349,22 @@ impl Integrator<'_> {
             for (k, &Parent { ray: (i, lane), weight, .. }) in from.iter().enumerate() {
                 let light = scratch.out[k / 8].terms.get(k % 8).total();
                 witness.left(branch, light);
-                let term = branch.term();
-                match branch {
-                    Branch::Through => out[i].terms.add(term, lane, weight * light),
-                    _ => set(&mut out[i].terms[term], lane, (weight * light).to_array()),
+                out[i].take(branch, lane, weight * light);
+                for (to, from) in shares.iter_mut().zip(&scratch.shares) {
+                    let light = from[k / 8].terms.get(k % 8).total();
+                    to[i].take(branch, lane, weight * light);
                 }
-                out[i].brought = out[i].brought.with(term);
                 if branch != Branch::Reflection && is_transparent {
                     out[i].see_through(lane, weight, (&scratch.out[k / 8], k % 8));
                 }
             }
         }
         if let Some(fog) = self.scene.fog() {
-            fog::fade(self.scene, fog, self.brings.unlit(), rays, ways, out, witness);
+            fog::fade(self.scene, fog, true, rays, ways, out, witness);
+            for (place, share) in shares.iter_mut().enumerate() {
+                let glows = self.shares.is_unlit(place);
+                fog::fade(self.scene, fog, glows, rays, ways, share, &mut ());
+            }
         }
     }
 

@@ -215,7 +215,7 @@ mod tests {
     use phong_scene::{CameraKind, FilterKind, Image, Light, LightKind, Rgb, Scene};
 
     use super::*;
-    use crate::integrator::{Brings, SampleGrid};
+    use crate::integrator::{SampleGrid, Shares};
     use crate::view::View;
 
     #[test]
@@ -240,7 +240,7 @@ mod tests {
                     shadows: true,
                     terminator: true,
                     grid: SampleGrid { size: scene.image.size, samples: 3 },
-                    brings: Brings::All,
+                    shares: Shares::NONE,
                     stop: None,
                 };
                 let filter = Filter::new(filter);

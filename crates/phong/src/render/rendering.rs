@@ -9,7 +9,7 @@ use super::queue::{Queue, Task};
 use super::tile::{TileBuffers, TileRenderer};
 use super::{Cancel, Event, Pass, Progress, RenderOptions};
 use crate::film::{Film, FilmTile, LayerKind};
-use crate::integrator::{Brings, Integrator, RayCounts, SampleGrid};
+use crate::integrator::{Integrator, RayCounts, SampleGrid, Shares};
 use crate::view::View;
 
 /// A picture in the making.
@@ -117,7 +117,7 @@ impl<'a> Rendering<'a> {
             shadows: self.options.shadows(),
             terminator: self.options.terminator(),
             grid: SampleGrid { size: self.options.size(), samples: self.options.samples() },
-            brings: Brings::All,
+            shares: Shares::NONE,
             stop: Some(cancel.flag()),
         };
         let renderer = TileRenderer::new(integrator, self.options, cancel);

@@ -10,7 +10,7 @@ use super::{Cancel, Cancelled, Pass, RenderOptions};
 use crate::aov::Aov;
 use crate::film::{LayerKind, Sums8, TileSums, Window, coverage};
 use crate::filter::Filter;
-use crate::integrator::{Brings, CameraRay, Integrator, RayCounts, ScratchBuffer, first_met};
+use crate::integrator::{CameraRay, Integrator, RayCounts, ScratchBuffer, Shares, first_met};
 use crate::math::lanes::{Lanes3, store3};
 use crate::sampling::Sampler;
 use crate::terms::{Terms, Terms8};
@@ -30,6 +30,10 @@ const SAMPLES_PER_BUNDLE: u32 = 8;
 /// middle that it is cancelled.
 const MOST_EIGHTS: usize = 128;
 
+/// The most shares of the light that are kept beside all of it at once, so that a thread's memory is bounded:
+/// for more the rays are traced again.
+const MOST_SHARES: u32 = 16;
+
 /// Renders tiles.
 pub(super) struct TileRenderer<'a> {
     integrator: Integrator<'a>,
@@ -46,8 +50,8 @@ pub(super) struct TileBuffers {
     drawn: Samples,
     scratch: ScratchBuffer,
     sums: Vec<Sums8>,
-    /// The sums of one light's layer.
-    light_sums: Vec<Vec<Sums8>>,
+    /// For each share of the light its sums.
+    share_sums: Vec<Vec<Sums8>>,
     /// For each layer the tile's rows.
     values: Vec<Vec<f32>>,
 }
@@ -130,40 +134,52 @@ impl<'a> TileRenderer<'a> {
         let world = integrator.scene.world();
         for pixels in pixels.chunks(MOST_EIGHTS) {
             drawn.draw(integrator, self.options, &self.filter, pixels, 0..1);
-            let brought = integrator.trace(&drawn.bundle, scratch, counts, &mut ());
-            // What was cut short is not to be seen.
-            self.check_cancelled()?;
-            // One sample, which weighs 1, is its pixel: nothing to sum.
-            let one = brought.iter().map(|sample| {
-                let covered = |lane| coverage(sample.covers(lane), background);
-                (&sample.terms, std::array::from_fn(covered))
-            });
-            let (resolved, layers) = (pixels.iter().zip(one), &self.layers);
-            world.run(WriteLayers { window, layers, resolved, values });
-            for (place, integrator) in self.lights() {
-                let brought =
-                    integrator.trace(&drawn.bundle, scratch, &mut RayCounts::default(), &mut ());
+            for (round, integrator) in self.rounds().enumerate() {
+                let counts = if round == 0 { &mut *counts } else { &mut RayCounts::default() };
+                let brought = integrator.trace(&drawn.bundle, scratch, counts, &mut ());
+                // What was cut short is not to be seen.
                 self.check_cancelled()?;
-                let one = brought.iter().map(|sample| (&sample.terms, [0.0; 8]));
-                let (resolved, values) = (pixels.iter().zip(one), &mut values[place..=place]);
-                world.run(WriteLayers { window, layers: &[LayerKind::Picture], resolved, values });
+                // One sample, which weighs 1, is its pixel: nothing to sum.
+                if round == 0 {
+                    let one = brought.iter().map(|sample| {
+                        let covered = |lane| coverage(sample.covers(lane), background);
+                        (&sample.terms, std::array::from_fn(covered))
+                    });
+                    let (resolved, layers) = (pixels.iter().zip(one), &self.layers);
+                    world.run(WriteLayers { window, layers, resolved, values });
+                }
+                let first = self.first_share() + round * MOST_SHARES as usize;
+                for (share, values) in scratch.shares().iter().zip(&mut values[first..]) {
+                    let one = share.iter().map(|sample| (&sample.terms, [0.0; 8]));
+                    let resolved = pixels.iter().zip(one);
+                    world.run(WriteLayers::share(window, resolved, values));
+                }
             }
         }
         Ok(())
     }
 
-    /// The layers of lights: where each is among the layers, and what traces it. The rays of the picture
-    /// are traced once more for each, and meet what they met.
-    fn lights(&self) -> impl Iterator<Item = (usize, Integrator<'a>)> {
-        let brings = |kind: &LayerKind| match kind {
-            LayerKind::Light(number) => Some(Brings::Light(*number)),
-            LayerKind::Unlit => Some(Brings::Unlit),
-            _ => None,
-        };
-        let of = move |(place, kind): (usize, &LayerKind)| {
-            Some((place, Integrator { brings: brings(kind)?, ..self.integrator }))
-        };
-        self.layers.iter().enumerate().filter_map(of)
+    /// Where the layers of the light's shares begin among the layers.
+    fn first_share(&self) -> usize {
+        let is_share = |kind: &LayerKind| matches!(kind, LayerKind::Light(_) | LayerKind::Unlit);
+        self.layers.iter().position(is_share).unwrap_or(self.layers.len())
+    }
+
+    /// How many layers are of the light's shares.
+    fn share_count(&self) -> u32 {
+        let lights = self.options.lights();
+        if lights == 0 { 0 } else { lights + 1 }
+    }
+
+    /// What traces the rays: for all light, and so many of its shares in each round.
+    fn rounds(&self) -> impl Iterator<Item = Integrator<'a>> + use<'a> {
+        let (count, lights) = (self.share_count(), self.options.lights());
+        let integrator = self.integrator;
+        (0..count.max(1)).step_by(MOST_SHARES as usize).map(move |first| {
+            let end = count.min(first + MOST_SHARES);
+            let shares = Shares { first, lights: lights.min(end) - first, unlit: end > lights };
+            Integrator { shares, ..integrator }
+        })
     }
 
     /// Each pixel's samples up to `to`, those of earlier passes included.
@@ -172,7 +188,7 @@ impl<'a> TileRenderer<'a> {
         window: Window,
         to: u32,
         earlier: Option<&TileSums>,
-        TileBuffers { pixels, drawn, scratch, sums, light_sums, values }: &mut TileBuffers,
+        TileBuffers { pixels, drawn, scratch, sums, share_sums, values }: &mut TileBuffers,
         counts: &mut RayCounts,
     ) -> Result<Option<TileSums>, Cancelled> {
         let (integrator, background) = (&self.integrator, self.integrator.scene.background());
@@ -189,27 +205,33 @@ impl<'a> TileRenderer<'a> {
                 }
                 None => sums.resize(pixels.len(), Sums8::NONE),
             }
-            light_sums.clear();
-            light_sums.resize(self.lights().count(), vec![Sums8::NONE; pixels.len()]);
+            share_sums.resize_with(self.share_count() as usize, Vec::new);
+            for sums in &mut *share_sums {
+                sums.clear();
+                sums.resize(pixels.len(), Sums8::NONE);
+            }
             for from in (begin..to).step_by(SAMPLES_PER_BUNDLE as usize) {
                 let indices = from..to.min(from + SAMPLES_PER_BUNDLE);
                 drawn.draw(integrator, self.options, &self.filter, pixels, indices);
-                let brought = integrator.trace(&drawn.bundle, scratch, counts, &mut ());
-                self.check_cancelled()?;
-                Sums8::add(bvh, sums, brought, &drawn.weights);
-                for ((_, integrator), sums) in self.lights().zip(&mut *light_sums) {
-                    let unheard = &mut RayCounts::default();
-                    let brought = integrator.trace(&drawn.bundle, scratch, unheard, &mut ());
+                for (round, integrator) in self.rounds().enumerate() {
+                    let counts = if round == 0 { &mut *counts } else { &mut RayCounts::default() };
+                    let brought = integrator.trace(&drawn.bundle, scratch, counts, &mut ());
                     self.check_cancelled()?;
-                    Sums8::add(bvh, sums, brought, &drawn.weights);
+                    if round == 0 {
+                        Sums8::add(bvh, sums, brought, &drawn.weights);
+                    }
+                    let sums = share_sums.iter_mut().skip(round * MOST_SHARES as usize);
+                    for (share, sums) in scratch.shares().iter().zip(sums) {
+                        Sums8::add(bvh, sums, share, &drawn.weights);
+                    }
                 }
             }
-            for ((place, _), sums) in self.lights().zip(&*light_sums) {
+            let shares = values.iter_mut().skip(self.first_share());
+            for (sums, values) in share_sums.iter().zip(shares) {
                 for (pixels, sums) in pixels.iter().zip(sums) {
                     let (terms, alpha) = sums.resolve(bvh, to, background);
                     let resolved = std::iter::once((pixels, (&terms, alpha)));
-                    let (layers, values) = (&[LayerKind::Picture], &mut values[place..=place]);
-                    bvh.run(WriteLayers { window, layers, resolved, values });
+                    bvh.run(WriteLayers::share(window, resolved, values));
                 }
             }
             for (pixels, sums) in pixels.iter().zip(&*sums) {
@@ -424,6 +446,14 @@ struct WriteLayers<'a, R> {
     layers: &'a [LayerKind],
     resolved: R,
     values: &'a mut [Vec<f32>],
+}
+
+impl<'a, R> WriteLayers<'a, R> {
+    /// Writes pixels into the layer of a share, which is the sum of the terms as the picture is.
+    fn share(window: Window, resolved: R, values: &'a mut Vec<f32>) -> Self {
+        let values = std::slice::from_mut(values);
+        Self { window, layers: &[LayerKind::Picture], resolved, values }
+    }
 }
 
 impl<'a, R: Iterator<Item = (&'a Pixels8, (&'a Terms8, [f32; 8]))>> Kernel for WriteLayers<'a, R> {
