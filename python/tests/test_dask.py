@@ -53,7 +53,9 @@ def balls(count: int = 40) -> phong.Scene:
     return scene
 
 
-@pytest.mark.parametrize("name", [*THREE, "clipping.toml", "outline.toml", "figure.toml"])
+@pytest.mark.parametrize(
+    "name", [*THREE, "clipping.toml", "outline.toml", "figure.toml", "cel.toml"]
+)
 def test_the_picture_has_the_bits_of_one_machine(name: str, client: Any) -> None:
     path = SCENES / name
     alone = phong.render(path, layers=("depth", "diffuse"), **SMALL)

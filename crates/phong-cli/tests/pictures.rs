@@ -213,6 +213,42 @@ fn what_explain_says_of_tone_ends_in_the_bytes_of_the_picture() {
 }
 
 #[test]
+fn steps_of_luminance_are_the_same_in_shares_and_crops_and_told_to_the_byte() {
+    let written = BALLS.replacen("[image]\n", "[image]\ncel = 3\n", 1);
+    let folder = given(&[("a.toml", &written), ("plain.toml", BALLS)]);
+    folder.done("render a.toml -o whole.png");
+    folder.done("render plain.toml -o plain.png");
+    assert_ne!(folder.bytes("whole.png"), folder.bytes("plain.png"));
+    for i in 0..2 {
+        folder.done(&format!("render a.toml -o {i}.part --tile {i}/2"));
+    }
+    folder.done("merge 1.part 0.part -o merged.png");
+    assert_eq!(folder.bytes("whole.png"), folder.bytes("merged.png"));
+    folder.done("render a.toml -o part.png --crop 3,5,20,17");
+    let picture = |name| phong::image::Picture::read(&folder.bytes(name)).unwrap();
+    let (whole, part) = (picture("whole.png"), picture("part.png"));
+    for (whole, part) in whole.planes.iter().zip(&part.planes) {
+        for (i, value) in part.values.iter().enumerate() {
+            assert_eq!(*value, whole.values[40 * (5 + i / 17) + 3 + i % 17]);
+        }
+    }
+    let mut changed = 0;
+    for [x, y] in [[20, 15], [17, 14], [3, 25], [26, 12], [0, 0]] {
+        let told = folder.done(&format!("explain a.toml {x} {y} --json")).json();
+        let steps = told["tone"].as_array().unwrap();
+        assert_eq!(steps[0]["step"], "stepped");
+        changed += u32::from(steps[0]["linear"] != told["linear"]);
+        for (c, name) in ["R", "G", "B"].into_iter().enumerate() {
+            let level = whole.plane(name).unwrap()[y * 40 + x] * 255.0;
+            assert_eq!(told["srgb8"][c], level.round() as u64, "{name} of {x}, {y}");
+        }
+    }
+    assert!(changed > 1, "{changed}");
+    folder.done("explain a.toml --html page.html --size 8x6");
+    folder.done("render a.toml -o b.png --exposure auto");
+}
+
+#[test]
 fn a_look_is_put_on_and_printed_as_text() {
     let folder = balls();
     let then = folder.done("render a.toml --look ink --toml");

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use numpy::PyArrayMethods as _;
 use phong::film::{Film, LayerKind};
-use phong::finish::{Finished, finish};
+use phong::finish::{Finished, Finishing, finish};
 use phong::image::{
     Bits, Content, Draft, Encoding, Format, SaveError, WriteError, place, save, write,
 };
@@ -54,7 +54,8 @@ impl Image {
     ) -> Self {
         let samples = options.samples();
         // A share is finished when it is put together with the others.
-        let finishes = options.lines().is_some() || !scene.furniture.is_empty();
+        let own = Finishing::of(&options);
+        let finishes = own.lines.is_some() || own.cel.is_some() || !scene.furniture.is_empty();
         let (film, made) = if finishes && film.is_complete() {
             let settings = Settings::of(&scene, &options, Encoding::default());
             let (film, settings) = finished(&film, settings);
@@ -80,7 +81,8 @@ impl Image {
     fn joined(film: Film, settings: Settings, seconds: Vec<(String, f64)>) -> Self {
         let samples = settings.picture.iter().find(|(name, _)| name == "samples");
         let samples = samples.and_then(|(_, text)| text.parse().ok()).unwrap_or(0);
-        let finishes = settings.finishing().lines.is_some() || settings.furniture().is_some();
+        let own = settings.finishing();
+        let finishes = own.lines.is_some() || own.cel.is_some() || settings.furniture().is_some();
         let (film, settings) = if finishes && film.is_complete() {
             finished(&film, settings)
         } else {
@@ -154,7 +156,13 @@ impl Image {
 /// A film with its lines, and its settings with the furniture that is still to be drawn over it: not before
 /// the picture is exposed.
 fn finished(film: &Film, settings: Settings) -> (Film, Settings) {
-    (finish(film, &settings.finishing()).into_film(), furniture::settled(film, settings))
+    let (finishing, mut settled) = (settings.finishing(), furniture::settled(film, settings));
+    let finished = finish(film, &finishing);
+    if finishing.cel.is_some() {
+        // The steps are of light that is exposed so.
+        settled.tone.exposure = Exposure::Stops(finished.tone().stops());
+    }
+    (finished.into_film(), settled)
 }
 
 /// Encoding of a PNG by its keywords.

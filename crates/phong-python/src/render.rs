@@ -4,7 +4,6 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use phong::aov::Aov;
-use phong::explain::tone_of;
 use phong::film::{Film, Window};
 use phong::image::Encoding;
 use phong::part::Settings;
@@ -351,7 +350,7 @@ pub(crate) fn _explain(
         let ready = snapshot.prepare(image, max_bytes)?;
         let told = phong::explain::explain(&ready.view, &options, [x, y]);
         let told = told.map(|mut told| {
-            told.tone = tone_of(&ready.scene, &ready.view, &options, &|_| {}, cancel);
+            told.expose(&ready.scene, &ready.view, &options, &|_| {}, cancel);
             let telling = Telling::default();
             (json(&told).to_string(), text(&told, &telling), latex(&told, &telling))
         });

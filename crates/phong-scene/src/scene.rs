@@ -82,6 +82,7 @@
 //! | `min_weight` | a number from 0 to 1 | `0.0001` | Mirror and glass rays whose light would count less than this in every channel are not followed; 0: all are. |
 //! | `terminator` | `true` or `false` | `true` | Whether shadow rays from meshes with smooth normals start above the face, so that faces do not show where light ends. |
 //! | `dpi` | a number above 0 | 96, which no file says | Pixels an inch: how wide lines are whose width is in points; PNG files say it. |
+//! | `cel` | a whole number from 2 to 64 | none | The picture's luminance in so many steps from black to white, even to the eye, when it is done. |
 //!
 //! `background = { .. }`:
 //!
@@ -248,6 +249,9 @@ pub struct Image {
     /// Pixels an inch, > 0: how wide lines are whose width is in points; `None`: 96, and files do not
     /// say it.
     pub dpi: Option<f64>,
+    /// In how many steps from black to white the luminance of the finished picture comes, 2 to 64; `None`: it
+    /// stays as it is.
+    pub cel: Option<u32>,
 }
 
 impl Image {
@@ -257,6 +261,8 @@ impl Image {
     pub const MOST_SAMPLES: u32 = 1_000_000;
     /// The most bounces.
     pub const DEEPEST: u32 = 100;
+    /// The most steps of luminance: more are hardly seen as steps.
+    pub const MOST_STEPS: u32 = 64;
     /// The least and the largest `min_weight`.
     pub(crate) const MIN_WEIGHT: Range = Range::closed(0.0, 1.0);
 }
@@ -273,6 +279,7 @@ impl Default for Image {
             min_weight: 1e-4,
             terminator: true,
             dpi: None,
+            cel: None,
         }
     }
 }

@@ -113,6 +113,16 @@ fn what_gltf_cannot_hold_is_told() {
 }
 
 #[test]
+fn steps_of_luminance_that_no_other_format_holds_are_told() {
+    for (format, name) in [(Format::Gltf, "b.glb"), (Format::Tachyon, "b.dat")] {
+        let mut stepped = scene("");
+        stepped.image.cel = Some(3);
+        let (_, dropped, _) = again(stepped, format, name);
+        assert!(dropped.contains("no steps of luminance"), "{dropped}");
+    }
+}
+
+#[test]
 fn cylinders_of_two_radii_are_told_of_in_tachyon() {
     let mut scene = scene("");
     let segments = [[[0.0, 0.0, 0.0, 0.1], [1.0, 0.0, 0.0, 0.2]]].into();

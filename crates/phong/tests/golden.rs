@@ -7,7 +7,7 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use phong::film::{Film, LayerKind, Window};
-use phong::finish::{Finishing, finish};
+use phong::finish::{Finished, Finishing, finish};
 use phong::image::{self, Bits, Content, Encoding, Format, Picture};
 use phong::part::Settings;
 use phong::render::{Cancel, RenderOptions, render};
@@ -30,7 +30,7 @@ macro_rules! golden {
 
 golden! {
     cameras: fisheye landscape lens orthographic panorama perspective up wide;
-    film: background empty filter_box filter_gaussian filter_mitchell filter_tent gradient odd_size
+    film: background cel empty filter_box filter_gaussian filter_mitchell filter_tent gradient odd_size
         one_pixel outline seed tone_filmic tone_reinhard transparent transparent_mirror;
     lights: attenuation below_horizon colored disc distant enclosed point range rectangle shadow shadow_off
         shadow_touching specular_color sphere spot spot_hard;
@@ -79,15 +79,17 @@ fn drawn(path: &Path) -> Vec<u8> {
     let compiled = View::of(&scene).expect("compiles");
     let film = render(&compiled, &options, &|_| {}, &Cancel::new()).film;
     let settings = Settings::of(&scene, &options, Encoding::default());
-    let film = finish(&film, &settings.finishing()).into_film();
-    encoded(&film, false, settings.tone)
+    written(&finish(&film, &settings.finishing()), false)
 }
 
 fn encoded(film: &Film, linear: bool, tone: Tone) -> Vec<u8> {
+    written(&finish(film, &Finishing::default().with_tone(tone)), linear)
+}
+
+fn written(finished: &Finished<'_>, linear: bool) -> Vec<u8> {
     let encoding = Encoding { bits: Bits::Sixteen, linear };
     let mut bytes = Cursor::new(Vec::new());
-    let film = finish(film, &Finishing::default().with_tone(tone));
-    image::write(&film, Content::Layer(LayerKind::Picture), Format::Png, &encoding, &mut bytes)
+    image::write(finished, Content::Layer(LayerKind::Picture), Format::Png, &encoding, &mut bytes)
         .expect("memory takes it");
     bytes.into_inner()
 }

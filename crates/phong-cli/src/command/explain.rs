@@ -3,15 +3,15 @@
 use std::io::{self, Cursor};
 use std::path::{Path, PathBuf};
 
-use phong::explain::{Explanation, explain, exposed_by, tone_of};
+use phong::explain::{Explanation, explain, exposed_by};
 use phong::film::{LayerKind, Window};
-use phong::finish::{Finishing, ToneMap, finish};
+use phong::finish::{Finishing, finish};
 use phong::image::{self, Content, Encoding, Format};
 use phong::render::{Cancel, Event, RenderOptions, render};
 use phong::view::View;
 use phong_lab::tell::html::{MAX_PIXELS, page};
 use phong_lab::tell::{self, Telling};
-use phong_scene::{Scene, Tone};
+use phong_scene::Scene;
 
 use crate::args::{self, ImageArgs, InputArgs, ToneArgs, ViewArgs};
 use crate::compile::compile;
@@ -105,7 +105,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         return Err(Failure::usage(format!("--sample {sample}: the pixel has {samples} samples")));
     }
     // One pixel takes a whole picture where that is what exposes it.
-    let exposed = args.x.and_then(|_| exposed_by(&input.scene, &options));
+    let pixel = args.x.zip(args.y).map(|(x, y)| [x, y]);
+    let exposed = pixel.and_then(|pixel| exposed_by(&input.scene, &options, pixel));
     let bytes = exposed.map_or(0, |options| options.film_bytes());
     let scene = compile(&input.scene, &args.input, bytes)?;
     memory::set_aside(bytes)?;
@@ -118,7 +119,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
                 height - 1
             ))
         })?;
-        told.tone = exposing(&input.scene, &scene, &options)?;
+        expose(&mut told, &input.scene, &scene, &options)?;
         if let Some(output) = &mut svg {
             let drawing = tell::svg(&told, chosen(args)).ok_or_else(|| {
                 Failure::usage("--svg: the ray meets nothing, so there are no vectors to draw")
@@ -128,26 +129,34 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         tell(args, &told)?;
     }
     if let (Some(output), Some(path)) = (&mut html, &args.html) {
-        let tone = input.scene.tone.unwrap_or_default();
-        write_page(args, (&scene, tone), options, output, path)?;
+        let mut finishing = Finishing::default().with_tone(input.scene.tone.unwrap_or_default());
+        finishing.cel = input.scene.image.cel;
+        write_page(args, (&scene, &finishing), options, output, path)?;
     }
     Output::commit(svg.into_iter().chain(html).collect())
 }
 
-/// How the picture becomes what is seen of it. Where all of it is rendered for that, a bar says how far that is.
-fn exposing(scene: &Scene, view: &View, options: &RenderOptions) -> Result<ToneMap, Failure> {
-    let mut meter = Meter::new(exposed_by(scene, options).is_none(), "exposing");
+/// Finds out how the pixel becomes what is seen of it. Where all of the picture is rendered for that, a bar says how
+/// far that is.
+fn expose(
+    told: &mut Explanation,
+    scene: &Scene,
+    view: &View,
+    options: &RenderOptions,
+) -> Result<(), Failure> {
+    let mut meter = Meter::new(exposed_by(scene, options, told.pixel).is_none(), "exposing");
     meter.samples();
     let listen = |event: Event<'_>| {
         if let Event::Progress(progress) = event {
             meter.update(progress, 0);
         }
     };
-    let (tone, cancelled) = interrupt::heeding(|cancel| {
-        (tone_of(scene, view, options, &listen, cancel), cancel.is_cancelled())
+    let cancelled = interrupt::heeding(|cancel| {
+        told.expose(scene, view, options, &listen, cancel);
+        cancel.is_cancelled()
     });
     meter.finish();
-    if cancelled { Err(interrupt::failure()) } else { Ok(tone) }
+    if cancelled { Err(interrupt::failure()) } else { Ok(()) }
 }
 
 /// A column or a row.
@@ -181,7 +190,7 @@ fn tell(args: &Args, told: &Explanation) -> Result<(), Failure> {
 
 fn write_page(
     args: &Args,
-    (scene, tone): (&View, Tone),
+    (scene, finishing): (&View, &Finishing),
     options: RenderOptions,
     output: &mut Output,
     path: &Path,
@@ -207,11 +216,11 @@ fn write_page(
     let film = render(scene, &options, &|_| {}, &cancel).film;
     let mut png = Cursor::new(Vec::new());
     let picture = Content::Layer(LayerKind::Picture);
-    let film = finish(&film, &Finishing::default().with_tone(tone));
+    let film = finish(&film, finishing);
     image::write(&film, picture, Format::Png, &Encoding::default(), &mut png)
         .map_err(|error| Failure::System(error.to_string()))?;
     let title = input::stem(&args.input.input);
-    let html = page(scene, &options, &title, (png.get_ref(), film.tone()), &|_| {}, &cancel)
+    let html = page(scene, &options, &title, (png.get_ref(), &film), &|_| {}, &cancel)
         .map_err(cancelled)?;
     output.write(|out| io::Write::write_all(out, html.as_bytes()))?;
     let [width, height] = options.size();

@@ -129,6 +129,9 @@ impl Grader {
                 "exposure, white balance or a curve of their own (`[tone]`)",
             ));
         }
+        if scene.image.cel.is_some() {
+            return Err(GradeError::NotYet("luminance in steps (`cel`)"));
+        }
         if !scene.clips.is_empty() {
             return Err(GradeError::NotYet("what is cut away"));
         }

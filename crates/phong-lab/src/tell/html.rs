@@ -6,7 +6,7 @@
 
 use glam::DVec3;
 use phong::explain::{End, Explanation, Lit, Onward, RayTold, Surface, explain};
-use phong::finish::ToneMap;
+use phong::finish::Finished;
 use phong::render::{Cancel, Cancelled, RenderOptions};
 use phong::terms::Term;
 use phong::view::View;
@@ -29,7 +29,7 @@ const BAND: u32 = 12;
 pub const MAX_PIXELS: u32 = 65_536;
 
 /// Every pixel of a picture of at most [`MAX_PIXELS`] explained in one HTML file. `png` is the
-/// picture rendered with the same options, and `tone` its own. `watch` is called with the rows done, by any thread.
+/// picture rendered with the same options, and `finished` how it came out. `watch` is called with the rows done, by any thread.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -40,7 +40,7 @@ pub fn page(
     scene: &View,
     options: &RenderOptions,
     title: &str,
-    (png, tone): (&[u8], &ToneMap),
+    (png, finished): (&[u8], &Finished<'_>),
     watch: &(dyn Fn(u32) + Sync),
     cancel: &Cancel,
 ) -> Result<String, Cancelled> {
@@ -53,7 +53,10 @@ pub fn page(
         }
         // Within the picture, so there is nothing that can be outside.
         let pixels = (0..width).filter_map(|x| explain(scene, options, [x, y]).ok());
-        let pixels = pixels.map(|told| Explanation { tone: *tone, ..told });
+        let pixels = pixels.map(|mut told| {
+            told.finish_as(finished);
+            told
+        });
         let row: Vec<Value> = pixels.map(|told| shared.pixel(&told)).collect();
         watch(1);
         Ok(row)

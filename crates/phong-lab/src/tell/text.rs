@@ -390,12 +390,16 @@ pub(super) struct Toned {
     pub(super) color: Rgb,
 }
 
-/// What tone does to a pixel, step by step; nothing where light stays as it is.
+/// What steps of luminance and tone do to a pixel, one after the other; nothing where light stays as it is.
 pub(super) fn toned(told: &Explanation) -> Vec<Toned> {
-    let steps = told.encoded().tone;
+    let Encoded { stepped, tone: steps, .. } = told.encoded();
     let stops = told.tone.stops();
+    let from = if stepped.is_some() { "stepped" } else { "linear" };
+    let scale = told.cel.unwrap_or(1.0);
+    let stepped = stepped
+        .map(|color| ("stepped", format!("= linear × {scale}: the step of its luminance"), color));
     let exposed =
-        (stops != 0.0).then(|| ("exposed", format!("= linear × 2^{stops}"), steps.exposed));
+        (stops != 0.0).then(|| ("exposed", format!("= {from} × 2^{stops}"), steps.exposed));
     let balanced = steps.balanced.map(|color| ("balanced", "white balance".to_owned(), color));
     let curve = match told.tone.curve() {
         ToneCurve::Clamp => String::new(),
@@ -403,7 +407,7 @@ pub(super) fn toned(told: &Explanation) -> Vec<Toned> {
         ToneCurve::Filmic => "filmic curve".to_owned(),
     };
     let curved = steps.curved.map(|color| ("toned", curve, color));
-    let steps = exposed.into_iter().chain(balanced).chain(curved);
+    let steps = stepped.into_iter().chain(exposed).chain(balanced).chain(curved);
     steps.map(|(name, how, color)| Toned { name, how, color }).collect()
 }
 

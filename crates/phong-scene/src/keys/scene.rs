@@ -210,6 +210,13 @@ pub(crate) static IMAGE: Table = Table {
             "Pixels an inch: how wide lines are whose width is in points; PNG files say it.",
         )
         .of(field!(Image.dpi)),
+        Key::new(
+            "cel",
+            Kind::Integer(2, Image::MOST_STEPS as u64),
+            Default::Said("none"),
+            "The picture's luminance in so many steps from black to white, even to the eye, when it is done.",
+        )
+        .of(field!(Image.cel)),
     ]],
 };
 

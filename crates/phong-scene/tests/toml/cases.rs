@@ -65,6 +65,7 @@ cases! {
     nothing_black_looks_grey
     tone_has_one_white
     tone_out_of_range_is_told
+    luminance_comes_in_two_steps_or_more
     a_background_table_has_two_colours
     a_broken_model_is_told_with_the_place_that_names_it
     a_camera_must_look_somewhere

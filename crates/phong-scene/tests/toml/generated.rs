@@ -172,6 +172,7 @@ impl Make {
             depth: self.one(&[8, 0, 100]),
             terminator: self.one(&[true, false]),
             dpi: self.one(&[None, Some(300.0)]),
+            cel: self.one(&[None, Some(3)]),
         }
     }
 

@@ -44,10 +44,12 @@ fn explained(title: &str, painting: &Painting) -> Result<String, String> {
     let film = render(painting.view(), &options, &|_| {}, &cancel).film;
     let mut png = Cursor::new(Vec::new());
     let content = Content::Layer(LayerKind::Picture);
-    let finished = finish(&film, &Finishing::default().with_tone(options.tone()));
+    let mut finishing = Finishing::default().with_tone(options.tone());
+    finishing.cel = options.cel();
+    let finished = finish(&film, &finishing);
     write(&finished, content, Format::Png, &Encoding::default(), &mut png)
         .map_err(|error| error.to_string())?;
-    let picture = (&*png.into_inner(), finished.tone());
+    let picture = (&*png.into_inner(), &finished);
     html::page(painting.view(), &options, title, picture, &|_| {}, &cancel)
         .map_err(|error| error.to_string())
 }

@@ -472,7 +472,7 @@ impl Engine {
         };
         let told = phong::explain::explain(&view, &options, pixel);
         let mut told = told.map_err(|outside| outside.to_string())?;
-        told.tone = painting.tone();
+        painting.finish_told(&mut told);
         Ok((told, view, painting.number()))
     }
 

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::sync::OnceLock;
 
+use phong::explain::Explanation;
 use phong::film::{Film, Window};
 use phong::finish::{Finishing, ToneMap, finish};
 use phong::part::furniture_of;
@@ -134,13 +135,23 @@ impl Painting {
     }
 
     /// How the light of the picture becomes what is seen of it; exposed by what there is of it.
-    pub(super) fn tone(&self) -> ToneMap {
+    fn tone(&self) -> ToneMap {
         let tone = self.options.tone();
         match self.film.as_ref().filter(|film| film.is_complete()) {
             Some(film) if tone.exposure == Exposure::Auto => {
                 *self.exposed.get_or_init(|| *finish(film, &Finishing::of(&self.options)).tone())
             }
             _ => ToneMap::new(&tone, &[], None),
+        }
+    }
+
+    /// Tells how a pixel's light becomes what is seen of it, as far as there is a picture to say so.
+    pub(super) fn finish_told(&self, told: &mut Explanation) {
+        match self.film.as_ref().filter(|film| film.is_complete()) {
+            Some(film) if self.options.cel().is_some() => {
+                told.finish_as(&finish(film, &Finishing::of(&self.options)));
+            }
+            _ => told.tone = self.tone(),
         }
     }
 

@@ -10,9 +10,9 @@ use glam::DVec3;
 use phong_scene::{ConstantMaterial, Exposure, Place, Rgb, Scene, TextureSpace, srgb_encode};
 use thiserror::Error;
 
-use crate::film::Sums8;
+use crate::film::{Sums8, Window};
 use crate::filter::Filter;
-use crate::finish::{Finishing, ToneMap, ToneSteps, finish};
+use crate::finish::{Finished, Finishing, ToneMap, ToneSteps, finish};
 use crate::integrator::{Integrator, Radiance8, RayCounts, SampleGrid, Shares};
 use crate::math::Dir3;
 use crate::render::{Cancel, Drawn, Event, RenderOptions, camera_ray, render};
@@ -40,9 +40,12 @@ pub struct Explanation {
     pub linear: Rgb,
     /// Coverage in [0, 1]; 1 unless the background is transparent.
     pub alpha: f32,
-    /// How its light becomes what a PNG shows: as it is, until somebody sets the picture's
-    /// ([`Finished::tone`](crate::finish::Finished::tone)).
+    /// How its light becomes what a PNG shows: as it is, until that is found out
+    /// ([`expose`](Self::expose), [`finish_as`](Self::finish_as)).
     pub tone: ToneMap,
+    /// By what the steps of luminance scale its light; `None`: there are none, or it is not
+    /// found out.
+    pub cel: Option<f32>,
 }
 
 /// One sample of a pixel.
@@ -283,6 +286,8 @@ pub struct Onward {
 /// A pixel on its way to a file of 8 bits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Encoded {
+    /// With its luminance on a step; `None`: there are none. Linear.
+    pub stepped: Option<Rgb>,
     /// Its alpha divided out. Linear.
     pub straight: Rgb,
     /// What tone makes of that.
@@ -329,33 +334,25 @@ pub fn explain(
     let (terms, alpha) = (terms.get(0), alpha[0]);
     let eye = scene.look().camera.eye;
     let (size, linear) = (options.size(), terms.total());
-    let tone = ToneMap::default();
-    Ok(Explanation { pixel, size, eye, samples, terms, linear, alpha, tone })
+    let (tone, cel) = (ToneMap::default(), None);
+    Ok(Explanation { pixel, size, eye, samples, terms, linear, alpha, cel, tone })
 }
 
-/// Options of the picture that [`tone_of`] renders to find automatic exposure, for who makes room for its
-/// film; `None`: exposure is not automatic, and nothing is rendered.
-pub fn exposed_by(scene: &Scene, options: &RenderOptions) -> Option<RenderOptions> {
-    let tone = scene.tone.unwrap_or_default();
-    let bare = || options.clone().with_terms(TermSet::NONE).with_aovs(&[]).with_lights(0);
-    (tone.exposure == Exposure::Auto).then(|| bare().with_finishing_of(scene))
-}
-
-/// How light becomes what a PNG of a scene's picture shows, for [`Explanation::tone`]. Automatic exposure
-/// is that of the picture, which is rendered to find it ([`exposed_by`]), and tells `listen` how far it is;
-/// who cancels that gets some exposure or other.
-pub fn tone_of(
+/// Options of the picture that [`Explanation::expose`] renders to find automatic exposure, or the steps of a
+/// pixel's luminance, for who makes room for its film; `None`: nothing is rendered. Of a pixel outside the
+/// picture it is the whole.
+pub fn exposed_by(
     scene: &Scene,
-    view: &View,
     options: &RenderOptions,
-    listen: &(dyn Fn(Event<'_>) + Sync),
-    cancel: &Cancel,
-) -> ToneMap {
-    let Some(options) = exposed_by(scene, options) else {
-        return ToneMap::new(&scene.tone.unwrap_or_default(), &[], None);
-    };
-    let film = render(view, &options, listen, cancel).film;
-    *finish(&film, &Finishing::of(&options)).tone()
+    [x, y]: [u32; 2],
+) -> Option<RenderOptions> {
+    let bare = || options.clone().with_terms(TermSet::NONE).with_aovs(&[]).with_lights(0);
+    let finished = |bare: RenderOptions| bare.with_finishing_of(scene);
+    if scene.tone.unwrap_or_default().exposure == Exposure::Auto {
+        return Some(finished(bare()));
+    }
+    let pixel = Window { x0: x, y0: y, x1: x.saturating_add(1), y1: y.saturating_add(1) };
+    scene.image.cel.map(|_| finished(bare().with_window(pixel).unwrap_or_else(|_outside| bare())))
 }
 
 /// Traces sample `index` (from 0) of a pixel, and tells `witness` of every step: of the ray's own
@@ -413,16 +410,46 @@ impl<'a> Road<'a> {
 }
 
 impl Explanation {
+    /// Finds out how the pixel's light becomes what a PNG of the scene's picture shows. Automatic exposure is that
+    /// of the picture, and the steps of luminance are those of the pixel among its neighbours, which are
+    /// rendered to find them ([`exposed_by`]), and tell `listen` how far that is; who cancels it gets some
+    /// exposure or other.
+    pub fn expose(
+        &mut self,
+        scene: &Scene,
+        view: &View,
+        options: &RenderOptions,
+        listen: &(dyn Fn(Event<'_>) + Sync),
+        cancel: &Cancel,
+    ) {
+        let Some(options) = exposed_by(scene, options, self.pixel) else {
+            self.tone = ToneMap::new(&scene.tone.unwrap_or_default(), &[], None);
+            return;
+        };
+        let film = render(view, &options, listen, cancel).film;
+        self.finish_as(&finish(&film, &Finishing::of(&options)));
+    }
+
+    /// Takes tone and steps from a finished picture that shows the pixel.
+    pub fn finish_as(&mut self, picture: &Finished<'_>) {
+        let (Window { x0, y0, .. }, [x, y]) = (picture.film().window, self.pixel);
+        let place = x.checked_sub(x0).zip(y.checked_sub(y0));
+        self.cel = place.and_then(|(x, y)| picture.scale_at([x, y]));
+        self.tone = *picture.tone();
+    }
+
     /// The pixel as a PNG of 8 bits has it.
     pub fn encoded(&self) -> Encoded {
+        let stepped = self.cel.map(|scale| self.linear * scale);
         let straight = |v: f32| if self.alpha > 0.0 { v / self.alpha } else { 0.0 };
-        let straight = Rgb::from(self.linear.to_array().map(straight));
+        let straight = Rgb::from(stepped.unwrap_or(self.linear).to_array().map(straight));
         let tone = self.tone.steps(straight);
         // NaN becomes 0, as in files.
         let clamped =
             tone.last().to_array().map(|v| if v.is_nan() { 0.0 } else { v.clamp(0.0, 1.0) });
         let curve = clamped.map(|v| srgb_encode(f64::from(v)));
         Encoded {
+            stepped,
             straight,
             tone,
             clamped: clamped.into(),

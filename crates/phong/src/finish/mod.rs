@@ -3,6 +3,7 @@
 //! What belongs here is drawn onto a picture (outlines, labels, tone) and is no term: the film is always
 //! the sum of its terms.
 
+mod cel;
 mod outline;
 mod patch;
 mod tone;
@@ -31,7 +32,10 @@ pub struct Finishing {
     pub picture: Option<u32>,
     /// Lines around things; `None`: there are none. They are drawn by [`Lines::NEEDS`] of the film.
     pub lines: Option<Lines>,
-    /// What of the film is shown: its window without the margin that lines needed, and the layers that were
+    /// In how many steps from black to white the picture's luminance comes, 2 to 64, beneath those lines;
+    /// `None`: it stays as it is.
+    pub cel: Option<u32>,
+    /// What of the film is shown: its window without the margin that lines and steps needed, and the layers that were
     /// asked for; `None`: all of it.
     pub shown: Option<(Window, Vec<LayerKind>)>,
     /// Pixels an inch, which PNG files say; `None`: they do not.
@@ -47,14 +51,17 @@ impl Finishing {
     /// How a picture with these options is finished, of whatever scene it is; its file says nothing of
     /// that scene.
     pub fn of(options: &RenderOptions) -> Self {
-        let lines = options.lines();
+        let (lines, cel) = (options.lines(), options.cel());
         let shown = options.keeps_more().then(|| (options.shown(), options.shown_layers()));
-        Self { lines, shown, tone: options.tone(), ..Self::default() }
+        Self { lines, cel, shown, tone: options.tone(), ..Self::default() }
     }
 
     /// Whether the finished picture is another than that of the film.
     pub fn draws(&self) -> bool {
-        self.lines.is_some() || !self.patches.is_empty() || self.tone != Tone::default()
+        self.lines.is_some()
+            || self.cel.is_some()
+            || !self.patches.is_empty()
+            || self.tone != Tone::default()
     }
 
     /// The same, of the scene with this [`fingerprint`](crate::part::fingerprint()).
@@ -80,8 +87,11 @@ impl Finishing {
 #[derive(Clone, Debug)]
 pub struct Finished<'a> {
     film: Cow<'a, Film>,
-    /// The picture and its alpha with the lines that are drawn onto it; `None`: none are.
+    /// The picture and its alpha with the lines that are drawn onto it, and in steps; `None`: as the film
+    /// has it.
     lined: Option<[Vec<f32>; 2]>,
+    /// By what steps scale the light of each pixel; empty: there are none.
+    scales: Vec<f32>,
     /// What lies over that.
     patches: Vec<Patch>,
     /// The picture and its alpha with all that is drawn onto it, where that is patches.
@@ -95,6 +105,9 @@ pub struct Finished<'a> {
 /// Finishes a film's picture.
 pub fn finish<'a>(film: &'a Film, finishing: &Finishing) -> Finished<'a> {
     let mut finished = drawn(film, finishing);
+    if finishing.cel.is_some() {
+        return finished;
+    }
     // What covers the picture is no light that could expose it.
     let beneath = |kind| finished.beneath(kind);
     let (picture, alpha) = (beneath(LayerKind::Picture), beneath(LayerKind::Alpha));
@@ -102,22 +115,37 @@ pub fn finish<'a>(film: &'a Film, finishing: &Finishing) -> Finished<'a> {
     finished
 }
 
-/// A film with what is drawn onto its picture, and light as it is.
+/// A film with what is drawn onto its picture, and light as it is; where that comes in steps, exposed as they
+/// were found.
 fn drawn<'a>(film: &'a Film, finishing: &Finishing) -> Finished<'a> {
-    let Finishing { scene, picture, lines, shown, dpi, patches, tone: _ } = finishing;
+    let Finishing { scene, picture, lines, cel, shown, dpi, patches, tone } = finishing;
     let (scene, picture, dpi, patches) = (*scene, *picture, *dpi, patches.clone());
-    let (covered, tone) = (OnceLock::new(), ToneMap::default());
-    let coverage = lines.and_then(|lines| Some((outline::coverage(film, &lines)?, lines)));
-    let Some((window, kinds)) = shown else {
-        let lined = coverage.map(|(coverage, lines)| lined(film, &coverage, &lines));
-        let film = Cow::Borrowed(film);
-        return Finished { film, lined, patches, covered, dpi, scene, picture, tone };
+    let shown_film = match shown {
+        Some((window, kinds)) => Cow::Owned(film.cut(*window, kinds)),
+        None => Cow::Borrowed(film),
     };
-    let film_shown = film.cut(*window, kinds);
-    let lined = coverage.map(|(coverage, lines)| {
-        lined(&film_shown, &film.cut_values(&coverage, 1, *window), &lines)
+    // What is found of the whole film, of the part that is shown.
+    let cut = |values: Vec<f32>| match shown {
+        Some((window, _)) => film.cut_values(&values, 1, *window),
+        None => values,
+    };
+    let (mut exposed, mut scales) = (ToneMap::default(), Vec::new());
+    if let Some(steps) = *cel {
+        let [picture, alpha] = values(&shown_film);
+        exposed = ToneMap::new(tone, &picture, Some(&alpha));
+        scales = cut(cel::scales(film, steps, exposed.gain()));
+    }
+    let coverage = lines.and_then(|lines| Some((cut(outline::coverage(film, &lines)?), lines)));
+    let lined = (coverage.is_some() || !scales.is_empty()).then(|| {
+        let mut drawn = values(&shown_film);
+        cel::scale(&mut drawn[0], &scales);
+        if let Some((coverage, lines)) = &coverage {
+            line(&mut drawn, coverage, lines);
+        }
+        drawn
     });
-    Finished { film: Cow::Owned(film_shown), lined, patches, covered, dpi, scene, picture, tone }
+    let (film, covered, tone) = (shown_film, OnceLock::new(), exposed);
+    Finished { film, lined, scales, patches, covered, dpi, scene, picture, tone }
 }
 
 /// A film's picture and alpha; where it has none, all of it is covered.
@@ -128,9 +156,8 @@ fn values(film: &Film) -> [Vec<f32>; 2] {
     [picture, alpha]
 }
 
-/// A film's picture and alpha under lines that cover each pixel by so much.
-fn lined(film: &Film, coverage: &[f32], lines: &Lines) -> [Vec<f32>; 2] {
-    let [mut picture, mut alpha] = values(film);
+/// Draws lines over a picture and its alpha, which cover each pixel by so much.
+fn line([picture, alpha]: &mut [Vec<f32>; 2], coverage: &[f32], lines: &Lines) {
     let color = lines.color.to_array();
     for (pixel, &share) in picture.as_chunks_mut::<3>().0.iter_mut().zip(coverage) {
         if share > 0.0 {
@@ -142,7 +169,6 @@ fn lined(film: &Film, coverage: &[f32], lines: &Lines) -> [Vec<f32>; 2] {
     for (alpha, &share) in alpha.iter_mut().zip(coverage) {
         *alpha += (1.0 - *alpha) * share;
     }
-    [picture, alpha]
 }
 
 impl Finished<'_> {
@@ -180,6 +206,14 @@ impl Finished<'_> {
             _ => {}
         }
         self.film.layer(kind).map(|layer| &*layer.values)
+    }
+
+    /// By what steps of luminance scale the light of a pixel, which counts from the upper left corner of what
+    /// is shown; `None`: there are none, or no such pixel.
+    pub fn scale_at(&self, [x, y]: [u32; 2]) -> Option<f32> {
+        let within = x < self.film.width() && y < self.film.height();
+        let place = y as usize * self.film.width() as usize + x as usize;
+        self.scales.get(place).copied().filter(|_| within)
     }
 
     /// How its light becomes what a PNG shows.

@@ -86,6 +86,11 @@ impl ToneMap {
         self.stops
     }
 
+    /// By what exposure multiplies light.
+    pub(super) fn gain(&self) -> f32 {
+        self.gain
+    }
+
     /// The curve that light goes through.
     pub fn curve(&self) -> ToneCurve {
         self.curve

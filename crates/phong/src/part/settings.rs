@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use phong_scene::{Furniture, Scene, Tone};
+use phong_scene::{Furniture, Image, Scene, Tone};
 
 use super::{ARITHMETIC, checksum, figure, fingerprint, tone};
 use crate::film::{Film, LayerKind, Window};
@@ -66,6 +66,9 @@ impl Settings {
         if let Some(lines) = options.lines() {
             more("lines", lines.to_string());
         }
+        if let Some(steps) = options.cel() {
+            more("cel", steps.to_string());
+        }
         if options.keeps_more() {
             more("shown", corners(options.shown()));
             more("kept", names(&options.shown_layers()));
@@ -122,7 +125,7 @@ impl Settings {
         if let Some((window, layers)) = self.shown() {
             (self.window, self.layers) = (window, layers);
         }
-        self.picture.retain(|(name, _)| !["lines", "shown", "kept"].contains(&&**name));
+        self.picture.retain(|(name, _)| !["lines", "cel", "shown", "kept"].contains(&&**name));
         self
     }
 
@@ -133,6 +136,7 @@ impl Settings {
             scene: self.scene(),
             picture: None,
             lines: self.said("lines").and_then(Lines::from_text),
+            cel: self.said("cel").and_then(cel),
             shown: self.shown(),
             dpi: dpi.filter(|dpi: &f64| *dpi > 0.0 && dpi.is_finite()),
             patches: Vec::new(),
@@ -247,6 +251,11 @@ impl Settings {
         let settings = Self { size, window, tile, layers, share, encoding, tone, picture };
         window.fits(size).then_some(settings)
     }
+}
+
+/// In how many steps luminance comes; `None`: this says nothing of it.
+fn cel(text: &str) -> Option<u32> {
+    text.parse().ok().filter(|steps| (2..=Image::MOST_STEPS).contains(steps))
 }
 
 fn corners(Window { x0, y0, x1, y1 }: Window) -> String {

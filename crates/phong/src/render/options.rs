@@ -39,6 +39,8 @@ pub struct RenderOptions {
     lights: u32,
     passes: Passes,
     lines: Option<Lines>,
+    /// In how many steps the luminance of the finished picture comes.
+    cel: Option<u32>,
     /// Whether the distance of things is kept, for what they may hide of the picture's furniture.
     hides: bool,
     tone: Tone,
@@ -125,6 +127,7 @@ impl RenderOptions {
             lights: 0,
             passes: Passes::default(),
             lines: None,
+            cel: None,
             hides: false,
             tone: Tone::default(),
         };
@@ -277,14 +280,23 @@ impl RenderOptions {
         Self { lines, ..self }
     }
 
+    /// Renders what steps of luminance are found by, when the picture comes in so many of them, from
+    /// black to white: one pixel around the part that is shown. They are 2 to [`Image::MOST_STEPS`], and the
+    /// nearest of these where another number is asked for.
+    #[must_use]
+    pub fn with_cel(self, steps: Option<u32>) -> Self {
+        Self { cel: steps.map(|steps| steps.clamp(2, Image::MOST_STEPS)), ..self }
+    }
+
     /// Keeps what the picture of this scene is finished by ([`finish`](crate::finish::finish)): its lines,
-    /// and the distance of what may hide a label.
+    /// its steps, and the distance of what may hide a label.
     #[must_use]
     pub fn with_finishing_of(self, scene: &Scene) -> Self {
         let Scene { outline, image, furniture, tone, .. } = scene;
         let lines = outline.as_ref().map(|outline| Lines::of(outline, image));
         let hides = furniture.needs_depth();
-        Self { hides, ..self.with_lines(lines).with_tone(tone.unwrap_or_default()) }
+        let finished = self.with_lines(lines).with_cel(image.cel);
+        Self { hides, ..finished.with_tone(tone.unwrap_or_default()) }
     }
 
     /// Makes light so what a PNG shows; it changes no bit of the film.
@@ -303,15 +315,21 @@ impl RenderOptions {
         self.lines
     }
 
+    /// In how many steps the luminance of the finished picture comes; `None`: it stays as it is.
+    pub fn cel(&self) -> Option<u32> {
+        self.cel
+    }
+
     /// Width and height of the full picture, pixels.
     pub fn size(&self) -> [u32; 2] {
         self.size
     }
 
-    /// The part of it to render: what is shown, and what lines need around that.
+    /// The part of it to render: what is shown, and what lines and steps need around that.
     pub fn window(&self) -> Window {
         let Window { x0, y0, x1, y1 } = self.window;
-        let margin = self.lines.map_or(0, |lines| lines.margin());
+        let margin =
+            self.lines.map_or(0, |lines| lines.margin()).max(u32::from(self.cel.is_some()));
         Window {
             x0: x0.saturating_sub(margin),
             y0: y0.saturating_sub(margin),
@@ -432,12 +450,12 @@ impl RenderOptions {
 
     /// Whether the film holds any variable.
     pub(crate) fn has_variables(&self) -> bool {
-        !self.aovs.is_empty() || self.keeps_more()
+        !self.aovs.is_empty() || self.lines.is_some() || self.hides
     }
 
     /// Whether the film holds more than is shown, for who finishes it.
     pub(crate) fn keeps_more(&self) -> bool {
-        self.lines.is_some() || self.hides
+        self.lines.is_some() || self.hides || self.cel.is_some()
     }
 
     /// The layers that are shown: the picture, its alpha, the terms and variables asked for.

@@ -55,6 +55,9 @@ pub(crate) fn write_gltf(
         if scene.outline.is_some() {
             lost.push("lines around things");
         }
+        if scene.image.cel.is_some() {
+            lost.push("steps of luminance (`cel`)");
+        }
         if !scene.furniture.is_empty() {
             lost.push("title, scale bar, axes, legend or labels");
         }

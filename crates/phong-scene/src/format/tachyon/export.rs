@@ -148,6 +148,10 @@ fn head(scene: &Scene, account: &mut Account) -> String {
         let message = "Tachyon's outlines are of materials: `[outline]` is not written";
         account.drop(Diagnostic::warning(message.to_owned(), None));
     }
+    if scene.image.cel.is_some() {
+        let message = "Tachyon holds no steps of luminance: `cel` is not written";
+        account.drop(Diagnostic::warning(message.to_owned(), None));
+    }
     if scene.tone.is_some() {
         let message = "Tachyon holds no exposure, white balance or curve: `[tone]` is not written";
         account.drop(Diagnostic::warning(message.to_owned(), None));
