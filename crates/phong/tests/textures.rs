@@ -5,6 +5,8 @@
 mod images;
 #[path = "textures/patterns.rs"]
 mod patterns;
+#[path = "textures/relief.rs"]
+mod relief;
 
 use phong::aov::Aov;
 use phong::explain::{End, explain};
