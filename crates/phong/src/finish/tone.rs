@@ -129,7 +129,7 @@ fn automatic(picture: &[f32], alpha: Option<&[f32]>) -> f64 {
     let logarithm =
         |y: f32| wide::ln(f64::from(y.clamp(median / FARTHEST, (median * FARTHEST).min(f32::MAX))));
     // The pieces are the same for any number of threads, and summed in their order.
-    let pieces = lit.pieces().map(|piece| lit.luminances(piece).map(logarithm).sum());
+    let pieces = lit.pieces().into_par_iter().map(|piece| lit.luminances(piece).map(logarithm).sum());
     let sums: Vec<f64> = pieces.collect();
     let mean = sums.iter().sum::<f64>() / count as f64;
     let most = Tone::MOST_STOPS;
@@ -154,10 +154,9 @@ impl Lit<'_> {
     }
 
     /// All pixels, 4096 at a time.
-    fn pieces(&self) -> impl IndexedParallelIterator<Item = Range<usize>> {
+    fn pieces(&self) -> Vec<Range<usize>> {
         let pixels = self.picture.len();
-        let piece = move |number: usize| 4096 * number..pixels.min(4096 * (number + 1));
-        (0..pixels.div_ceil(4096)).into_par_iter().map(piece)
+        (0..pixels).step_by(4096).map(|first| first..pixels.min(first + 4096)).collect()
     }
 
     /// The median of the luminances, and how many there are; `None`: there is none.
@@ -201,7 +200,7 @@ impl Lit<'_> {
             some.iter_mut().zip(more).for_each(|(some, more)| *some += more);
             some
         };
-        self.pieces().fold(none, count).reduce(none, add)
+        self.pieces().into_par_iter().fold(none, count).reduce(none, add)
     }
 }
 
