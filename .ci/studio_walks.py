@@ -194,18 +194,36 @@ def files(walk):
 def looks(walk):
     """A look is put on by the keyboard, drawn with its lines as the program draws it, and taken back."""
     page = walk.page
-    walk.newer(lambda: page.select_option("#look", "ink"))
+    # It is shown before it is written; Escape leaves all as it was.
+    page.focus("#look")
+    before = page.evaluate("document.getElementById('canvas').toDataURL()")
+    page.keyboard.press("ArrowDown")
+    walk.newer(lambda: page.keyboard.press("End"))
+    assert page.evaluate("studio.tried") == "technical" and walk.written() == walk.text
+    assert "technical" in page.text_content("#status"), page.text_content("#status")
+    assert page.evaluate("document.getElementById('canvas').toDataURL()") != before
+    walk.shot("14-tried")
+    walk.newer(lambda: page.keyboard.press("Escape"))
+    assert page.evaluate("document.getElementById('canvas').toDataURL()") == before
+    assert page.evaluate("document.activeElement.id") == "look" and page.locator("#undo").is_disabled()
+    page.click("#look")
+    walk.newer(lambda: page.hover('[data-look="ink"]'))
+    tried = page.evaluate("document.getElementById('canvas').toDataURL()")
+    walk.newer(lambda: page.click('[data-look="ink"]'))
+    assert page.evaluate("document.getElementById('canvas').toDataURL()") == tried and page.locator("#looks").is_hidden()
     written = walk.written()
     assert "[outline]" in written and "shininess = 60   # a dull plastic" not in written, written
     kept = [line for line in walk.text.splitlines() if "center" in line or line.startswith("#")]
     assert all(line in written for line in kept), written
     assert page.locator("#unsaved").is_visible()
-    walk.shot("14-ink")
-    with page.expect_download() as download:
-        page.click("#png")
-    download.value.save_as(walk.shots / "ink.png")
-    subprocess.run([walk.phong, "render", walk.scene, "--look", "ink", "-o", walk.shots / "ink-rendered.png", "--quiet"], check=True)
-    assert (walk.shots / "ink.png").read_bytes() == (walk.shots / "ink-rendered.png").read_bytes(), "not the program's ink"
+    walk.shot("15-ink")
+    for kind in ["png", "svg"]:
+        with page.expect_download() as download:
+            page.click(f"#{kind}")
+        download.value.save_as(walk.shots / f"ink.{kind}")
+        rendered = walk.shots / f"ink-rendered.{kind}"
+        subprocess.run([walk.phong, "render", walk.scene, "--look", "ink", "-o", rendered, "--quiet"], check=True)
+        assert (walk.shots / f"ink.{kind}").read_bytes() == rendered.read_bytes(), f"not the program's ink as {kind}"
     walk.newer(lambda: page.keyboard.press("Control+z"))
     assert walk.written() == walk.text
     assert page.locator("#unsaved").is_hidden()
@@ -226,7 +244,7 @@ def saving(walk):
     walk.scene.write_text(theirs)
     page.evaluate("dispatchEvent(new Event('focus'))")  # it looks every few seconds, and when it is come back to
     walk.wait("!document.getElementById('changed').hidden", 20)
-    walk.shot("15-changed")
+    walk.shot("16-changed")
     walk.newer(lambda: page.locator("#changed button").first.click())
     assert walk.written() == theirs and page.locator("#unsaved").is_hidden()
     # Nothing is written over what somebody else has written without asking.

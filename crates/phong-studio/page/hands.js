@@ -32,6 +32,11 @@ export class Hands {
     this.gather("drag", () => drag);
   }
 
+  // Shows a look; `null`: none.
+  tryOn(look) {
+    this.gather("try-on", () => ({ look }));
+  }
+
   // Something of the last picture is seen, or will never be.
   seen() {
     this.waits = 0;
@@ -40,13 +45,14 @@ export class Hands {
 
   // Sends what is gathered, whatever is seen.
   flush() {
-    const { turn, move, zoom, look, drag } = this.pending;
+    const { turn, move, zoom, look, drag, "try-on": tried } = this.pending;
     this.pending = {};
     if (turn) this.send({ do: "turn", by: turn });
     if (move) this.send({ do: "move", by: move });
     if (zoom) this.send({ do: "zoom", by: zoom });
     if (look) this.send({ do: "look", set: look });
     if (drag) this.send({ do: "drag", ...drag });
+    if (tried) this.send({ do: "try-on", ...tried });
   }
 
   forget(what) {

@@ -12,6 +12,7 @@ import { Handles } from "./handles.js";
 import { Hands } from "./hands.js";
 import { History } from "./history.js";
 import { plot } from "./lobe.js";
+import { Looks } from "./looks.js";
 import { Picture } from "./picture.js";
 import { Saving } from "./saving.js";
 import { drops, Teaching } from "./teaching.js";
@@ -61,6 +62,14 @@ const file = new OpenFile({
   download: () => saving.download("toml"),
 });
 at("text").addEventListener("input", () => file.show());
+const looks = new Looks(at("look"), at("looks"), {
+  tryOn: (look) => {
+    editor.flush();
+    hands.tryOn(look);
+  },
+  // Of a text there is no look to take off: undo does that.
+  putOn: (name) => (name || state.bare) && putOn(name),
+});
 const curtain = new Curtain(at("frame"), at("curtain"));
 const whatIf = new WhatIf(at("supposed"), (set) => {
   if (state.told) send({ do: "explain", id: SUPPOSED, pixel: state.told.pixel, set });
@@ -108,6 +117,7 @@ function write(set) {
 // Puts a look on; what was typed is sent before.
 function putOn(name) {
   hands.forget("look");
+  hands.forget("try-on");
   editor.flush();
   send({ do: "put-on", look: name || null });
 }
@@ -163,11 +173,11 @@ function terms({ terms: all, off }) {
 }
 
 const hearing = {
-  hello({ protocol, open, files, look, looks, saves }) {
+  hello({ protocol, open, files, look, looks: all, saves }) {
     if (protocol !== PROTOCOL) return say(words.old);
     const names = files.includes(open) ? files : [open, ...files];
     at("file").replaceChildren(...names.map((name) => new Option(name, name, name === open, name === open)));
-    at("look").replaceChildren(...["", ...looks].map((name) => new Option(name || words.chooseLook, name)));
+    looks.names(all);
     file.begin(saves);
     state.lookFirst = look;
     send({ do: "keys" });
@@ -211,12 +221,16 @@ const hearing = {
     if (!state.fresh) note();
   },
   look(look) {
-    state.look = look;
+    const { picture: number, size, samples, tried } = look;
+    // Of a look that is tried on nothing but the picture is shown.
+    state.look = tried ? { ...state.look, picture: number, samples } : look;
+    state.tried = tried;
     state.stopped = false;
-    at("look").value = look.dressed ?? "";
     at("stop").textContent = words.stop;
-    picture.begin(look.picture, look.size);
+    picture.begin(number, size);
     teaching.end();
+    if (tried) return;
+    looks.now(look.dressed);
     controls.update(look);
     handles.show(at("show-handles").checked ? look.handles : []);
     terms(look);
@@ -242,7 +256,8 @@ const hearing = {
     }
     at("progress").value = (pass + 1) / passes;
     const all = state.look.samples;
-    say(pass + 1 === passes ? words.done(all) : words.drawing(samples, all));
+    if (state.tried) say(words.trying(state.tried));
+    else say(pass + 1 === passes ? words.done(all) : words.drawing(samples, all));
     state.done = pass + 1 === passes ? number : state.done;
   },
   explanation({ id, told, drawn, lines }) {
@@ -290,7 +305,8 @@ const hearing = {
     state.answered = state.asked;
     saving.refused();
     teaching.refused();
-    at("look").value = state.look?.dressed ?? "";
+    if (state.tried) hands.tryOn(null);
+    state.tried = null;
     hands.seen();
     say(message);
   },
@@ -317,10 +333,6 @@ at("file").onchange = ({ target }) => {
   if (file.mayLeave()) send({ do: "open", path: target.value });
   else target.value = state.path;
 };
-at("look").onchange = ({ target }) => {
-  // Of a text there is no look to take off: undo does that.
-  if (target.value || state.bare) putOn(target.value);
-};
 at("undo").onclick = () => history.undo();
 at("redo").onclick = () => history.redo();
 at("reset").onclick = () => send({ do: "reset" });
@@ -330,7 +342,7 @@ at("show-handles").onchange = () => handles.show(at("show-handles").checked ? st
 at("lobe").ontoggle = askLobe;
 at("lobe-light").onchange = askLobe;
 at("pin").onclick = keepOther;
-for (const format of ["png", "exr", "toml", "html"]) {
+for (const format of ["png", "exr", "svg", "toml", "html"]) {
   at(format).onclick = () => saving.download(format);
 }
 at("copy").onclick = () => saving.clip(at("command").textContent);

@@ -29,7 +29,10 @@ export const words = {
   saveOver: "Save over it",
   later: "Later",
   lookName: "Look",
-  lookHelp: "Writes lights, background and factors of a look into the text. Undo takes it back.",
+  lookHelp:
+    "A look is shown while it is pointed at. To choose it writes its lights, background and factors into the " +
+    "text. Undo takes it back.",
+  trying: (name) => `This is how ${name} looks. Choose it to keep it.`,
   chooseLook: "as it is",
   keepA: "Keep as A",
   keepAHelp: "Keeps what is shown as A, beside what is shown from now on; once more, and A goes.",
@@ -46,6 +49,8 @@ export const words = {
   resume: "Go on",
   png: "PNG",
   exr: "EXR",
+  svg: "SVG",
+  svgHelp: "The picture, and over it title, scale bar, axes, legend and labels as outlines, sharp at any size.",
   toml: "TOML",
   copy: "Copy the command",
   copied: "It is on the clipboard.",

@@ -47,6 +47,7 @@ page_files! {
     "history.js" "text/javascript; charset=utf-8",
     "keys.js" "text/javascript; charset=utf-8",
     "lobe.js" "text/javascript; charset=utf-8",
+    "looks.js" "text/javascript; charset=utf-8",
     "saving.js" "text/javascript; charset=utf-8",
     "teaching.js" "text/javascript; charset=utf-8",
     "whatif.js" "text/javascript; charset=utf-8",

@@ -25,6 +25,17 @@ pub(super) fn look_of(name: &str) -> Result<NamedLook, String> {
 }
 
 impl Opened {
+    /// The same with a look on, as [`Self::dress`] or [`Self::put_on`] would have it.
+    pub(super) fn with_look(&self, look: NamedLook, files: Files<'_>) -> Result<Self, String> {
+        let mut next = self.clone();
+        if self.text().is_none() {
+            next.dress(Some(look), files)?;
+        } else {
+            next.put_on(look, files)?;
+        }
+        Ok(next)
+    }
+
     /// Puts a look on a bare model, or takes it off; after an error it is to be put back as it was.
     pub(super) fn dress(
         &mut self,

@@ -2,7 +2,7 @@
 
 use std::io::Cursor;
 
-use phong::film::LayerKind;
+use phong::film::{Film, LayerKind};
 use phong::finish::{Finishing, finish};
 use phong::image::{Content, Encoding, Format, write};
 use phong::part::Settings;
@@ -54,6 +54,16 @@ fn explained(title: &str, painting: &Painting) -> Result<String, String> {
         .map_err(|error| error.to_string())
 }
 
+/// The film of a picture that is finished, and what its file goes by.
+fn whole<'a>(
+    opened: &Opened,
+    painting: Option<&'a Painting>,
+) -> Result<(&'a Film, Settings), String> {
+    let whole = painting.and_then(|painting| Some((painting, painting.finished()?)));
+    let (painting, film) = whole.ok_or("the picture is not finished yet")?;
+    Ok((film, Settings::of(&opened.scene()?, painting.options(), Encoding::default())))
+}
+
 /// What is open as a file.
 pub(super) fn file(
     kind: FileKind,
@@ -78,14 +88,17 @@ pub(super) fn file(
         }
         FileKind::Png => (Format::Png, Content::Layer(LayerKind::Picture), "png"),
         FileKind::Exr => (Format::Exr, Content::Film, "exr"),
+        FileKind::Svg => {
+            let (film, settings) = whole(opened, painting)?;
+            let text = furniture::svg(film, &settings, &settings.encoding);
+            let bytes = text.map_err(|error| error.to_string())?.into_bytes();
+            return Ok(Exported { name: format!("{stem}.svg"), bytes });
+        }
     };
-    let whole = painting.and_then(|painting| Some((painting, painting.finished()?)));
-    let (painting, film) = whole.ok_or("the picture is not finished yet")?;
-    let scene = opened.scene()?;
-    let encoding = Encoding::default();
-    let finishing = furniture::finishing(film, &Settings::of(&scene, painting.options(), encoding));
+    let (film, settings) = whole(opened, painting)?;
+    let finishing = furniture::finishing(film, &settings);
     let mut out = Cursor::new(Vec::new());
-    write(&finish(film, &finishing), content, format, &encoding, &mut out)
+    write(&finish(film, &finishing), content, format, &settings.encoding, &mut out)
         .map_err(|error| error.to_string())?;
     Ok(Exported { name: format!("{stem}.{ending}"), bytes: out.into_inner() })
 }

@@ -80,6 +80,8 @@ pub struct Engine {
     /// Which share of each picture is drawn, of how many; `None`: all of it.
     share: Option<(u32, u32)>,
     opened: Option<Opened>,
+    /// A look that is tried on, and what is open with it on.
+    tried: Option<(NamedLook, Opened)>,
     pixels: PixelKind,
     /// The number of the newest picture.
     picture: u32,
@@ -102,6 +104,7 @@ impl Engine {
             keeper: None,
             share: None,
             opened: None,
+            tried: None,
             pixels: PixelKind::default(),
             picture: 0,
             painting: None,
@@ -158,6 +161,7 @@ impl Engine {
             Request::Move { by } => self.changed(emit, |opened, files| opened.shift(by, files)),
             Request::Zoom { by } => self.changed(emit, |opened, files| opened.zoom(by, files)),
             Request::PutOn { look } => self.put_on(look.as_deref(), emit),
+            Request::TryOn { look } => self.try_on(look.as_deref(), emit),
             Request::Save { over, text } => self.save(over, text.as_deref(), emit),
             Request::CheckFile => {
                 self.check_file(emit);
@@ -231,12 +235,15 @@ impl Engine {
     /// Its share of the picture as a part file; `None` as long as that is not finished.
     #[must_use]
     pub fn part(&self) -> Option<Vec<u8>> {
-        sharing::part(self.opened.as_ref()?, self.painting.as_ref()?)
+        sharing::part(self.drawn()?, self.painting.as_ref()?)
     }
 
     /// Takes the share that another engine's [`part`](Self::part) is.
     pub fn join(&mut self, part: &[u8], emit: Emit<'_>) {
-        if let (Some(opened), Some(painting)) = (&self.opened, &mut self.painting)
+        // Not `drawn`, which would hold on to the painting as well.
+        let tried = self.tried.as_ref().map(|(_, tried)| tried);
+        if let (Some(opened), Some(painting)) =
+            (tried.or(self.opened.as_ref()), &mut self.painting)
             && let Err(message) = sharing::join(part, opened, painting, self.bounds.bytes)
         {
             say(emit, &error_reply(message));
@@ -250,7 +257,7 @@ impl Engine {
         }
         let (opened, text) = Opened::of_file(path, self.files())?;
         say(emit, &Reply::Scene { path: path.to_owned(), text });
-        self.painting = None;
+        (self.painting, self.tried) = (None, None);
         self.opened = Some(opened);
         self.begin(emit)
     }
@@ -287,7 +294,7 @@ impl Engine {
         let before = opened.clone();
         let mut done = opened.write(set, files);
         if done.is_ok() {
-            done = self.ready().map(drop);
+            done = self.ready(self.opened.as_ref()).map(drop);
         }
         if let Err(message) = done {
             self.opened = Some(before);
@@ -313,7 +320,7 @@ impl Engine {
             None => Err("a look that stands in a text is taken back by undo".to_owned()),
             Some(look) => opened.put_on(look, files),
         };
-        let done = done.and_then(|note| self.ready().map(|_| note));
+        let done = done.and_then(|note| self.ready(self.opened.as_ref()).map(|_| note));
         let note = done.inspect_err(|_| self.opened = Some(before))?;
         let text = self.opened.as_ref().and_then(|opened| opened.text().map(str::to_owned));
         if let Some(text) = text {
@@ -321,6 +328,19 @@ impl Engine {
             say(emit, &Reply::Text { text, note, from_file: false });
         }
         self.begin(emit)
+    }
+
+    /// Draws what is open with a look on, which stays as it is; `None`: without.
+    fn try_on(&mut self, name: Option<&str>, emit: Emit<'_>) -> Result<(), String> {
+        let tried = match name.map(dressing::look_of).transpose()? {
+            None => None,
+            Some(look) => {
+                let opened = self.opened.as_ref().ok_or(NOTHING)?;
+                Some((look, opened.with_look(look, self.files())?))
+            }
+        };
+        let before = std::mem::replace(&mut self.tried, tried);
+        self.paint_what_is_tried(emit).inspect_err(|_| self.tried = before)
     }
 
     fn drag(
@@ -384,24 +404,34 @@ impl Engine {
         if ok { self.paint(emit) } else { Ok(()) }
     }
 
-    /// The next picture, of what is open now.
-    fn ready(&self) -> Result<(u32, Painting, Shown), String> {
-        let shown = self.opened.as_ref().ok_or(NOTHING)?.shown()?;
+    /// What is drawn: what is open, with the look on that is tried.
+    fn drawn(&self) -> Option<&Opened> {
+        self.tried.as_ref().map(|(_, tried)| tried).or(self.opened.as_ref())
+    }
+
+    /// The next picture, of this.
+    fn ready(&self, opened: Option<&Opened>) -> Result<(u32, Painting, Shown), String> {
+        let shown = opened.ok_or(NOTHING)?.shown()?;
         let picture = self.picture.wrapping_add(1);
         let (bytes, share, view) = (self.bounds.bytes, self.share, shown.view.clone());
         let painting = Painting::new(picture, view, &shown.scene, self.off, bytes, share)?;
         Ok((picture, painting, shown))
     }
 
-    /// Begins the picture of what is open now.
+    /// Begins the picture of what is open now. No look is tried on any more.
     fn paint(&mut self, emit: Emit<'_>) -> Result<(), String> {
-        let (picture, painting, shown) = self.ready()?;
-        let opened = self.opened.as_ref().ok_or(NOTHING)?;
+        let tried = self.tried.take();
+        self.paint_what_is_tried(emit).inspect_err(|_| self.tried = tried)
+    }
+
+    fn paint_what_is_tried(&mut self, emit: Emit<'_>) -> Result<(), String> {
+        let (picture, painting, shown) = self.ready(self.drawn())?;
         self.picture = picture;
         self.stopped = false;
         self.planted = None;
         let finished = painting.draws();
         self.painting = Some(painting);
+        let opened = self.drawn().ok_or(NOTHING)?;
         say(
             emit,
             &Reply::Look {
@@ -413,6 +443,7 @@ impl Engine {
                 set: opened.set().clone(),
                 command: opened.command(),
                 dressed: opened.dressed.map(NamedLook::name),
+                tried: self.tried.as_ref().map(|(look, _)| look.name()),
                 handles: shown.handles,
                 terms: shown.terms.iter().map(Term::name).collect(),
                 off: self.off.iter().map(Term::name).collect(),
@@ -468,7 +499,7 @@ impl Engine {
         let view = if set.is_empty() {
             painting.view().clone()
         } else {
-            self.opened.as_ref().ok_or(NOTHING)?.view_with(set)?
+            self.drawn().ok_or(NOTHING)?.view_with(set)?
         };
         let told = phong::explain::explain(&view, &options, pixel);
         let mut told = told.map_err(|outside| outside.to_string())?;
@@ -484,7 +515,7 @@ impl Engine {
     }
 
     fn export(&self, format: crate::protocol::FileKind, emit: Emit<'_>) -> Result<(), String> {
-        let opened = self.opened.as_ref().ok_or(NOTHING)?;
+        let opened = self.drawn().ok_or(NOTHING)?;
         let file = exporting::file(format, opened, self.painting.as_ref())?;
         say(emit, &Reply::File { name: file.name, bytes: file.bytes.len() });
         emit(Message::Frame(crate::protocol::file_frame(&file.bytes)));

@@ -43,6 +43,12 @@ pub enum Request {
         /// Its name, as of `phong render --look`; `None` takes it off a bare model.
         look: Option<String>,
     },
+    /// Draws what is open with a look on, and changes nothing else: what would come of `put-on`. The next
+    /// request that changes the picture ends it.
+    TryOn {
+        /// Its name; `None` ends it.
+        look: Option<String>,
+    },
     /// Writes the text into the file that it was opened from. Where somebody else has changed that
     /// meanwhile, nothing is written, and that is said.
     Save {
@@ -217,6 +223,8 @@ pub enum FileKind {
     Png,
     /// The same with linear values.
     Exr,
+    /// The finished picture with its furniture as outlines over it, as `phong render` writes it.
+    Svg,
     /// The scene's text as it was edited, without what was laid over it.
     Toml,
     /// A program in Python that draws what is shown.
@@ -302,6 +310,8 @@ pub enum Reply {
         command: Option<String>,
         /// The look that a bare model has on; `None`: none.
         dressed: Option<&'static str>,
+        /// The look that is tried on: all else of this is as it would be with it; `None`: none.
+        tried: Option<&'static str>,
         /// Points of the scene that can be dragged, where they are seen.
         handles: Vec<Handle>,
         /// The terms that a picture of the scene can have, in the order of the sum.

@@ -114,3 +114,65 @@ fn a_bare_model_has_a_look_on_itself_and_takes_it_off() {
     let look = talk.page.last("look");
     assert_eq!((&look["dressed"], &look["values"]), (&json!(null), &bare));
 }
+
+#[test]
+fn a_look_that_is_tried_on_is_drawn_as_when_it_is_put_on_and_nothing_else_changes() {
+    let mut talk = Talk::of(SCENE);
+    talk.draw();
+    let (before, picture) = (talk.page.last("look").clone(), talk.page.pixels.clone());
+    talk.ask(&json!({ "do": "try-on", "look": "ink" }));
+    talk.draw();
+    let tried = talk.page.pixels.clone();
+    assert_eq!(talk.page.last("look")["tried"], "ink");
+    assert_ne!(tried, picture);
+    talk.ask(&json!({ "do": "export", "format": "svg" }));
+    let svg = talk.page.file.clone();
+    // It is said why it is refused, and the one before stays.
+    talk.ask(&json!({ "do": "try-on", "look": "inc" }));
+    assert!(talk.page.last("error")["message"].as_str().unwrap().contains("did you mean `ink`"));
+    talk.ask(&json!({ "do": "export", "format": "svg" }));
+    assert!(talk.page.file == svg);
+    talk.ask(&json!({ "do": "export", "format": "toml" }));
+    assert_eq!(String::from_utf8_lossy(&talk.page.file), SCENE);
+    assert!(talk.page.all("text").is_empty());
+    talk.ask(&json!({ "do": "try-on", "look": null }));
+    talk.draw();
+    assert_eq!(talk.page.pixels, picture);
+    let after = talk.page.last("look");
+    for key in ["values", "set", "command", "tried", "terms"] {
+        assert_eq!(after[key], before[key], "{key}");
+    }
+    // What is tried on goes by itself where something else changes.
+    talk.ask(&json!({ "do": "try-on", "look": "clay" }));
+    talk.ask(&json!({ "do": "terms", "off": [] }));
+    assert_eq!(talk.page.last("look")["tried"], json!(null));
+    talk.ask(&json!({ "do": "put-on", "look": "ink" }));
+    talk.draw();
+    assert_eq!(talk.page.pixels, tried);
+}
+
+#[test]
+fn on_a_bare_model_another_look_is_tried_on_in_place_of_the_one_that_it_has() {
+    let model = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n\
+        property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n\
+        element face 1\nproperty list uchar int vertex_indices\nend_header\n\
+        0 0 0 200 0 0\n1 0 0 200 0 0\n0 1 0 200 0 0\n3 0 1 2\n";
+    let mut talk = Talk {
+        engine: Engine::new(Memory::new().with("m.ply", model), Bounds::default()),
+        page: Page::default(),
+        stops: false,
+    };
+    talk.ask(&json!({ "do": "open", "path": "m.ply" }));
+    talk.ask(&json!({ "do": "look", "set": { "image.size": [24, 16], "image.samples": 1 } }));
+    talk.ask(&json!({ "do": "put-on", "look": "flat" }));
+    talk.draw();
+    let flat = talk.page.pixels.clone();
+    // Clay has taken the colours away, and they are there again.
+    talk.ask(&json!({ "do": "put-on", "look": "clay" }));
+    talk.ask(&json!({ "do": "try-on", "look": "flat" }));
+    talk.draw();
+    assert_eq!(talk.page.pixels, flat);
+    assert!(flat.chunks_exact(4).any(|pixel| pixel[0] > 2.0 * pixel[1]), "red");
+    talk.ask(&json!({ "do": "try-on", "look": null }));
+    assert_eq!(talk.page.last("look")["dressed"], "clay");
+}

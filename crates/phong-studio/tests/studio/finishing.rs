@@ -7,13 +7,14 @@ use phong::part::Settings;
 use phong::render::{Cancel, RenderOptions, render};
 use phong::scene::{Limits, Memory, Scene, read};
 use phong::view::View;
+use phong_lab::furniture;
 use serde_json::json;
 
 use crate::SCENE;
 use crate::engine::{Talk, bits, seen};
 
 fn text() -> String {
-    format!("{SCENE}[outline]\nwidth = 1.5\n")
+    format!("{SCENE}[outline]\nwidth = 1.5\n[title]\ntext = \"Two\"\n")
 }
 
 fn scene() -> Scene {
@@ -21,22 +22,23 @@ fn scene() -> Scene {
     read("a.toml", None, &files, &Limits::default()).scene.unwrap()
 }
 
-/// What `phong render` makes of the scene: the film, the finished picture, and its file.
-fn rendered() -> (Film, Film, Vec<u8>) {
+/// What `phong render` makes of the scene: the film, the finished picture, and its files.
+fn rendered() -> (Film, Film, Vec<u8>, String) {
     let scene = scene();
     let options = RenderOptions::of(&scene.image).unwrap().with_finishing_of(&scene);
     let film = render(&View::of(&scene).unwrap(), &options, &|_| {}, &Cancel::new()).film;
-    let finishing = Settings::of(&scene, &options, Encoding::default()).finishing();
-    let finished = finish(&film, &finishing);
+    let settings = Settings::of(&scene, &options, Encoding::default());
+    let svg = furniture::svg(&film, &settings, &settings.encoding).unwrap();
+    let finished = finish(&film, &furniture::finishing(&film, &settings));
     let mut exr = std::io::Cursor::new(Vec::new());
     write(&finished, Content::Film, Format::Exr, &Encoding::default(), &mut exr).unwrap();
     let picture = finished.into_film();
-    (film, picture, exr.into_inner())
+    (film, picture, exr.into_inner(), svg)
 }
 
 #[test]
 fn lines_are_seen_and_saved_as_a_render_draws_them() {
-    let (bare, finished, exr) = rendered();
+    let (bare, finished, exr, svg) = rendered();
     let mut talk = Talk::of(&text());
     assert_eq!(talk.page.last("look")["finished"], true);
     while talk.engine.has_work() {
@@ -47,6 +49,8 @@ fn lines_are_seen_and_saved_as_a_render_draws_them() {
     assert_ne!(seen(&talk.page), bits(&bare));
     talk.ask(&json!({ "do": "export", "format": "exr" }));
     assert!(talk.page.file == exr);
+    talk.ask(&json!({ "do": "export", "format": "svg" }));
+    assert_eq!(String::from_utf8_lossy(&talk.page.file), svg);
     talk.ask(&json!({ "do": "look", "set": { "outline.color": "red" } }));
     talk.draw();
     assert_ne!(seen(&talk.page), bits(&finished));

@@ -214,10 +214,10 @@ impl Dice {
                 json!({ "do": self.pick(&["save", "check-file", "take-file"]), "over": true })
             }
             16 if self.below(2) == 0 => {
-                json!({ "do": "put-on", "look": self.pick(&[Some("ink"), Some("clay"), Some(""), Some("vmd"), None]) })
+                json!({ "do": self.pick(&["put-on", "try-on"]), "look": self.pick(&[Some("ink"), Some("clay"), Some(""), Some("vmd"), None]) })
             }
             16 => {
-                json!({ "do": "export", "format": self.pick(&["png", "exr", "toml", "python", "pdf"]) })
+                json!({ "do": "export", "format": self.pick(&["png", "exr", "svg", "toml", "python", "pdf"]) })
             }
             17 => {
                 json!({ "do": self.pick(&["reset", "cancel", "resume", "keys", "mistake", "fly", ""]), "seed": id })
