@@ -194,6 +194,7 @@ def main():
     SHOTS.mkdir(parents=True, exist_ok=True)
     scene = SHOTS / "walk.toml"
     scene.write_text(SCENE)
+    (SHOTS / "run.xyz").write_text(studio_walks.RUN)
     studio = subprocess.Popen([PHONG, "studio", scene, "--no-open"], stdout=subprocess.PIPE, text=True)
     try:
         url = studio.stdout.readline().strip()

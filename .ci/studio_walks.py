@@ -230,6 +230,29 @@ def looks(walk):
     walk.start()
 
 
+# Three frames of a molecule that comes apart.
+RUN = "".join(f"3\n\nO 0 0 0\nH {1 + frame} 0 0\nH 0 {1 + frame} 0\n" for frame in range(3))
+
+
+def frames(walk):
+    """A trajectory has a slider of its frames, which keys move; the eye stays where it is."""
+    page = walk.page
+    assert page.locator("#frames").is_hidden()
+    walk.newer(lambda: page.select_option("#file", "run.xyz"))
+    assert page.locator("#frames").is_visible() and page.text_content("#frame-shown") == "0 (0 to 2)"
+    camera = page.evaluate("JSON.stringify(studio.look.values.camera)")
+    first = page.evaluate("document.getElementById('canvas').toDataURL()")
+    walk.newer(lambda: page.focus("#frame-number") or page.keyboard.press("End"))
+    assert page.text_content("#frame-shown") == "2 (0 to 2)"
+    assert page.evaluate("JSON.stringify(studio.look.values.camera)") == camera
+    assert page.evaluate("document.getElementById('canvas').toDataURL()") != first
+    walk.shot("17-frame")
+    walk.newer(lambda: page.keyboard.press("Home"))
+    assert page.evaluate("document.getElementById('canvas').toDataURL()") == first
+    walk.start()
+    assert page.locator("#frames").is_hidden()
+
+
 def saving(walk):
     """The text is saved in its file; what somebody else writes there is told, and taken or written over."""
     page = walk.page
@@ -357,7 +380,7 @@ CONTRAST = """(() => {
     return faint;
 })()"""
 
-ALL = [writing, typing, handles, seeing, files, looks, saving, teaching, manners]
+ALL = [writing, typing, handles, seeing, files, looks, frames, saving, teaching, manners]
 
 
 def pictures_a_second(page, seconds=3):

@@ -14,7 +14,7 @@ export class Curtain {
   }
 
   // Keeps what is shown as A.
-  keep({ path, text, set, values }) {
+  keep({ path, text, set, values, frame }) {
     this.leave();
     this.root = element("div", { class: "curtain" }, element("canvas", { width: 1, height: 1 }), element("span", {}, "A"));
     this.frame.querySelector("canvas").after(this.root);
@@ -22,6 +22,7 @@ export class Curtain {
     this.picture = new Picture(this.root, null, {});
     const begin = () => {
       this.send({ do: "open", path });
+      if (frame > 0) this.send({ do: "frame", number: frame });
       if (text === null) this.send({ do: "look", set });
       else this.send({ do: "edit", text, set });
     };

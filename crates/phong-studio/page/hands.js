@@ -32,6 +32,11 @@ export class Hands {
     this.gather("drag", () => drag);
   }
 
+  // Shows a frame.
+  frame(number) {
+    this.gather("frame", () => number);
+  }
+
   // Shows a look; `null`: none.
   tryOn(look) {
     this.gather("try-on", () => ({ look }));
@@ -45,13 +50,14 @@ export class Hands {
 
   // Sends what is gathered, whatever is seen.
   flush() {
-    const { turn, move, zoom, look, drag, "try-on": tried } = this.pending;
+    const { turn, move, zoom, look, drag, frame, "try-on": tried } = this.pending;
     this.pending = {};
     if (turn) this.send({ do: "turn", by: turn });
     if (move) this.send({ do: "move", by: move });
     if (zoom) this.send({ do: "zoom", by: zoom });
     if (look) this.send({ do: "look", set: look });
     if (drag) this.send({ do: "drag", ...drag });
+    if (frame !== undefined) this.send({ do: "frame", number: frame });
     if (tried) this.send({ do: "try-on", ...tried });
   }
 

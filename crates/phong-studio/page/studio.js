@@ -172,6 +172,15 @@ function terms({ terms: all, off }) {
   if (focused >= 0) at("terms").querySelectorAll("input")[focused]?.focus();
 }
 
+// Which frame of a trajectory is shown; the slider is where a hand left it.
+function frames({ frame, frames: count }) {
+  const slider = at("frame-number");
+  at("frames").hidden = count < 2;
+  slider.max = count - 1;
+  if (document.activeElement !== slider || state.fresh) slider.value = frame;
+  at("frame-shown").textContent = words.frameOf(frame, count);
+}
+
 const hearing = {
   hello({ protocol, open, files, look, looks: all, saves }) {
     if (protocol !== PROTOCOL) return say(words.old);
@@ -231,6 +240,7 @@ const hearing = {
     teaching.end();
     if (tried) return;
     looks.now(look.dressed);
+    frames(look);
     controls.update(look);
     handles.show(at("show-handles").checked ? look.handles : []);
     terms(look);
@@ -342,6 +352,7 @@ at("show-handles").onchange = () => handles.show(at("show-handles").checked ? st
 at("lobe").ontoggle = askLobe;
 at("lobe-light").onchange = askLobe;
 at("pin").onclick = keepOther;
+at("frame-number").oninput = ({ target }) => hands.frame(Number(target.value));
 for (const format of ["png", "exr", "svg", "toml", "html"]) {
   at(format).onclick = () => saving.download(format);
 }

@@ -8,6 +8,8 @@ export const words = {
     "The picture. Arrow keys turn it, with Shift they move it, plus and minus bring it nearer and " +
     "further. Click a pixel to have it explained.",
   progress: "How much of the picture is drawn",
+  frameNumber: "Frame",
+  frameOf: (number, count) => `${number} (0 to ${count - 1})`,
   undo: "Undo",
   redo: "Redo",
   reset: "Back to the text",

@@ -7,6 +7,7 @@
 mod dressing;
 mod exporting;
 mod finishing;
+mod frames;
 mod handles;
 mod hands;
 mod lines;
@@ -30,7 +31,8 @@ use phong_lab::grade::Planted;
 use serde_json::{Map, Value};
 
 use crate::protocol::{
-    MOST_EXPLAINED, MOST_EXPONENT, MOST_FACETS, Message, PixelKind, Reply, Request, VERSION,
+    FileKind, MOST_EXPLAINED, MOST_EXPONENT, MOST_FACETS, Message, PixelKind, Reply, Request,
+    VERSION,
 };
 use opened::{Files, Opened, Shown};
 use painting::Painting;
@@ -162,6 +164,7 @@ impl Engine {
             Request::Zoom { by } => self.changed(emit, |opened, files| opened.zoom(by, files)),
             Request::PutOn { look } => self.put_on(look.as_deref(), emit),
             Request::TryOn { look } => self.try_on(look.as_deref(), emit),
+            Request::Frame { number } => self.show_frame(number, emit),
             Request::Save { over, text } => self.save(over, text.as_deref(), emit),
             Request::CheckFile => {
                 self.check_file(emit);
@@ -242,8 +245,7 @@ impl Engine {
     pub fn join(&mut self, part: &[u8], emit: Emit<'_>) {
         // Not `drawn`, which would hold on to the painting as well.
         let tried = self.tried.as_ref().map(|(_, tried)| tried);
-        if let (Some(opened), Some(painting)) =
-            (tried.or(self.opened.as_ref()), &mut self.painting)
+        if let (Some(opened), Some(painting)) = (tried.or(self.opened.as_ref()), &mut self.painting)
             && let Err(message) = sharing::join(part, opened, painting, self.bounds.bytes)
         {
             say(emit, &error_reply(message));
@@ -328,6 +330,15 @@ impl Engine {
             say(emit, &Reply::Text { text, note, from_file: false });
         }
         self.begin(emit)
+    }
+
+    /// Shows another frame of what is open.
+    fn show_frame(&mut self, number: u64, emit: Emit<'_>) -> Result<(), String> {
+        let files = Files { source: &*self.source, bounds: &self.bounds };
+        let opened = self.opened.as_mut().ok_or(NOTHING)?;
+        let before = opened.clone();
+        let done = opened.show_frame(number, files).and_then(|()| self.begin(emit));
+        done.inspect_err(|_| self.opened = Some(before))
     }
 
     /// Draws what is open with a look on, which stays as it is; `None`: without.
@@ -443,6 +454,8 @@ impl Engine {
                 set: opened.set().clone(),
                 command: opened.command(),
                 dressed: opened.dressed.map(NamedLook::name),
+                frame: opened.frame.number,
+                frames: opened.frame.count,
                 tried: self.tried.as_ref().map(|(look, _)| look.name()),
                 handles: shown.handles,
                 terms: shown.terms.iter().map(Term::name).collect(),
@@ -514,8 +527,11 @@ impl Engine {
         }
     }
 
-    fn export(&self, format: crate::protocol::FileKind, emit: Emit<'_>) -> Result<(), String> {
-        let opened = self.drawn().ok_or(NOTHING)?;
+    fn export(&self, format: FileKind, emit: Emit<'_>) -> Result<(), String> {
+        // The text is as it is, whatever look is tried on.
+        let is_text = format == FileKind::Toml;
+        let opened = if is_text { self.opened.as_ref() } else { self.drawn() };
+        let opened = opened.ok_or(NOTHING)?;
         let file = exporting::file(format, opened, self.painting.as_ref())?;
         say(emit, &Reply::File { name: file.name, bytes: file.bytes.len() });
         emit(Message::Frame(crate::protocol::file_frame(&file.bytes)));

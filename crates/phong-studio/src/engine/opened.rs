@@ -7,7 +7,7 @@ use phong::geometry::{Geometry, GeometryOptions};
 use phong::look::Look;
 use phong::scene::{
     Blob, Change, Diagnostic, Format, MapRange, Memory, NamedLook, Reading, Scene, Source, Texture,
-    TextureKind, read_changed, trouble,
+    TextureKind, trouble,
 };
 use phong::terms::TermSet;
 use phong::view::View;
@@ -15,6 +15,7 @@ use phong_lab::tell;
 use serde_json::{Map, Value};
 
 use super::Bounds;
+use super::frames::Frame;
 use super::handles::{self, Grab, Spot};
 use super::look::{self, Base};
 use super::writing::written;
@@ -39,6 +40,8 @@ pub(super) struct Opened {
     grab: Option<Grab>,
     /// The look that a bare model has on.
     pub(super) dressed: Option<NamedLook>,
+    /// Which frame of a trajectory is shown.
+    pub(super) frame: Frame,
 }
 
 /// What reading needs besides a text.
@@ -79,9 +82,20 @@ impl Opened {
         let (diagnostics, is_sound) = (Vec::new(), false);
         let (path, set) = (path.to_owned(), Map::new());
         let (base, grab, dressed) = (None, None, None);
+        let frame = Frame::default();
         let (text_now, as_read) = (text.clone(), text.clone());
-        let mut opened =
-            Self { path, text: text_now, as_read, diagnostics, is_sound, base, set, grab, dressed };
+        let mut opened = Self {
+            path,
+            text: text_now,
+            as_read,
+            diagnostics,
+            is_sound,
+            base,
+            set,
+            grab,
+            dressed,
+            frame,
+        };
         opened.read(files)?;
         match opened.diagnostics.iter().find(|diagnostic| diagnostic.is_error()) {
             // A text can be mended in the page; a model cannot.
@@ -131,8 +145,8 @@ impl Opened {
         }
         let mut next = self.with_text(new);
         next.read(files)?;
-        if let Some(error) = next.diagnostics.iter().find(|diagnostic| diagnostic.is_error()) {
-            return Err(look::in_short(error));
+        if let Some(error) = next.first_error() {
+            return Err(error);
         }
         let mut left = self.set.clone();
         left.retain(|path, _| !set.contains_key(path));
@@ -154,6 +168,7 @@ impl Opened {
             set: Map::new(),
             grab: None,
             dressed: None,
+            frame: self.frame.clone(),
         }
     }
 
@@ -194,7 +209,23 @@ impl Opened {
     }
 
     pub(super) fn read(&mut self, files: Files<'_>) -> Result<(), String> {
-        let reading = self.reading(&[], files);
+        self.read_as(self.frame.clone(), files)?;
+        if !self.is_sound && self.frame.number > 0 {
+            // The text names other files now, or the file has become shorter.
+            let mut first = self.clone();
+            first.read_as(self.frame.first(), files)?;
+            if first.is_sound {
+                *self = first;
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads it with this frame of its trajectories.
+    pub(super) fn read_as(&mut self, mut frame: Frame, files: Files<'_>) -> Result<(), String> {
+        let read = |source: &dyn Source| frame.read(&self.path, source, &files.bounds.limits, &[]);
+        let reading = self.reading(files, read);
+        self.frame = frame;
         self.diagnostics = reading.diagnostics;
         self.is_sound = false;
         let Some(scene) = reading.scene else { return Ok(()) };
@@ -203,22 +234,16 @@ impl Opened {
         Ok(())
     }
 
-    fn reading(&self, changes: &[Change], files: Files<'_>) -> Reading {
-        let mut reading = self.reading_bare(changes, files);
+    /// What `read` makes of the files, with the text as it is now, and with the look on.
+    fn reading(&self, files: Files<'_>, read: impl FnOnce(&dyn Source) -> Reading) -> Reading {
+        let mut reading = match &self.text {
+            Some(text) => read(&Edited { path: &self.path, text, source: files.source }),
+            None => read(files.source),
+        };
         if let (Some(scene), Some(look)) = (&mut reading.scene, self.dressed) {
             scene.put_on(look);
         }
         reading
-    }
-
-    fn reading_bare(&self, changes: &[Change], Files { source, bounds }: Files<'_>) -> Reading {
-        match &self.text {
-            Some(text) => {
-                let edited = Edited { path: &self.path, text, source };
-                read_changed(&self.path, None, &edited, &bounds.limits, changes)
-            }
-            None => read_changed(&self.path, None, source, &bounds.limits, changes),
-        }
     }
 
     /// A scene made ready; arrays that are those of the scene before are shared with it, and their
@@ -245,6 +270,11 @@ impl Opened {
         let stand_ins = look::stand_ins(&scene)?;
         let middles = handles::middles(&scene);
         Ok(Arc::new(Base { scene, geometry, look, stand_ins, laid, middles }))
+    }
+
+    /// The first error that reading ended with.
+    pub(super) fn first_error(&self) -> Option<String> {
+        self.diagnostics.iter().find(|diagnostic| diagnostic.is_error()).map(look::in_short)
     }
 
     /// Whether the text can be drawn, and all there is to say about it.
@@ -353,7 +383,10 @@ impl Opened {
             // Objects are changed by reading the text with these values laid over it.
             let changes: Result<Vec<Change>, String> =
                 look::changes(&laid).map(|words| Change::parse(&words)).collect();
-            let reading = self.reading(&changes?, files);
+            let (changes, limits) = (changes?, &files.bounds.limits);
+            let read =
+                |source: &dyn Source| self.frame.reading(&self.path, source, limits, &changes);
+            let reading = self.reading(files, read);
             let scene = reading.into_scene().map_err(|error| look::first_error(&error))?;
             Some(self.based(scene, laid, files.bounds)?)
         };

@@ -9,10 +9,15 @@ use super::writing::written;
 impl Opened {
     /// The command line that draws what is shown.
     pub(super) fn command(&self) -> Option<String> {
-        if self.text.is_none() && !self.set.is_empty() {
+        let frame = self.frame.number;
+        // No command sees a frame of a bare model as another frame is.
+        if self.text.is_none() && (!self.set.is_empty() || frame > 0) {
             return None;
         }
         let mut command = format!("phong render {}", quoted(&self.path));
+        if frame > 0 {
+            command.push_str(&format!(" --frames {frame}"));
+        }
         if let Some(look) = self.dressed {
             command.push_str(" --look ");
             command.push_str(look.name());
@@ -27,6 +32,9 @@ impl Opened {
     /// A program in Python that draws what is shown: from the file if it is the file that is shown,
     /// else from the text with what is laid over it written in.
     pub(super) fn python(&self) -> Result<String, String> {
+        if self.frame.number > 0 {
+            return Err("a program in Python reads the first frame alone".to_owned());
+        }
         // Text of JSON is text of Python.
         let read = match (&self.text, self.set.is_empty()) {
             (text, true) if *text == self.as_read => {

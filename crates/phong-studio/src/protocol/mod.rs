@@ -43,6 +43,12 @@ pub enum Request {
         /// Its name, as of `phong render --look`; `None` takes it off a bare model.
         look: Option<String>,
     },
+    /// Shows another frame of the trajectories that are open. A bare model is seen as its first frame is; what is
+    /// laid over the scene stays.
+    Frame {
+        /// Its number, from 0.
+        number: u64,
+    },
     /// Draws what is open with a look on, and changes nothing else: what would come of `put-on`. The next
     /// request that changes the picture ends it.
     TryOn {
@@ -310,6 +316,10 @@ pub enum Reply {
         command: Option<String>,
         /// The look that a bare model has on; `None`: none.
         dressed: Option<&'static str>,
+        /// The number of the frame that is shown, from 0.
+        frame: u64,
+        /// How many frames there are; 1 where nothing that is open has several.
+        frames: u64,
         /// The look that is tried on: all else of this is as it would be with it; `None`: none.
         tried: Option<&'static str>,
         /// Points of the scene that can be dragged, where they are seen.

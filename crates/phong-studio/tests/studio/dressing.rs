@@ -162,6 +162,7 @@ fn on_a_bare_model_another_look_is_tried_on_in_place_of_the_one_that_it_has() {
         page: Page::default(),
         stops: false,
     };
+    talk.ask(&json!({ "do": "pixels", "kind": "linear" }));
     talk.ask(&json!({ "do": "open", "path": "m.ply" }));
     talk.ask(&json!({ "do": "look", "set": { "image.size": [24, 16], "image.samples": 1 } }));
     talk.ask(&json!({ "do": "put-on", "look": "flat" }));

@@ -213,6 +213,7 @@ impl Dice {
             16 if self.below(3) == 0 => {
                 json!({ "do": self.pick(&["save", "check-file", "take-file"]), "over": true })
             }
+            16 if self.below(3) == 0 => json!({ "do": "frame", "number": self.number() }),
             16 if self.below(2) == 0 => {
                 json!({ "do": self.pick(&["put-on", "try-on"]), "look": self.pick(&[Some("ink"), Some("clay"), Some(""), Some("vmd"), None]) })
             }

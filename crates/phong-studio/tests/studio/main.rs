@@ -6,6 +6,7 @@ mod client;
 mod dressing;
 mod engine;
 mod finishing;
+mod frames;
 #[cfg(feature = "server")]
 mod hostile;
 #[cfg(feature = "server")]

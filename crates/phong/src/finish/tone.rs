@@ -129,7 +129,8 @@ fn automatic(picture: &[f32], alpha: Option<&[f32]>) -> f64 {
     let logarithm =
         |y: f32| wide::ln(f64::from(y.clamp(median / FARTHEST, (median * FARTHEST).min(f32::MAX))));
     // The pieces are the same for any number of threads, and summed in their order.
-    let pieces = lit.pieces().into_par_iter().map(|piece| lit.luminances(piece).map(logarithm).sum());
+    let pieces =
+        lit.pieces().into_par_iter().map(|piece| lit.luminances(piece).map(logarithm).sum());
     let sums: Vec<f64> = pieces.collect();
     let mean = sums.iter().sum::<f64>() / count as f64;
     let most = Tone::MOST_STOPS;

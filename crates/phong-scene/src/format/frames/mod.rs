@@ -55,6 +55,8 @@ pub struct Frames<'a> {
     source: Unpacked<'a>,
     limits: &'a Limits,
     range: FrameRange,
+    /// How many bytes of a file are looked through for frames, and how many frames are found.
+    most: (u64, u64),
     topology: Topology,
     state: Mutex<State>,
 }
@@ -114,7 +116,15 @@ impl<'a> Frames<'a> {
     pub fn new(source: &'a dyn Source, limits: &'a Limits, range: FrameRange) -> Self {
         let range = FrameRange { step: range.step.max(1), ..range };
         let (topology, state) = (Topology::default(), Mutex::default());
-        Self { source: Unpacked::new(source, limits), limits, range, topology, state }
+        let (source, most) = (Unpacked::new(source, limits), (u64::MAX, u64::MAX));
+        Self { source, limits, range, most, topology, state }
+    }
+
+    /// The same, which looks through no more of a text file than the frames that begin in its first `bytes`, and
+    /// finds `count` frames at most: those behind them are not there.
+    #[must_use]
+    pub fn within(self, bytes: u64, count: u64) -> Self {
+        Self { most: (bytes, count), ..self }
     }
 
     /// Reads a scene or a bare model as [`read_changed`](crate::read_changed) does, with the frame of
@@ -186,7 +196,10 @@ impl<'a> Frames<'a> {
                 frames.push(section);
             }
             count += 1;
-            end.is_none_or(|end| count < end.max(2))
+            let goes_on = end.is_none_or(|end| count < end.max(2));
+            // Without lines it is of a DCD, nothing of which is read for this.
+            let is_far = section.lines > 0 && section.end >= self.most.0;
+            goes_on && !is_far && count < self.most.1
         })?;
         let around = match found {
             Ok(around) => around,

@@ -210,3 +210,19 @@ fn atoms_of_a_dump_take_the_places_of_their_numbers() {
     assert!(without.scene.is_none());
     assert!(without.diagnostics[0].message.contains("no `id`"), "{:?}", without.diagnostics);
 }
+
+#[test]
+fn so_many_bytes_and_so_many_frames_are_looked_through_and_no_more() {
+    let three = Memory::new().with("a.xyz", *b"1\n\nH 0 0 0\n1\n\nH 0 0 1\n1\n\nH 0 0 2\n");
+    let (limits, range) = (Limits::default(), FrameRange { start: 0, end: None, step: 1 });
+    for (bytes, count, found) in [(u64::MAX, 9, 3), (u64::MAX, 2, 2), (12, 9, 2), (24, 9, 3)] {
+        let frames = Frames::new(&three, &limits, range).within(bytes, count);
+        assert!(frames.read(1, "a.xyz", None, &[]).scene.is_some());
+        assert_eq!(frames.numbers().unwrap().len(), found, "{bytes} {count}");
+    }
+    // The places of frames in a DCD are known without reading it.
+    let files = files(PLAIN.file());
+    let frames = Frames::new(&files, &limits, range).within(1, 9);
+    assert!(frames.read(0, "dir/a.xyz", None, &changes()).scene.is_some());
+    assert_eq!(frames.numbers().unwrap(), [0, 1, 2]);
+}
