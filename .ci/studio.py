@@ -195,6 +195,7 @@ def main():
     scene = SHOTS / "walk.toml"
     scene.write_text(SCENE)
     (SHOTS / "run.xyz").write_text(studio_walks.RUN)
+    (SHOTS / "run.toml").write_text(SCENE.split("[[sphere]]")[0] + '[[molecule]]\nfile = "run.xyz"\n')
     studio = subprocess.Popen([PHONG, "studio", scene, "--no-open"], stdout=subprocess.PIPE, text=True)
     try:
         url = studio.stdout.readline().strip()

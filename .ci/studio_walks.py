@@ -238,13 +238,14 @@ def frames(walk):
     """A trajectory has a slider of its frames, which keys move; the eye stays where it is."""
     page = walk.page
     assert page.locator("#frames").is_hidden()
-    walk.newer(lambda: page.select_option("#file", "run.xyz"))
+    walk.newer(lambda: page.select_option("#file", "run.toml"))
     assert page.locator("#frames").is_visible() and page.text_content("#frame-shown") == "0 (0 to 2)"
     camera = page.evaluate("JSON.stringify(studio.look.values.camera)")
     first = page.evaluate("document.getElementById('canvas').toDataURL()")
     walk.newer(lambda: page.focus("#frame-number") or page.keyboard.press("End"))
     assert page.text_content("#frame-shown") == "2 (0 to 2)"
     assert page.evaluate("JSON.stringify(studio.look.values.camera)") == camera
+    assert page.text_content("#command") == "phong render run.toml --frames 2"
     assert page.evaluate("document.getElementById('canvas').toDataURL()") != first
     walk.shot("17-frame")
     walk.newer(lambda: page.keyboard.press("Home"))
