@@ -81,7 +81,19 @@ async function meet(message) {
   if (message.part) postMessage({ part: studio.part() ?? null });
 }
 
-async function begin({ module, script, share, open, scenes, look }) {
+// Gives the rest of the module, which a scene is the first to need. What needs it is in the middle of its work and
+// cannot wait, so that it is fetched while nothing else goes on here; the page goes on.
+function fetchRest(address) {
+  const request = new XMLHttpRequest();
+  request.open("GET", address, false);
+  request.responseType = "arraybuffer";
+  request.send();
+  if (request.status !== 200) throw new Error(`${address}: ${request.status}`);
+  return request.response;
+}
+
+async function begin({ module, script, rest, share, open, scenes, look }) {
+  globalThis.rest = () => fetchRest(rest);
   const { default: load, Studio } = await import(script);
   await load({ module_or_path: module });
   studio = new Studio(...share);

@@ -28,7 +28,7 @@ async function prepare() {
     get(`${name}_bg.wasm`).then(async (answer) => WebAssembly.compile(await answer.arrayBuffer())),
     get("files.json").then((answer) => answer.json()),
   ]);
-  return { module, script: address(`${name}.js`).href, open, scenes, look };
+  return { module, script: address(`${name}.js`).href, rest: address(`${name}_rest.wasm`).href, open, scenes, look };
 }
 
 export function work({ hear, take }) {

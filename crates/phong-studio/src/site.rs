@@ -15,12 +15,13 @@ use thiserror::Error;
 use crate::engine::{EXAMPLE, EXAMPLE_NAME};
 use crate::page;
 
-/// What has to be there beside the page's own files: the module, and the script that loads it. `.ci/wasm`
-/// makes them.
-pub const MODULES: [&str; 2] = ["phong-simd.js", "phong-simd_bg.wasm"];
+/// What has to be there beside the page's own files: the module, the rest of it, which few scenes need and is
+/// fetched for them, and the script that loads it. `.ci/wasm` makes them.
+pub const MODULES: [&str; 3] = ["phong-simd.js", "phong-simd_bg.wasm", "phong-simd_rest.wasm"];
 
 /// The same without vector instructions, for browsers that have none. May be left out.
-pub const PLAIN_MODULES: [&str; 2] = ["phong-plain.js", "phong-plain_bg.wasm"];
+pub const PLAIN_MODULES: [&str; 3] =
+    ["phong-plain.js", "phong-plain_bg.wasm", "phong-plain_rest.wasm"];
 
 /// What the page may do, as a header of the studio's server says it too.
 const POLICY: &str = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; \

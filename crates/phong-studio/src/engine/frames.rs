@@ -7,8 +7,6 @@ use phong::scene::{
     Blob, Change, Format, FrameRange, Frames, Limits, Reading, Scene, Source, read_changed,
 };
 
-use super::opened::{Files, Opened};
-
 /// How many bytes of a text file are looked through for frames, and how many frames are found of a file. It is done
 /// before the first picture, so it must not take long.
 const MOST: (u64, u64) = (256 << 20, 100_000);
@@ -76,37 +74,15 @@ impl Frame {
         reading
     }
 
-    /// The first frame of the same.
-    pub(super) fn first(&self) -> Self {
-        Self { number: 0, ..self.clone() }
+    /// Another frame of the same.
+    pub(super) fn other(&self, number: u64) -> Self {
+        Self { number, ..self.clone() }
     }
 
     /// The range of frames that this is; `None`: it is the first, for which nothing need be known of the others.
     fn range(&self) -> Option<FrameRange> {
         let end = Some(self.number.checked_add(1)?);
         (self.number > 0).then_some(FrameRange { start: self.number, end, step: 1 })
-    }
-}
-
-impl Opened {
-    /// Shows another frame; after an error it is to be put back as it was.
-    pub(super) fn show_frame(&mut self, number: u64, files: Files<'_>) -> Result<(), String> {
-        let count = self.frame.count;
-        if number >= count {
-            return Err(match count {
-                1 => "nothing that is open has several frames".to_owned(),
-                _ => format!("there is no frame {number}: there are {count}, 0 to {}", count - 1),
-            });
-        }
-        if !self.is_sound() {
-            return Err("no other frame is shown of a text that cannot be read".to_owned());
-        }
-        let set = std::mem::take(&mut self.set);
-        self.read_as(Frame { number, ..self.frame.clone() }, files)?;
-        if let Some(error) = self.first_error() {
-            return Err(error);
-        }
-        self.lay(set, files)
     }
 }
 

@@ -213,7 +213,7 @@ impl Opened {
         if !self.is_sound && self.frame.number > 0 {
             // The text names other files now, or the file has become shorter.
             let mut first = self.clone();
-            first.read_as(self.frame.first(), files)?;
+            first.read_as(self.frame.other(0), files)?;
             if first.is_sound {
                 *self = first;
             }
@@ -275,6 +275,26 @@ impl Opened {
     /// The first error that reading ended with.
     pub(super) fn first_error(&self) -> Option<String> {
         self.diagnostics.iter().find(|diagnostic| diagnostic.is_error()).map(look::in_short)
+    }
+
+    /// Shows another frame; after an error it is to be put back as it was.
+    pub(super) fn show_frame(&mut self, number: u64, files: Files<'_>) -> Result<(), String> {
+        let count = self.frame.count;
+        if number >= count {
+            return Err(match count {
+                1 => "nothing that is open has several frames".to_owned(),
+                _ => format!("there is no frame {number}: there are {count}, 0 to {}", count - 1),
+            });
+        }
+        if !self.is_sound() {
+            return Err("no other frame is shown of a text that cannot be read".to_owned());
+        }
+        let set = std::mem::take(&mut self.set);
+        self.read_as(self.frame.other(number), files)?;
+        if let Some(error) = self.first_error() {
+            return Err(error);
+        }
+        self.lay(set, files)
     }
 
     /// Whether the text can be drawn, and all there is to say about it.
