@@ -6,6 +6,7 @@ import { basename, dirname, join } from "node:path";
 
 const [modules, kind, out, ...scenes] = process.argv.slice(2);
 
+let scene;
 let replies = [];
 let frames = [];
 globalThis.hear = (reply) => replies.push(JSON.parse(reply));
@@ -14,12 +15,17 @@ globalThis.take = (bytes) => {
   return true;
 };
 globalThis.failed = (why) => console.error(why);
+// The other part of the module, which is asked for when a scene is the first to need it.
+globalThis.rest = () => {
+  console.log(`${scene} needs the rest of the module`);
+  return readFileSync(join(modules, `phong-${kind}_rest.wasm`));
+};
 
 const script = readFileSync(join(modules, `phong-${kind}.js`)).toString("base64");
 const { default: load, Studio } = await import(`data:text/javascript;base64,${script}`);
 await load({ module_or_path: readFileSync(join(modules, `phong-${kind}_bg.wasm`)) });
 
-for (const scene of scenes) {
+for (scene of scenes) {
   const studio = new Studio(0, 1);
   const ask = (request) => {
     replies = [];

@@ -16,7 +16,8 @@ impl Opened {
         }
         let mut command = format!("phong render {}", quoted(&self.path));
         if frame > 0 {
-            command.push_str(&format!(" --frames {frame}"));
+            command.push_str(" --frames ");
+            command.push_str(&frame.to_string());
         }
         if let Some(look) = self.dressed {
             command.push_str(" --look ");

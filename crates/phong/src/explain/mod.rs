@@ -335,7 +335,7 @@ pub fn explain(
     let eye = scene.look().camera.eye;
     let (size, linear) = (options.size(), terms.total());
     let (tone, cel) = (ToneMap::default(), None);
-    Ok(Explanation { pixel, size, eye, samples, terms, linear, alpha, cel, tone })
+    Ok(Explanation { pixel, size, eye, samples, terms, linear, alpha, tone, cel })
 }
 
 /// Options of the picture that [`Explanation::expose`] renders to find automatic exposure, or the steps of a
