@@ -10,6 +10,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::body::{Body, Contents, FaceList, ORIGIN_SAMPLES};
+use super::edges::{EdgePlan, Edges};
 use super::header::{Element, Encoding, Type};
 use super::names::{Row, WIDTH};
 use super::vertices::{Columns, Vertices, tell};
@@ -31,8 +32,14 @@ impl Body<'_> {
             let list = self.face_list(element);
             let edges = self.edges.clone().filter(|_| element.name == "edge");
             let walked = match element.stride() {
-                _ if let Some(plan) = edges => {
-                    self.walk_edges(&plan, element, offset, &mut contents.edges)?
+                stride if let Some(plan) = edges => {
+                    let stride = stride.filter(|stride| self.has_rows(element, offset, *stride));
+                    match stride {
+                        Some(stride) => {
+                            self.edges(&plan, (element, offset, stride), &mut contents.edges)?
+                        }
+                        None => self.walk_edges(&plan, element, offset, &mut contents.edges)?,
+                    }
                 }
                 Some(stride) => {
                     let size = element.count.saturating_mul(stride as u64);
@@ -87,6 +94,46 @@ impl Body<'_> {
             });
         }
         Ok(())
+    }
+
+    /// Whether all rows of an element are there, of `stride` bytes each, at least 1.
+    fn has_rows(&self, element: &Element, offset: u64, stride: usize) -> bool {
+        let there = self.blob.len().saturating_sub(offset);
+        stride > 0 && element.count.saturating_mul(stride as u64) <= there
+    }
+
+    /// Reads edges of `stride` bytes each, all of which are there; where they end.
+    fn edges(
+        &mut self,
+        plan: &EdgePlan,
+        (element, offset, stride): (&Element, u64, usize),
+        edges: &mut Edges,
+    ) -> io::Result<Option<u64>> {
+        let make = Make::new(element, stride, self.header.encoding == Encoding::Big);
+        let severity = self.plan.damage();
+        let step = (BLOCK / stride).max(1) as u64;
+        let blocks = element.count.div_ceil(step);
+        let pieces = (0..blocks)
+            .into_par_iter()
+            .map_init(Vec::new, |buffer, block| {
+                let first = block * step;
+                let rows = (element.count - first).min(step) as usize;
+                let bytes = self.block(buffer, offset + first * stride as u64, rows * stride)?;
+                let (mut piece, mut findings) = (Edges::default(), Findings::default());
+                for (number, row) in (first..).zip(bytes.chunks_exact(stride)) {
+                    if let Err(fault) = piece.add(plan, &make.row(row, &plan.columns)) {
+                        tell(&mut findings, severity, || self.whole(), "edge", number, &fault);
+                    }
+                }
+                Ok((piece, findings))
+            })
+            .collect::<io::Result<Vec<_>>>()?;
+        edges.reserve(plan, element.count as usize);
+        for (piece, findings) in pieces {
+            edges.append(piece);
+            self.findings.append(findings);
+        }
+        Ok(Some(offset + element.count * stride as u64))
     }
 
     /// Reads vertices of `stride` bytes each, all of which are there.

@@ -2,6 +2,8 @@
 
 use std::io;
 
+use rayon::prelude::*;
+
 use super::binary::Walk;
 use super::body::Body;
 use super::edges::{EdgePlan, Edges};
@@ -15,8 +17,8 @@ use crate::mesh::{Cylinders, Field};
 /// An end that is not there.
 const NOWHERE: [f32; 4] = [f32::NAN; 4];
 
-/// Bytes that an edge takes while it is read and as a cylinder.
-const BYTES: u64 = 28 + 56;
+/// Bytes that an edge takes while it is read, in a piece and among all, and as a cylinder.
+const BYTES: u64 = 28 + 28 + 56;
 
 impl Body<'_> {
     /// Whether so many edges are within the limits; an error if not.
@@ -86,34 +88,38 @@ impl Body<'_> {
             return None;
         }
         let (spheres, colors, of_ends) = vertices.into_ends(&self.plan);
-        let mut fields: Vec<_> = of_ends.iter().map(|_| Vec::new()).collect();
-        let (mut segments, mut pairs) = (Vec::with_capacity(edges.ends.len()), Vec::new());
-        let mut gone = 0_u64;
-        for (i, ends) in edges.ends.iter().enumerate() {
-            // A vertex without a place was left out, and one may be missing from a file cut short.
+        let each = || edges.ends.par_iter().enumerate();
+        // A vertex without a place was left out, and one may be missing from a file cut short.
+        let segment = |(i, ends): (usize, &[u32; 2])| {
             let mut segment = ends.map(|end| spheres.get(end as usize).copied().unwrap_or(NOWHERE));
-            if let Some(&[radius, radius_to]) = edges.radii.get(i) {
+            let radii =
+                edges.radii.get(i).copied().or_else(|| plan.radius.map(|radius| [radius; 2]));
+            if let Some([radius, radius_to]) = radii {
                 (segment[0][3], segment[1][3]) = (radius, radius_to);
-            } else if let Some(radius) = plan.radius {
-                (segment[0][3], segment[1][3]) = (radius, radius);
             }
-            let sound = |end: &[f32; 4]| end.iter().all(|v| v.is_finite()) && end[3] > 0.0;
-            if !segment.iter().all(sound) {
-                gone += 1;
-                continue;
-            }
-            segments.push(segment);
-            for (values, field) in fields.iter_mut().zip(&of_ends) {
-                let of = |end: u32| field.values.get(end as usize).copied().unwrap_or(f32::NAN);
-                values.extend(ends.map(of));
-            }
-            if let Some(&color) = edges.colors.get(i) {
-                pairs.push([color; 2]);
-            } else if !colors.is_empty() {
-                pairs.push(ends.map(|end| colors.get(end as usize).copied().unwrap_or(Rgb::BLACK)));
-            }
-        }
+            segment
+        };
+        let mut segments: Vec<[[f32; 4]; 2]> = each().map(segment).collect();
+        let color = |end: u32| colors.get(end as usize).copied().unwrap_or(Rgb::BLACK);
+        let mut pairs: Vec<[Rgb; 2]> = match (edges.colors.is_empty(), colors.is_empty()) {
+            (false, _) => edges.colors.par_iter().map(|color| [*color; 2]).collect(),
+            (true, false) => each().map(|(_, ends)| ends.map(color)).collect(),
+            (true, true) => Vec::new(),
+        };
+        let of_field = |field: &Field| -> Vec<[f32; 2]> {
+            let of = |end: u32| field.values.get(end as usize).copied().unwrap_or(f32::NAN);
+            each().map(|(_, ends)| ends.map(of)).collect()
+        };
+        let mut fields: Vec<_> = of_ends.iter().map(of_field).collect();
+        let sound = |end: &[f32; 4]| end.iter().all(|v| v.is_finite()) && end[3] > 0.0;
+        let kept: Vec<bool> = segments.par_iter().map(|ends| ends.iter().all(sound)).collect();
+        let gone = kept.iter().filter(|kept| !**kept).count();
         if gone > 0 {
+            keep(&mut segments, &kept);
+            keep(&mut pairs, &kept);
+            for values in &mut fields {
+                keep(values, &kept);
+            }
             self.warn("edges without their vertices", || {
                 format!("edges of which a vertex is left out: {gone}; they are left out")
             });
@@ -132,9 +138,18 @@ impl Body<'_> {
             segments: segments.into(),
             colors: pairs.into(),
             fields: (of_ends.into_iter().zip(fields))
-                .map(|(field, values)| Field { name: field.name, values: values.into() })
+                .map(|(field, values)| Field {
+                    name: field.name,
+                    values: values.into_flattened().into(),
+                })
                 .collect(),
             ..Cylinders::default()
         })
     }
+}
+
+/// Of these values those that are kept; there may be none at all.
+fn keep<T>(values: &mut Vec<T>, kept: &[bool]) {
+    let mut kept = kept.iter();
+    values.retain(|_| kept.next().is_some_and(|kept| *kept));
 }

@@ -140,6 +140,17 @@ impl Edges {
         Ok(())
     }
 
+    /// Makes room for so many more.
+    pub(super) fn reserve(&mut self, plan: &EdgePlan, count: usize) {
+        self.ends.reserve(count);
+        if plan.columns[END_RADIUS].is_some() {
+            self.radii.reserve(count);
+        }
+        if plan.has_colors() {
+            self.colors.reserve(count);
+        }
+    }
+
     /// Adds those of a later piece.
     pub(super) fn append(&mut self, mut later: Self) {
         self.ends.append(&mut later.ends);

@@ -347,3 +347,44 @@ fn what_maps_show_is_read_with_the_points_and_written_again() {
         assert_eq!(again.fields, bonds.fields);
     }
 }
+
+/// Points in a row, and 60,000 edges from each to the next; their radii are their numbers and 1.
+fn edges(change: impl Fn(usize) -> Option<[u32; 2]>) -> Vec<u8> {
+    let elements = "element vertex 60001\nproperty float x\nproperty float y\nproperty float z\n\
+        element edge 60000\nproperty int vertex1\nproperty int vertex2\nproperty float radius";
+    let mut body = floats((0..60_001).flat_map(|i| [i as f32, 0.0, 0.0]));
+    for i in 0..60_000_u32 {
+        for end in change(i as usize).unwrap_or([i, i + 1]) {
+            body.extend(end.to_le_bytes());
+        }
+        body.extend((1.0 + i as f32).to_le_bytes());
+    }
+    file(LITTLE, elements, &body)
+}
+
+#[test]
+fn edges_of_many_blocks_stay_in_order_and_a_bad_one_is_told_by_its_number() {
+    let Some(Shape::Cylinders(all)) = model(&edges(|_| None), &Limits::default(), None).0 else {
+        panic!("no cylinders");
+    };
+    assert_eq!(all.segments.len(), 60_000);
+    for (i, ends) in all.segments.iter().enumerate() {
+        let [x, radius] = [i as f32, 1.0 + i as f32];
+        assert_eq!(*ends, [[x, 0.0, 0.0, radius], [x + 1.0, 0.0, 0.0, radius]]);
+    }
+    let told = told(&edges(|i| (i == 50_000).then_some([0, 70_000])));
+    assert!(told.contains("edge 50000") && told.contains("70000"), "{told}");
+}
+
+#[test]
+fn an_edge_whose_vertex_was_left_out_takes_only_itself_away() {
+    let mut bytes = edges(|_| None);
+    let place = bytes.windows(11).position(|part| part == b"end_header\n").unwrap() + 11;
+    // The second point has no place.
+    bytes[place + 12..][..4].copy_from_slice(&f32::NAN.to_le_bytes());
+    let (model, told) = model(&bytes, &Limits::default(), None);
+    let Some(Shape::Cylinders(left)) = model else { panic!("{told}") };
+    assert_eq!(left.segments.len(), 59_998);
+    assert_eq!(left.segments[0][0], [2.0, 0.0, 0.0, 3.0]);
+    assert!(told.contains("a vertex is left out: 2"), "{told}");
+}
