@@ -180,21 +180,19 @@ impl Texels {
             let [a, b] = [self.get([left, upper], srgb), self.get([right, upper], srgb)];
             return [a, b, self.get([left, lower], srgb), self.get([right, lower], srgb)];
         };
-        // Most images: the kind of their numbers is asked for once, and not for each pixel.
-        let tables = decoded();
-        let (color, plain) = (&tables.bytes[usize::from(srgb)], &tables.bytes[0]);
+        // Most images: what their numbers are is asked for once, and not for each pixel.
         let [upper, lower] = [upper, lower].map(|y| y as usize * self.size[0] as usize);
         let [left, right] = [left as usize, right as usize];
-        [upper + left, upper + right, lower + left, lower + right].map(|pixel| {
-            let at = pixel * self.channels;
-            Self::pixel(&values[at..][..self.channels], |byte, is_color| {
-                let table = if is_color { color } else { plain };
-                table[usize::from(byte)]
-            })
-        })
+        let at = [upper + left, upper + right, lower + left, lower + right];
+        match self.channels {
+            1 => four_of_bytes::<1>(values, at, srgb),
+            2 => four_of_bytes::<2>(values, at, srgb),
+            3 => four_of_bytes::<3>(values, at, srgb),
+            _ => four_of_bytes::<4>(values, at, srgb),
+        }
     }
 
-    #[inline]
+    #[inline(always)]
     fn pixel<T: Copy>(of: &[T], value: impl Fn(T, bool) -> f32) -> [f32; 4] {
         match *of {
             [grey] => {
@@ -295,6 +293,35 @@ fn decode(value: f32) -> f32 {
 struct Decoded {
     /// What bytes are, as they are and as sRGB.
     bytes: [[f32; 256]; 2],
+}
+
+/// Four pixels of `N` bytes each, by their numbers in the image. They are written out one by one: a closure that
+/// `array::map` calls stays a call, and its four numbers then take the way through memory.
+#[inline(always)]
+fn four_of_bytes<const N: usize>(values: &[u8], at: [usize; 4], srgb: bool) -> [[f32; 4]; 4] {
+    let Decoded { bytes: tables } = decoded();
+    let tables = [&tables[usize::from(srgb)], &tables[0]];
+    [
+        one_of_bytes::<N>(values, at[0], tables),
+        one_of_bytes::<N>(values, at[1], tables),
+        one_of_bytes::<N>(values, at[2], tables),
+        one_of_bytes::<N>(values, at[3], tables),
+    ]
+}
+
+#[inline(always)]
+fn one_of_bytes<const N: usize>(
+    values: &[u8],
+    at: usize,
+    [color, plain]: [&[f32; 256]; 2],
+) -> [f32; 4] {
+    let pixel: &[u8] = values[at * N..].first_chunk::<N>().expect("the pixel is one of the image");
+    Texels::pixel(
+        pixel,
+        |byte, is_color| {
+            if is_color { color[usize::from(byte)] } else { plain[usize::from(byte)] }
+        },
+    )
 }
 
 fn decoded() -> &'static Decoded {

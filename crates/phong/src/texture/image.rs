@@ -98,9 +98,13 @@ impl ImageTexture {
             if part > 0.0 {
                 value = mix(value, self.between(far, place, srgb), part);
             }
-            sum = std::array::from_fn(|c| sum[c] + value[c]);
+            for (sum, value) in sum.iter_mut().zip(value) {
+                *sum += value;
+            }
         }
-        sum.map(|sum| sum / taps as f32)
+        let [r, g, b, opacity] = sum;
+        let taps = taps as f32;
+        [r / taps, g / taps, b / taps, opacity / taps]
     }
 
     /// How a parallelogram is covered: by places along its longer side, each about as wide as the shorter.
@@ -174,7 +178,8 @@ impl ImageTexture {
 /// From `a` towards `b`, a part of the way.
 #[inline(always)]
 fn mix(a: [f32; 4], b: [f32; 4], part: f32) -> [f32; 4] {
-    std::array::from_fn(|c| a[c] + part * (b[c] - a[c]))
+    let channel = |c: usize| a[c] + part * (b[c] - a[c]);
+    [channel(0), channel(1), channel(2), channel(3)]
 }
 
 /// The largest whole number that is not above `x`, which is finite: `f64::floor`, which is a call where the
