@@ -211,7 +211,7 @@ impl Pattern {
                 let octaves = Octaves::new(*octaves, *lacunarity, *gain, *seed);
                 fading(*scale, Fading::Noise(Noise { ramp: Ramp::new(stops), octaves }))
             }
-            TextureKind::Marble {
+            kind @ (TextureKind::Marble {
                 stops,
                 scale,
                 axis,
@@ -220,12 +220,8 @@ impl Pattern {
                 lacunarity,
                 gain,
                 seed,
-            } => {
-                let octaves = Octaves::new(*octaves, *lacunarity, *gain, *seed);
-                let veins = Veins::new(false, *axis, *turbulence, octaves, Ramp::new(stops));
-                fading(*scale, Fading::Veins(veins))
             }
-            TextureKind::Wood {
+            | TextureKind::Wood {
                 stops,
                 scale,
                 axis,
@@ -234,9 +230,11 @@ impl Pattern {
                 lacunarity,
                 gain,
                 seed,
-            } => {
+            }) => {
+                let has_rings = matches!(kind, TextureKind::Wood { .. });
                 let octaves = Octaves::new(*octaves, *lacunarity, *gain, *seed);
-                let veins = Veins::new(true, *axis, *turbulence, octaves, Ramp::new(stops));
+                let ramp = Ramp::new(stops);
+                let veins = Veins::new(has_rings, *axis, *turbulence, octaves, ramp);
                 fading(*scale, Fading::Veins(veins))
             }
             TextureKind::Cells { stops, scale, by, seed } => {
