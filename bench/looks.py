@@ -85,16 +85,16 @@ def textures(folder, ply):
     return {"plain": plain, "color": colored, "color, normal": both}
 
 
-def area(folder, _):
-    text = LIGHT.sub("", base("slide", folder)[1]).replace("samples = 1", "samples = 16")
-    at, toward = "position = [-5, 7, 5]\n", "direction = [5, -6, -5]\n"
-    kinds = {
-        "point": "",
-        "rectangle": f"{toward}width = 2\nheight = 1\n",
-        "disc": f"{toward}radius = 0.8\n",
-        "sphere": "radius = 0.8\n",
-    }
-    return {kind: f'{text}\n[[light]]\nkind = "{kind}"\n{at}{keys}' for kind, keys in kinds.items()}
+def area(folder, ply):
+    kinds = {"point": "", "rectangle": "width = 2\nheight = 1\n", "disc": "radius = 0.8\n", "sphere": "radius = 0.8\n"}
+    texts = {}
+    for name, samples in (("slide", 16), ("mesh", 4)):
+        text = LIGHT.sub("", base(name, folder, ply)[1]).replace("samples = 1", f"samples = {samples}")
+        for kind, keys in kinds.items():
+            toward = "direction = [5, -6, -5]\n" if kind in ("rectangle", "disc") else ""
+            light = f'\n[[light]]\nkind = "{kind}"\nposition = [-5, 7, 5]\n{toward}{keys}'
+            texts[f"{name}, {kind}"] = text + light
+    return texts
 
 
 def many(folder, _):
@@ -168,8 +168,9 @@ def bonds(folder, _):
 def base_of(name, names):
     """The picture that another one is held against: the same scene without the look."""
     scene, _, look = name.partition(", ")
-    if f"{scene}, plain" in names:
-        return f"{scene}, plain"
+    for plain in ("plain", "point"):
+        if f"{scene}, {plain}" in names:
+            return f"{scene}, {plain}"
     if scene == "bonds":
         return name.replace("bonds", "balls")
     return names[0] if scene != "balls" else name
