@@ -13,6 +13,8 @@ from collections import defaultdict
 from pathlib import Path
 
 MODULE, REST = Path(sys.argv[1]), Path(sys.argv[2])
+# The font, which nothing but functions of the rest reads: it is part of that.
+FONT = Path(__file__).resolve().parent.parent / "crates/phong-lab/src/furniture/font/sans.ttf"
 FEATURES = ["simd", "bulk-memory", "sign-ext", "mutable-globals", "nontrapping-float-to-int", "reference-types", "multivalue"]
 TABLE = 1  # the kind of an export
 # Whether a file is of a format is asked of every file, and what may have been made of things is asked when they go.
@@ -134,6 +136,36 @@ def with_exports(data, change):
     return bytes(out)
 
 
+def without_font(data):
+    """A module with zeros in the place of the font, and where in memory that is."""
+    font = FONT.read_bytes()
+    for kind, at, end in sections(data):
+        if kind != 11:
+            continue
+        count, at = number(data, at)
+        for _ in range(count):
+            assert data[at] == 0 and data[at + 1] == 0x41, "memory is filled in a way that is not known"
+            place, at = number(data, at + 2)
+            length, at = number(data, at + 1)
+            found = data.find(font, at, at + length)
+            if found >= 0:
+                return data[:found] + bytes(len(font)) + data[found + len(font) :], place + found - at
+            at += length
+    sys.exit("the font is not where it was")
+
+
+def with_font(data, place):
+    """A module that puts the font into memory when it is loaded."""
+    assert all(kind != 11 for kind, _, _ in sections(data)), "the rest has memory of its own to fill"
+    font = FONT.read_bytes()
+    # The place as a constant. Its number has a sign, which five bytes always leave room for.
+    constant = bytes([0x41]) + bytes(place >> shift & 127 | 128 for shift in (0, 7, 14, 21)) + bytes([place >> 28, 0x0B])
+    content = bytes([1, 0]) + constant + written(len(font)) + font
+    section = bytes([11]) + written(len(content)) + content
+    ends = [end for kind, _, end in sections(data) if kind == 10]
+    return data[: ends[0]] + section + data[ends[0] :]
+
+
 def main():
     gone = seldom(MODULE)
     assert len(gone) > 500, f"only {len(gone)} functions are known by their names"
@@ -158,7 +190,9 @@ def main():
         numbered = [(kind, last(entry, next(numbers)) if kind == TABLE else entry) for kind, entry in exports]
         return [*numbered, *tables]
 
-    MODULE.write_bytes(with_exports(part.read_bytes(), back))
+    module, place = without_font(with_exports(part.read_bytes(), back))
+    MODULE.write_bytes(module)
+    REST.write_bytes(with_font(REST.read_bytes(), place))
     part.unlink()
     names.unlink()
 
