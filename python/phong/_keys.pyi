@@ -59,6 +59,8 @@ class Light(Keys):
     ``up``: Along its height, made perpendicular to `direction`; any length.
     ``width``: Across `up`, scene units.
     ``height``: Along `up`, scene units.
+    ``object``: The name of the mesh that shines, from all of its triangles to both sides; it
+        does not shade its own light.
     ``target``: A point on the axis of the cone.
     ``cone``: Half-angle of full light, degrees.
     ``edge``: Half-angle where the light ends, degrees, not below `cone`; between them
@@ -79,13 +81,14 @@ class Light(Keys):
     def __init__(
         self,
         *,
-        kind: Literal["point", "distant", "spot", "rectangle", "disc", "sphere"],
+        kind: Literal["point", "distant", "spot", "rectangle", "disc", "sphere", "mesh"],
         name: str | None = None,
         position: ArrayLike | None = None,
         direction: ArrayLike | None = None,
         up: ArrayLike | None = None,
         width: float | None = None,
         height: float | None = None,
+        object: str | None = None,
         target: ArrayLike | None = None,
         cone: float | None = None,
         edge: float | None = None,

@@ -54,7 +54,7 @@ def balls(count: int = 40) -> phong.Scene:
 
 
 @pytest.mark.parametrize(
-    "name", [*THREE, "clipping.toml", "outline.toml", "figure.toml", "cel.toml"]
+    "name", [*THREE, "clipping.toml", "outline.toml", "figure.toml", "cel.toml", "mesh-light.toml"]
 )
 def test_the_picture_has_the_bits_of_one_machine(name: str, client: Any) -> None:
     path = SCENES / name

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use phong_scene::{
-    Caps, Cylinders, ExportOptions, Field, Format, Framing, Limits, Memory, Mesh, Object, Points,
-    Scene, Shape, Shared, Side, SkyKind, TexelValues, Texels, TextureKind, read,
+    Caps, Cylinders, ExportOptions, Field, Format, Framing, LightKind, Limits, Memory, Mesh,
+    Object, Points, Scene, Shape, Shared, Side, SkyKind, TexelValues, Texels, TextureKind, read,
 };
 use pyo3::PyResult;
 use serde_json::{Value, json};
@@ -167,6 +167,12 @@ pub(crate) fn pack(state: &State) -> PyResult<Packed> {
     // Objects have other names in the text.
     let clips: Vec<_> =
         scene.clips.iter_mut().map(|clip| std::mem::take(&mut clip.objects)).collect();
+    let lamps = scene.lights.iter_mut().map(|light| {
+        let LightKind::Mesh { attenuation } = light.kind else { return None };
+        light.kind = LightKind::Point { position: DVec3::ZERO, attenuation, radius: 0.0 };
+        Some(std::mem::take(&mut light.object))
+    });
+    let lamps: Vec<Option<String>> = lamps.collect();
     let mut take = |object: &mut Object| {
         let bulk = arrays.shape(&object.shape);
         if bulk.is_some() {
@@ -196,13 +202,14 @@ pub(crate) fn pack(state: &State) -> PyResult<Packed> {
         })
     });
     let text = json!({
-        "version": 2,
+        "version": 3,
         "text": text,
         "materials": materials,
         "objects": objects,
         "in_groups": in_groups,
         "images": images,
         "clips": clips,
+        "lamps": lamps,
         "parts": state.parts,
         "framing": framing,
         "automatic": [state.automatic.lights, state.automatic.bare],
@@ -229,7 +236,7 @@ fn broken() -> pyo3::PyErr {
 /// The scene that was packed.
 pub(crate) fn unpack(text: &str, arrays: &[&[u8]]) -> PyResult<State> {
     let packed: Value = serde_json::from_str(text).map_err(|_| broken())?;
-    if packed["version"] != 2 {
+    if packed["version"] != 3 {
         return Err(broken());
     }
     let toml = packed["text"].as_str().ok_or_else(broken)?;
@@ -267,6 +274,13 @@ pub(crate) fn unpack(text: &str, arrays: &[&[u8]]) -> PyResult<State> {
         let names = names.map(|name| name.as_str().map(str::to_owned));
         clip.objects = names.collect::<Option<_>>().ok_or_else(broken)?;
         clip.place = phong_scene::Place::default();
+    }
+    let lamps = packed["lamps"].as_array().ok_or_else(broken)?;
+    for (light, name) in scene.lights.iter_mut().zip(lamps) {
+        if let (Some(name), Some(attenuation)) = (name.as_str(), light.kind.attenuation()) {
+            light.kind = LightKind::Mesh { attenuation };
+            name.clone_into(&mut light.object);
+        }
     }
     scene.materials.truncate(names.len());
     for (material, name) in scene.materials.iter_mut().zip(names) {

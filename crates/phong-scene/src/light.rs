@@ -1,4 +1,4 @@
-//! Lights: distant, point and spot, and those with a surface: rectangle, disc and sphere.
+//! Lights: distant, point and spot, and those with a surface: rectangle, disc, sphere and mesh.
 //!
 //! ```toml
 //! [[light]]
@@ -25,11 +25,15 @@
 //! direction = [0, -1, 0]
 //! width = 2
 //! height = 1
+//!
+//! [[light]]
+//! kind = "mesh"
+//! object = "mesh 1"               # what is seen of it is the mesh's own `k_e`
 //! ```
 //!
 //! | key | value | default | meaning |
 //! |---|---|---|---|
-//! | `kind` | `point`, `distant`, `spot`, `rectangle`, `disc` or `sphere` | required | Where its light comes from. |
+//! | `kind` | `point`, `distant`, `spot`, `rectangle`, `disc`, `sphere` or `mesh` | required | Where its light comes from. |
 //! | `name` | text | `light N`, N from 1 | What `explain` calls it. |
 //! | `position` (point, spot, rectangle, disc, sphere) | three numbers, `[x, y, z]` | required | Where it is, in scene units. |
 //! | `direction` (distant) | three numbers, `[x, y, z]`, not all 0 | required | The way the light travels; any length. |
@@ -37,12 +41,13 @@
 //! | `up` (rectangle) | three numbers, `[x, y, z]`, not all 0 | `[0, 1, 0]`; `[0, 0, -1]` where the light travels along Y | Along its height, made perpendicular to `direction`; any length. |
 //! | `width` (rectangle) | a number above 0 | required | Across `up`, scene units. |
 //! | `height` (rectangle) | a number above 0 | required | Along `up`, scene units. |
+//! | `object` (mesh) | text | required | The name of the mesh that shines, from all of its triangles to both sides; it does not shade its own light. |
 //! | `target` (spot) | three numbers, `[x, y, z]` | required | A point on the axis of the cone. |
 //! | `cone` (spot) | a number from 0 to 90 | required | Half-angle of full light, degrees. |
 //! | `edge` (spot) | a number above 0 up to 90 | `cone` | Half-angle where the light ends, degrees, not below `cone`; between them smoothstep in the cosine. |
 //! | `color` | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name | `1` | `C_m,d` is this times the material's diffuse colour. |
 //! | `specular_color` | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name | `color` | `C_m,s` is this times the material's specular colour. |
-//! | `attenuation` (point, spot, rectangle, disc, sphere) | `[c, l, q]`, 0 or above, not all 0 | `[1, 0, 0]` | `[c, l, q]`: the light is divided by c + l d + q d², d the distance. |
+//! | `attenuation` (point, spot, rectangle, disc, sphere, mesh) | `[c, l, q]`, 0 or above, not all 0 | `[1, 0, 0]` | `[c, l, q]`: the light is divided by c + l d + q d², d the distance. |
 //! | `range` (point, spot, rectangle, disc, sphere) | a number above 0 | none | Distance from `position` beyond which there is nothing of it, scene units. |
 //! | `shadows` | `true` or `false` | `true` | Whether things in between take the light away. |
 //! | `radius` (point, spot) | a number 0 or above | `0` | Radius of the luminous sphere, scene units; 0: hard shadows. |
@@ -76,8 +81,16 @@ pub struct Light {
     /// Whether rays from the camera and mirrors see the surface of a light that has one. It glows in
     /// the light's `color`, is an emission, and throws no shadow.
     pub visible: bool,
+    /// The name of the object whose surface shines, of a light that is a [mesh](LightKind::Mesh); of others
+    /// nothing is asked of it.
+    pub object: String,
     /// Where it was written.
     pub place: Place,
+}
+
+impl Light {
+    /// The most triangles of a mesh that shines: each point that is lit looks at all of them.
+    pub const MOST_TRIANGLES: usize = 256;
 }
 
 impl Default for Light {
@@ -91,6 +104,7 @@ impl Default for Light {
             shadows: true,
             range: None,
             visible: true,
+            object: String::new(),
             place: Place::default(),
         }
     }
@@ -167,6 +181,12 @@ pub enum LightKind {
         /// As for a point light.
         attenuation: [f64; 3],
     },
+    /// A luminous mesh, an object of the scene: the mean, over the solid angles of its triangles, of what a
+    /// point light gives. They shine to both sides, and do not shade one another's light.
+    Mesh {
+        /// As for a rectangle.
+        attenuation: [f64; 3],
+    },
 }
 
 impl LightKind {
@@ -186,7 +206,7 @@ impl LightKind {
         }
     }
 
-    /// Where its light comes from; `None`: from infinitely far away.
+    /// Where its light comes from; `None`: from infinitely far away, or from a mesh, wherever that is.
     pub fn position(&self) -> Option<DVec3> {
         match self {
             Self::Point { position, .. }
@@ -194,7 +214,7 @@ impl LightKind {
             | Self::Rectangle { position, .. }
             | Self::Disc { position, .. }
             | Self::Sphere { position, .. } => Some(*position),
-            Self::Distant { .. } => None,
+            Self::Distant { .. } | Self::Mesh { .. } => None,
         }
     }
 
@@ -205,13 +225,14 @@ impl LightKind {
             | Self::Spot { attenuation, .. }
             | Self::Rectangle { attenuation, .. }
             | Self::Disc { attenuation, .. }
-            | Self::Sphere { attenuation, .. } => Some(*attenuation),
+            | Self::Sphere { attenuation, .. }
+            | Self::Mesh { attenuation } => Some(*attenuation),
             Self::Distant { .. } => None,
         }
     }
 
     /// Radius of the sphere that holds all of it or, of light from infinitely far away, degrees across
-    /// of the luminous disc; 0: hard shadows.
+    /// of the luminous disc; 0: hard shadows. Of a mesh, which the object alone knows, +∞.
     pub fn extent(&self) -> f64 {
         match self {
             Self::Point { radius, .. }
@@ -220,10 +241,11 @@ impl LightKind {
             | Self::Sphere { radius, .. } => *radius,
             Self::Rectangle { width, height, .. } => 0.5 * (width * width + height * height).sqrt(),
             Self::Distant { angle, .. } => *angle,
+            Self::Mesh { .. } => f64::INFINITY,
         }
     }
 
-    /// Whether it has a surface that rays can see.
+    /// Whether it has a surface that rays can see; that of a mesh is the object's own.
     pub fn has_surface(&self) -> bool {
         matches!(self, Self::Rectangle { .. } | Self::Disc { .. } | Self::Sphere { .. })
     }
@@ -280,6 +302,7 @@ words!(LightKind {
         attenuation: [1.0, 0.0, 0.0],
     },
     "sphere" = Sphere { position: DVec3::ZERO, radius: 0.5, attenuation: [1.0, 0.0, 0.0] },
+    "mesh" = Mesh { attenuation: [1.0, 0.0, 0.0] },
 });
 
 impl Default for LightKind {

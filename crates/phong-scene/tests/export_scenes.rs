@@ -1,8 +1,9 @@
 //! Scenes as glTF and as Tachyon files: what comes back, and what is told to be missing.
 
+use glam::Vec3;
 use phong_scene::{
-    CameraKind, Cylinders, ExportOptions, Fog, FogKind, Format, Limits, Memory, Object, Rgb, Scene,
-    Shape, read,
+    CameraKind, Cylinders, ExportOptions, Fog, FogKind, Format, Light, LightKind, Limits, Memory,
+    Mesh, Object, Rgb, Scene, Shape, read,
 };
 
 const SCENE: &str = r#"version = 1
@@ -110,6 +111,25 @@ fn what_gltf_cannot_hold_is_told() {
     let ball = "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n";
     let (_, dropped, _) = again(scene(ball), Format::Gltf, "b.glb");
     assert!(dropped.contains("so 1 sphere is left out"), "{dropped}");
+}
+
+#[test]
+fn a_mesh_that_shines_is_told_of_and_other_lights_are_written() {
+    for (format, name, lights) in [(Format::Gltf, "b.glb", 2), (Format::Tachyon, "b.dat", 2)] {
+        let mut scene = scene("");
+        let kind = LightKind::Mesh { attenuation: [1.0, 0.0, 0.0] };
+        let lamp = "lamp".to_owned();
+        scene.lights.insert(1, Light { kind, object: lamp.clone(), ..Light::default() });
+        let mesh = Mesh {
+            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y].into(),
+            indices: vec![[0, 1, 2]].into(),
+            ..Mesh::default()
+        };
+        scene.objects.push(Object { name: lamp, ..Object::from(Shape::from(mesh)) });
+        let (back, dropped, _) = again(scene, format, name);
+        assert!(dropped.contains("that shine"), "{dropped}");
+        assert_eq!(back.lights.len(), lights, "{name}");
+    }
 }
 
 #[test]

@@ -37,6 +37,7 @@ const CHANGES: [Change; 4] = [
                 | LightKind::Sphere { position, .. } => {
                     position.x += 0.1;
                 }
+                LightKind::Mesh { .. } => {}
             }
         }
     }),

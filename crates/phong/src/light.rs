@@ -1,6 +1,7 @@
 //! What one light sends to one point.
 
 mod area;
+mod mesh;
 
 use fearless_simd::{Simd, f32x8, f64x4, prelude::*};
 use glam::{DVec3, Vec3};
@@ -11,6 +12,7 @@ use crate::camera::{concentric_disc, concentric_disc8};
 use crate::math::lanes::{add, dot, normalize, scale, select3, splat3, sub};
 use crate::math::{Dir3, wide};
 use area::{Area, Chosen, choose_of_disc, choose_of_sphere};
+use mesh::LuminousMesh;
 
 /// The share of its way by which the surface of a light may lie behind another and still be seen: one that is
 /// mounted in a ceiling is meant to be before it.
@@ -39,6 +41,7 @@ enum Kind {
     Distant { to_light: Dir3, half_angle_tan: f32 },
     Point { position: DVec3, attenuation: [f32; 3], radius: f32, cone: Option<Cone> },
     Area { position: DVec3, attenuation: [f32; 3], area: Area },
+    Mesh { attenuation: [f32; 3], mesh: LuminousMesh },
 }
 
 #[derive(Clone, Debug)]
@@ -95,7 +98,8 @@ pub(crate) struct Reach<L, F> {
 }
 
 impl Light {
-    /// A light; where it is, is rounded to f32 about `center`.
+    /// A light; where it is, is rounded to f32 about `center`. One that is a mesh gives nothing: only a
+    /// [`View`](crate::view::View) knows its triangles.
     pub fn new(light: &phong_scene::Light, center: DVec3) -> Self {
         let (kind, size) = match light.kind {
             LightKind::Distant { direction, angle } => {
@@ -124,6 +128,10 @@ impl Light {
             LightKind::Sphere { position, radius, attenuation } => {
                 (surface(about(position, center), attenuation, Area::sphere(radius)), radius)
             }
+            LightKind::Mesh { attenuation } => {
+                let attenuation = attenuation.map(|a| a as f32);
+                (Kind::Mesh { attenuation, mesh: LuminousMesh::default() }, 1.0)
+            }
         };
         Self {
             kind,
@@ -137,10 +145,25 @@ impl Light {
         }
     }
 
+    /// Gives a light that is a mesh its triangles.
+    pub(crate) fn shine_from(&mut self, triangles: &[[DVec3; 3]]) {
+        if let Kind::Mesh { mesh, .. } = &mut self.kind {
+            *mesh = LuminousMesh::new(triangles);
+        }
+    }
+
+    /// How far a surface that is a light may be from where it was written, by rounding about `center`.
+    pub(crate) fn error(&self, center: DVec3) -> f32 {
+        match &self.kind {
+            Kind::Mesh { mesh, .. } => f32::EPSILON * mesh.reach_about(center) as f32,
+            _ => 0.0,
+        }
+    }
+
     /// Whether there are places that it sends nothing to, wherever its horizon is.
     pub(crate) fn has_end(&self) -> bool {
         match &self.kind {
-            Kind::Distant { .. } => false,
+            Kind::Distant { .. } | Kind::Mesh { .. } => false,
             Kind::Point { cone, .. } => cone.is_some() || self.range < f32::INFINITY,
             Kind::Area { area, .. } => area.facing().is_some() || self.range < f32::INFINITY,
         }
@@ -168,7 +191,7 @@ impl Light {
                 let behind = |facing: Vec3| way.dot(facing.as_dvec3()) < -slack;
                 !area.facing().is_some_and(behind)
             }
-            Kind::Point { .. } | Kind::Distant { .. } => true,
+            Kind::Point { .. } | Kind::Distant { .. } | Kind::Mesh { .. } => true,
         }
     }
 
@@ -185,7 +208,9 @@ impl Light {
                 let [low, high] = self.toward8(simd, origin);
                 area.meet(narrow(low, high), dir)
             }
-            Kind::Point { .. } | Kind::Distant { .. } => dir[0].splat(f32::INFINITY),
+            Kind::Point { .. } | Kind::Distant { .. } | Kind::Mesh { .. } => {
+                dir[0].splat(f32::INFINITY)
+            }
         }
     }
 
@@ -236,6 +261,9 @@ impl Light {
 
     /// How it reaches `p`, as [`Light::sample`] has it.
     pub(crate) fn reach(&self, p: DVec3, place: [f32; 2]) -> Option<Reach<Dir3, f32>> {
+        if let Kind::Mesh { attenuation, mesh } = &self.kind {
+            return mesh.reach(*attenuation, p, place);
+        }
         let toward = self.toward(p.to_array());
         let middle = toward.map(|v| v as f32);
         let aim = match self.rectangle() {
@@ -260,6 +288,9 @@ impl Light {
         p: &[[f64; 8]; 3],
         place: Option<&[[f32; 8]; 2]>,
     ) -> Reach<[f32x8<S>; 3], f32x8<S>> {
+        if let Kind::Mesh { attenuation, mesh } = &self.kind {
+            return mesh.reach8(simd, *attenuation, p, place);
+        }
         let [low, high] = self.toward8(simd, p);
         let aim = match (self.rectangle(), place) {
             (_, None) => Aim::Middle,
@@ -296,7 +327,7 @@ impl Light {
     #[inline(always)]
     fn toward<F: Lanes<Scalar = f64>>(&self, p: [F; 3]) -> [F; 3] {
         match self.kind {
-            Kind::Distant { .. } => p,
+            Kind::Distant { .. } | Kind::Mesh { .. } => p,
             Kind::Point { position, .. } | Kind::Area { position, .. } => {
                 sub(splat3(p[0], position.to_array()), p)
             }
@@ -309,6 +340,11 @@ impl Light {
     fn arrive<F: Lanes<Scalar = f32>>(&self, mut toward: [F; 3], aim: Aim<F>) -> Reach<[F; 3], F> {
         let width = toward[0];
         match &self.kind {
+            // It is reached point by point.
+            Kind::Mesh { .. } => {
+                let none = width.splat(0.0);
+                Reach { l: [none; 3], distance: none, share: none }
+            }
             Kind::Distant { to_light, half_angle_tan } => {
                 let mut l = splat3(width, to_light.to_array());
                 if let Aim::Place(place) = aim {
@@ -366,10 +402,10 @@ impl Light {
         F::select(distance.gt(share.splat(self.range)), zero, share)
     }
 
-    /// Where it is, rounded as it is used; `None`: it is distant.
+    /// Where it is, rounded as it is used; `None`: it is distant, or a mesh.
     pub(crate) fn position(&self) -> Option<DVec3> {
         match self.kind {
-            Kind::Distant { .. } => None,
+            Kind::Distant { .. } | Kind::Mesh { .. } => None,
             Kind::Point { position, .. } | Kind::Area { position, .. } => Some(position),
         }
     }

@@ -66,7 +66,7 @@ impl Look {
             background,
         } = self.clone();
         let image = Image { background, ..Image::default() };
-        // What they cut is looked up where there are objects.
+        // What they cut is looked up where there are objects, as is what shines.
         let clips = clips.into_iter().map(|clip| Clip { objects: Vec::new(), ..clip }).collect();
         let scene = Scene {
             image,

@@ -13,7 +13,7 @@ mod varied;
 use std::sync::Arc;
 
 use phong_bvh::{Coordinates, Hit, Ray, Surface, World};
-use phong_scene::{Background, Cap, Diagnostic, Rgb, Scene, ShadowRule};
+use phong_scene::{Background, Cap, Diagnostic, LightKind, Rgb, Scene, ShadowRule};
 use thiserror::Error;
 
 use crate::camera::Camera;
@@ -136,14 +136,32 @@ impl View {
         let center = geometry.center();
         let camera = Camera::new(&look.camera);
         let viewer = camera.backward();
-        let lights: Vec<_> = look.lights.iter().map(|light| Light::new(light, center)).collect();
+        let mut lights: Vec<_> =
+            look.lights.iter().map(|light| Light::new(light, center)).collect();
         let ready = |m: &phong_scene::Material| Material::new(&m.at(|_| Rgb::WHITE), viewer);
         let materials: Vec<_> = look.materials.iter().map(ready).collect();
         let fixture = |light: &Light| {
             let around = |at| Fixture::of(&geometry, &materials, at, look.camera.eye);
             light.position().map(around).unwrap_or_default()
         };
-        let fixtures = lights.iter().map(fixture).collect();
+        let mut fixtures: Vec<_> = lights.iter().map(fixture).collect();
+        for (i, written) in look.lights.iter().enumerate() {
+            if !matches!(written.kind, LightKind::Mesh { .. }) {
+                continue;
+            }
+            let Some((object, triangles)) = geometry.luminous(&written.object) else {
+                let wrong = format!(
+                    "{}: `object`: there is no mesh of at most {} triangles called {:?}",
+                    written.name,
+                    phong_scene::Light::MOST_TRIANGLES,
+                    written.object
+                );
+                return Err(ViewError::Look(vec![Diagnostic::error(wrong, None)]));
+            };
+            lights[i].shine_from(&triangles);
+            let error = lights[i].error(center);
+            fixtures[i] = Fixture::of_mesh(geometry.primitives_of_mesh(object), error);
+        }
         let mut varied: Vec<_> = look.materials.iter().map(Varied::of).collect();
         let mut reliefs: Vec<_> = look.materials.iter().map(Relief::of).collect();
         let mut tangents = Vec::new();

@@ -293,7 +293,9 @@ fn a_lights_layer_has_the_bits_of_a_picture_in_which_all_else_is_dark() {
     let more =
         |i: u32| format!("[[light]]\nkind = \"point\"\nposition = [{i}, 4, 5]\ncolor = 0.0{i}\n");
     let text = text.to_owned() + &(1..=12).map(more).collect::<String>();
+    let lamp = "v 0 0 0\nv 0.6 0 0\nv 0 0.5 0\nv 0 0 0.4\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
     let source = Memory::new().with("scene.toml", text.into_bytes());
+    let source = source.with("lamp.obj", lamp.as_bytes());
     let read = phong_scene::read("scene.toml", None, &source, &Limits::default());
     let lit = read.scene.unwrap_or_else(|| panic!("{:#?}", read.diagnostics));
     let options = RenderOptions::of(&lit.image).expect("checked");

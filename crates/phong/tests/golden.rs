@@ -32,7 +32,7 @@ golden! {
     cameras: fisheye landscape lens orthographic panorama perspective up wide;
     film: background cel empty filter_box filter_gaussian filter_mitchell filter_tent gradient odd_size
         one_pixel outline seed tone_filmic tone_reinhard transparent transparent_mirror;
-    lights: attenuation below_horizon colored disc distant enclosed point range rectangle shadow shadow_off
+    lights: attenuation below_horizon colored disc distant enclosed mesh point range rectangle shadow shadow_off
         shadow_touching specular_color sphere spot spot_hard;
     materials: blinn_phong cook_torrance default ggx lambert normalize opacity oren_nayar per_light phong
         times_cosine tint ward;

@@ -6,7 +6,7 @@ use phong::explain::{End, Lit, explain};
 use phong::film::{Film, LayerKind};
 use phong::render::{Cancel, RenderOptions, render};
 use phong::view::View;
-use phong_scene::{Limits, Memory, Scene, read};
+use phong_scene::{Light, LightKind, Limits, Memory, Scene, read};
 
 const ROOM: &str = include_str!("cases/room.toml");
 
@@ -168,4 +168,74 @@ fn explain_names_what_blocks_a_light_and_not_the_body_around_it() {
         (lit.distance - dark.distance).abs() == 0.0,
         "what is told is the light's own distance"
     );
+}
+
+/// A post on a floor under this light, which is out of sight.
+fn under(light: &str, files: &[(&str, &str)], samples: u32) -> Result<Vec<f32>, String> {
+    let text = format!(
+        "version = 1\n[image]\nsize = [20, 12]\nsamples = {samples}\n\
+         [camera]\neye = [0, 4, 3]\nlook_at = [0, 0, 0]\nfov = 40\n\
+         [materials.floor]\ncolor = 0.8\nk_a = 0\nk_s = 0.2\nshininess = 5\n\
+         [[plane]]\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\nmaterial = \"floor\"\n\
+         [[sphere]]\ncenter = [0, 0.5, 0.2]\nradius = 0.4\nmaterial = \"floor\"\n{light}"
+    );
+    let mut memory = Memory::new().with("a.toml", text.into_bytes());
+    for (name, text) in files {
+        memory = memory.with(*name, text.as_bytes());
+    }
+    let reading = read("a.toml", None, &memory, &Limits::default());
+    let scene = reading.scene.ok_or_else(|| format!("{:?}", reading.diagnostics))?;
+    let options = RenderOptions::of(&scene.image).unwrap();
+    let film = render(&View::of(&scene).unwrap(), &options, &|_| {}, &Cancel::new()).film;
+    Ok(film.layer(LayerKind::Picture).unwrap().values.iter().copied().step_by(3).collect())
+}
+
+/// A rectangle of 1.5 by 1 that faces the floor, in two triangles.
+const SHEET: &str =
+    "v -0.75 4 -0.5\nv 0.75 4 -0.5\nv 0.75 4 0.5\nv -0.75 4 0.5\nf 1 2 3\nf 1 3 4\n";
+
+#[test]
+fn a_mesh_of_two_triangles_lights_as_the_rectangle_that_they_are() {
+    let rectangle = "[[light]]\nkind = \"rectangle\"\nposition = [0, 4, 0]\ndirection = [0, -1, 0]\n\
+                     up = [0, 0, 1]\nwidth = 1.5\nheight = 1\nattenuation = [0.2, 0, 0.1]\n";
+    let mesh = "[[light]]\nkind = \"mesh\"\nobject = \"mesh 1\"\nattenuation = [0.2, 0, 0.1]\n\
+                [[mesh]]\nfile = \"sheet.obj\"\n";
+    let rectangle = under(rectangle, &[], 64).unwrap();
+    let mesh = under(mesh, &[("sheet.obj", SHEET)], 64).unwrap();
+    let each = || rectangle.iter().zip(&mesh).map(|(a, b)| (a - b).abs());
+    let (largest, mean) = (each().fold(0.0, f32::max), each().sum::<f32>() / mesh.len() as f32);
+    assert!(share(&rectangle) > 0.1 && largest < 0.05 && mean < 0.004, "{largest} {mean}");
+}
+
+#[test]
+fn a_mesh_that_is_tiny_is_a_point_light_from_each_side() {
+    let point = "[[light]]\nkind = \"point\"\nposition = [1, 3, 1]\ncolor = [0.8, 1, 1]\n";
+    let mesh = "[[light]]\nkind = \"mesh\"\nobject = \"lamp\"\ncolor = [0.8, 1, 1]\n\
+                [[mesh]]\nname = \"lamp\"\nfile = \"tent.obj\"\nscale = 1e-4\ntranslate = [1, 3, 1]\n";
+    let tent = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+    let point = under(point, &[], 4).unwrap();
+    let mesh = under(mesh, &[("tent.obj", tent)], 4).unwrap();
+    let alike = point.iter().zip(&mesh).filter(|(a, b)| (*a - *b).abs() < 2e-3).count();
+    // A shadow's edge may take or leave a sample.
+    assert!(alike > point.len() - 6 && share(&point) > 0.1, "{alike} of {}", point.len());
+}
+
+#[test]
+fn a_mesh_of_too_many_triangles_is_no_light_and_one_that_is_gone_is_told() {
+    let fan = |n: usize| {
+        let corner = |i: usize| format!("v {} 4 {}\n", i as f32 * 0.01, (i % 2) as f32);
+        let face = |i: usize| format!("f {i} {} {}\n", i + 1, i + 2);
+        (0..n + 2).map(corner).chain((1..=n).map(face)).collect::<String>()
+    };
+    let light = "[[light]]\nkind = \"mesh\"\nobject = \"mesh 1\"\n[[mesh]]\nfile = \"fan.obj\"\n";
+    let refused = under(light, &[("fan.obj", &fan(257))], 1).unwrap_err();
+    assert!(refused.contains("has 257 triangles, and a mesh that shines at most 256"), "{refused}");
+    assert!(share(&under(light, &[("fan.obj", &fan(256))], 1).unwrap()) > 0.0);
+    let text = "version = 1\n[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\n\
+                [[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n";
+    let mut scene = scene(text);
+    let kind = LightKind::Mesh { attenuation: [1.0, 0.0, 0.0] };
+    scene.lights = vec![Light { kind, object: "mesh 7".into(), ..Light::default() }];
+    let error = View::of(&scene).unwrap_err().to_string();
+    assert!(error.contains("there is no mesh of at most 256 triangles called"), "{error}");
 }

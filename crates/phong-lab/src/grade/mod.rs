@@ -26,7 +26,7 @@ mod tone;
 mod verdict;
 mod wrong;
 
-use phong_scene::{Material, Scene, ShadowRule, Tone};
+use phong_scene::{LightKind, Material, Scene, ShadowRule, Tone};
 use thiserror::Error;
 
 pub use json::json;
@@ -128,6 +128,9 @@ impl Grader {
             return Err(GradeError::NotYet(
                 "exposure, white balance or a curve of their own (`[tone]`)",
             ));
+        }
+        if scene.lights.iter().any(|light| matches!(light.kind, LightKind::Mesh { .. })) {
+            return Err(GradeError::NotYet("meshes that shine"));
         }
         if scene.image.cel.is_some() {
             return Err(GradeError::NotYet("luminance in steps (`cel`)"));

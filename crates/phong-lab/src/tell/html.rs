@@ -10,7 +10,7 @@ use phong::finish::Finished;
 use phong::render::{Cancel, Cancelled, RenderOptions};
 use phong::terms::Term;
 use phong::view::View;
-use phong_scene::{AmbientRule, ConstantMaterial, LightKind, Model, Rgb};
+use phong_scene::{AmbientRule, ConstantMaterial, Light, LightKind, Model, Rgb};
 use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
@@ -104,7 +104,7 @@ impl Shared<'_> {
             "lights": scene
                 .written_lights()
                 .iter()
-                .map(|l| json!([l.name, l.place.to_string(), where_from(&l.kind)]))
+                .map(|l| json!([l.name, l.place.to_string(), where_from(l)]))
                 .collect::<Vec<_>>(),
             "eye": scene.look().camera.eye.to_array(),
             // Where textures vary one, each surface brings its own.
@@ -196,11 +196,14 @@ impl Shared<'_> {
 }
 
 /// Where a light is, or which way it shines.
-fn where_from(kind: &LightKind) -> String {
+fn where_from(light: &Light) -> String {
     let triple = |v: DVec3| format!("({}, {}, {})", v.x, v.y, v.z);
-    match kind.direction() {
+    if let LightKind::Mesh { .. } = light.kind {
+        return format!("the mesh {}", light.object);
+    }
+    match light.kind.direction() {
         Some(direction) => format!("distant, shines along {}", triple(direction)),
-        None => format!("at {}", triple(kind.position().unwrap_or_default())),
+        None => format!("at {}", triple(light.kind.position().unwrap_or_default())),
     }
 }
 

@@ -10,6 +10,7 @@ mod detail;
 pub(crate) mod fault;
 mod groups;
 mod known;
+mod lamps;
 pub(crate) mod material;
 pub(crate) mod settings;
 pub(crate) mod shape;
@@ -60,6 +61,7 @@ impl Scene {
         let mut judge = Judge::new(self, &earlier);
         judge.look();
         clip::names(self, &mut |error| judge.say(error));
+        lamps::meshes(self, &mut |error| judge.say(error));
         judge.geometry();
         judge.exact_extents();
         if !judge.has_errors() {

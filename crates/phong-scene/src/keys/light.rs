@@ -75,6 +75,15 @@ pub(crate) static LIGHT: Table = Table {
         )
         .of(field!(Light.kind = LightKind::{Rectangle}.height))
         .only(&["rectangle"]),
+        Key::new(
+            "object",
+            Kind::Text,
+            Default::Required,
+            "The name of the mesh that shines, from all of its triangles to both sides; it does not shade its \
+             own light.",
+        )
+        .of(field!(Light.object))
+        .only(&["mesh"]),
         Key::new("target", Kind::Point, Default::Required, "A point on the axis of the cone.")
             .of(field!(Light.kind = LightKind::{Spot}.target))
             .only(&["spot"]),
@@ -115,8 +124,8 @@ pub(crate) static LIGHT: Table = Table {
             Default::Vector([1.0, 0.0, 0.0]),
             "`[c, l, q]`: the light is divided by c + l d + q d², d the distance.",
         )
-        .of(field!(Light.kind = LightKind::{Point | Spot | Rectangle | Disc | Sphere}.attenuation))
-        .only(LOCAL),
+        .of(field!(Light.kind = LightKind::{Point | Spot | Rectangle | Disc | Sphere | Mesh}.attenuation))
+        .only(&["point", "spot", "rectangle", "disc", "sphere", "mesh"]),
         Key::new(
             "range",
             Kind::Number(Range::POSITIVE),

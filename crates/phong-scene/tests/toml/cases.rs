@@ -66,6 +66,8 @@ cases! {
     tone_has_one_white
     tone_out_of_range_is_told
     luminance_comes_in_two_steps_or_more
+    what_shines_is_a_mesh
+    what_shines_is_there
     a_background_table_has_two_colours
     a_broken_model_is_told_with_the_place_that_names_it
     a_camera_must_look_somewhere

@@ -237,6 +237,7 @@ impl Make {
             shadows: self.flag(),
             range: (!is_distant && self.flag()).then_some(7.5),
             visible: !has_surface || self.flag(),
+            object: String::new(),
             place: Place::default(),
         }
     }

@@ -53,6 +53,8 @@ pub(super) fn spots(scene: &Scene, text: Option<&str>, middles: &[DVec3]) -> Vec
                 let name = format!("{}: target", light.name);
                 all.push(Spot::new("target", key("target"), &name, target));
             }
+            // Its object has a handle.
+            LightKind::Mesh { .. } => {}
             LightKind::Distant { direction, .. } => {
                 let way = direction.normalize_or(DVec3::NEG_Y) * away;
                 all.push(Spot {

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use glam::{DAffine3, DMat3, DVec2, DVec3, Mat3};
+use glam::{DAffine3, DMat3, DVec2, DVec3, Mat3, Vec3};
 use phong_bvh::{BuildError, BuildOptions, Part, Plane, Primitives, Sphere, Tree};
-use phong_scene::{Cylinders, Mesh, Points, Shape, cofactor, even_scale};
+use phong_scene::{Cylinders, Light, Mesh, Points, Shape, Shared, cofactor, even_scale};
 
 use super::ObjectRecord;
 use super::batch::{Batch, MaterialNumbers, MeshAttributes, Objects};
@@ -23,6 +23,29 @@ pub(super) struct Built {
     /// From the world to their own space, of the objects that have one.
     pub(super) own_spaces: Vec<(u32, DAffine3)>,
     pub(super) trees: Trees,
+    /// The meshes that may be lights.
+    pub(super) coarse: Vec<CoarseMesh>,
+}
+
+/// A mesh of few triangles: its corners in its own space, shared with the scene.
+#[derive(Debug)]
+pub(super) struct CoarseMesh {
+    /// The number of its object.
+    pub(super) object: u32,
+    positions: Shared<Vec3>,
+    indices: Shared<[u32; 3]>,
+    to_world: DAffine3,
+}
+
+impl CoarseMesh {
+    /// Its triangles in the world.
+    pub(super) fn triangles(&self) -> Vec<[DVec3; 3]> {
+        let corner = |i: u32| {
+            let own = self.positions[i as usize].as_dvec3();
+            self.to_world.transform_point3(own)
+        };
+        self.indices.iter().map(|corners| corners.map(corner)).collect()
+    }
 }
 
 /// Makes parts of all objects. What is written one by one goes into the world moved by minus the centre of
@@ -40,6 +63,7 @@ pub(super) fn build(
         objects: Vec::with_capacity(placed.len()),
         trees: Trees::default(),
         own_spaces: Vec::new(),
+        coarse: Vec::new(),
     };
     let to_center = DAffine3::from_translation(-scale.center);
     for Placed { object, name, to_world } in placed {
@@ -48,6 +72,16 @@ pub(super) fn build(
         out.objects.push(ObjectRecord { name, place: object.place.clone() });
         if to_world != DAffine3::IDENTITY {
             out.own_spaces.push((number, to_world.inverse()));
+        }
+        if let Shape::Mesh(mesh) = &object.shape
+            && mesh.indices.len() <= Light::MOST_TRIANGLES
+        {
+            out.coarse.push(CoarseMesh {
+                object: number,
+                positions: mesh.positions.clone(),
+                indices: mesh.indices.clone(),
+                to_world: to_world * DAffine3::from_translation(mesh.origin),
+            });
         }
         let (arrays, origin, batch) = match &object.shape {
             Shape::Mesh(mesh)

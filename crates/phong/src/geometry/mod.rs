@@ -23,6 +23,7 @@ use phong_scene::{Diagnostic, Place, Scene, Shape, SoundArrays};
 use thiserror::Error;
 
 pub(crate) use batch::{Batch, Properties};
+use build::CoarseMesh;
 use closed::Closed;
 use scale::Scale;
 use tangents::KnownTangents;
@@ -66,6 +67,8 @@ pub struct Geometry {
     trees: Trees,
     /// The arrays of meshes and clouds, which are sound.
     sound: SoundArrays,
+    /// The meshes that may be lights, by the number of their object.
+    coarse: Vec<CoarseMesh>,
     /// The tangents of meshes that were asked for.
     tangents: KnownTangents,
     /// How it was built, and is built again.
@@ -199,7 +202,7 @@ impl Geometry {
         let scale = Scale::of(&placed);
         let center = scale.center;
         let built = build::build(placed, scale, trees, build)?;
-        let build::Built { parts, batches, objects, own_spaces, trees } = built;
+        let build::Built { parts, batches, objects, own_spaces, trees, coarse } = built;
         let materials = batches.iter().filter_map(Batch::highest_material).max();
         let materials = materials.map_or(0, |highest| highest.saturating_add(1));
         let world = World::build(parts, center, build)?;
@@ -213,6 +216,7 @@ impl Geometry {
             closed,
             trees,
             sound,
+            coarse,
             tangents: KnownTangents::default(),
             options,
         })
@@ -258,6 +262,24 @@ impl Geometry {
     /// If `hit` is none.
     pub fn object(&self, hit: &Hit) -> u32 {
         self.batch(hit.part).object(hit.prim)
+    }
+
+    /// The number of the object of this name, and its triangles in the world; `None`: it is no mesh, or none
+    /// that may be a light.
+    pub(crate) fn luminous(&self, name: &str) -> Option<(u32, Vec<[DVec3; 3]>)> {
+        let is_named = |mesh: &&CoarseMesh| self.objects[mesh.object as usize].name == name;
+        self.coarse.iter().find(is_named).map(|mesh| (mesh.object, mesh.triangles()))
+    }
+
+    /// Part and number of each primitive of a mesh, in order.
+    pub(crate) fn primitives_of_mesh(&self, object: u32) -> Vec<[u32; 2]> {
+        let parts = (0..self.batches.len() as u32).filter(|&part| {
+            let batch = self.batch(part);
+            (batch.is_mesh() || batch.face.is_some()) && batch.object(0) == object
+        });
+        let each =
+            |part| (0..self.world.primitives(part).len() as u32).map(move |prim| [part, prim]);
+        parts.flat_map(each).collect()
     }
 
     /// Whether an object encloses what is inside. Of a mesh it is found out when it is first asked for.

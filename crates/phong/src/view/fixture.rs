@@ -22,7 +22,7 @@ pub(crate) struct Fixture {
     pub(crate) error: f32,
     /// Surfaces that it lies in, to rounding.
     pub(crate) surfaces: Vec<Mounting>,
-    /// Part and primitive of each luminous body that it is within.
+    /// Part and primitive of each luminous body that it is within, sorted.
     bodies: Vec<[u32; 2]>,
 }
 
@@ -60,14 +60,19 @@ impl Fixture {
         }
     }
 
-    /// Whether it is within luminous bodies.
+    /// That of a light that is a mesh, whose primitives these are, sorted: it does not shade its own light.
+    pub(super) fn of_mesh(bodies: Vec<[u32; 2]>, error: f32) -> Self {
+        Self { error, surfaces: Vec::new(), bodies }
+    }
+
+    /// Whether it is within luminous bodies, or one itself.
     pub(crate) fn has_bodies(&self) -> bool {
         !self.bodies.is_empty()
     }
 
-    /// Whether this is one of the luminous bodies that it is within.
+    /// Whether this is one of the luminous bodies that it is within, or is.
     pub(crate) fn is_body(&self, hit: &Hit) -> bool {
-        self.bodies.contains(&[hit.part, hit.prim])
+        self.bodies.binary_search(&[hit.part, hit.prim]).is_ok()
     }
 }
 
@@ -110,7 +115,9 @@ fn bodies(geometry: &Geometry, materials: &[Material], at: DVec3) -> Vec<[u32; 2
             && is_convex(world.primitives(hit.part))
             && world.surface(ray, hit).ng.x > 0.0
     });
-    left.map(|(_, hit)| [hit.part, hit.prim]).collect()
+    let mut bodies: Vec<_> = left.map(|(_, hit)| [hit.part, hit.prim]).collect();
+    bodies.sort_unstable();
+    bodies
 }
 
 /// Whether primitives are bodies that a line enters once and leaves once.

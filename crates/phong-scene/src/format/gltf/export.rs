@@ -13,7 +13,7 @@ use crate::diagnostic::Diagnostic;
 use crate::format::export::flat::{leave_out, listed};
 use crate::format::export::merge::Size;
 use crate::format::export::{Account, File, Writing};
-use crate::light::LightKind;
+use crate::light::{Light, LightKind};
 use crate::mesh::{Mesh, NO_INDEX};
 use crate::scene::{Image, Object, Scene};
 use crate::shape::Shape;
@@ -72,6 +72,9 @@ pub(crate) fn write_gltf(
         }
         if scene.lights.iter().any(|light| light.kind.has_surface() && light.visible) {
             lost.push("lights that are seen");
+        }
+        if scene.lights.iter().any(|light| matches!(light.kind, LightKind::Mesh { .. })) {
+            lost.push("meshes that shine");
         }
         for what in lost {
             account.drop(Diagnostic::warning(format!("glTF holds no {what}"), None));
@@ -163,11 +166,12 @@ impl<'s> Writer<'s> {
         }
         if !bare {
             roots.extend(self.camera(account));
-            if !self.scene.lights.is_empty() {
+            let shines = |light: &Light| !matches!(light.kind, LightKind::Mesh { .. });
+            let lights: Vec<&Light> = self.scene.lights.iter().filter(|l| shines(l)).collect();
+            if !lights.is_empty() {
                 used.push("KHR_lights_punctual");
-                let lights: Vec<_> = (0..self.scene.lights.len()).collect();
-                roots.extend(lights.into_iter().map(|i| self.light(i)));
-                account.carry("light", self.scene.lights.len());
+                account.carry("light", lights.len());
+                roots.extend(lights.into_iter().enumerate().map(|(i, light)| self.light(i, light)));
             }
         }
         used.sort_unstable();
@@ -413,13 +417,15 @@ impl<'s> Writer<'s> {
         Some(self.push("nodes", node))
     }
 
-    /// The node of a light. Its intensity is π times ours, which a reader divides by.
-    fn light(&mut self, number: usize) -> usize {
-        let light = &self.scene.lights[number];
+    /// The node of a light, which is this one of those that are written. Its intensity is π times ours, which
+    /// a reader divides by.
+    fn light(&mut self, number: usize, light: &Light) -> usize {
         let Rgb { r, g, b } = light.color;
         let most = r.max(g).max(b).max(f32::MIN_POSITIVE);
         let (kind, position, direction) = match light.kind {
             LightKind::Distant { direction, .. } => ("directional", glam::DVec3::ZERO, direction),
+            // It has no place of its own, and is not written.
+            LightKind::Mesh { .. } => ("point", glam::DVec3::ZERO, -glam::DVec3::Y),
             LightKind::Point { position, .. } | LightKind::Sphere { position, .. } => {
                 ("point", position, -glam::DVec3::Y)
             }

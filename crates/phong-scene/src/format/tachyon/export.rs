@@ -177,6 +177,11 @@ fn lights(scene: &Scene, text: &mut String, account: &mut Account) {
     for light in &scene.lights {
         let shine = color(light.color);
         let _ = match light.kind {
+            LightKind::Mesh { .. } => {
+                let message = format!("{}: Tachyon holds no mesh that shines", light.name);
+                account.drop(Diagnostic::warning(message, None));
+                continue;
+            }
             LightKind::Distant { direction, .. } => {
                 let way = vector(direction.normalize_or(DVec3::NEG_Z));
                 writeln!(text, "DIRECTIONAL_LIGHT DIRECTION {way} COLOR {shine}")
