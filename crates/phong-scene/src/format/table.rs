@@ -184,7 +184,7 @@ static TABLE: [Entry; 15] = [
         format: Format::Lammps,
         name: "LAMMPS",
         endings: &["lammpstrj", "dump", "data", "lmp", "lammps"],
-        tells: Some(lammps::is_dump),
+        tells: Some(lammps::is_lammps),
         bare: true,
         read: Some(Read::Model(lammps::read)),
         write: None,

@@ -176,8 +176,9 @@ fn chunks(bytes: &[u8]) -> std::result::Result<(&[u8], Option<&[u8]>), String> {
         bytes.get(at + 8..(at + 8).checked_add(length)?).filter(|_| named)
     };
     let json = chunk(12, JSON).ok_or_else(|| "the file holds no chunk of JSON".to_owned())?;
-    // Chunks begin at multiples of four.
-    let binary = chunk(20 + json.len().next_multiple_of(4), BIN);
+    // Chunks begin at multiples of four; some programs put the second right behind the first all the same.
+    let end = 20 + json.len();
+    let binary = chunk(end.next_multiple_of(4), BIN).or_else(|| chunk(end, BIN));
     Ok((json, binary))
 }
 
