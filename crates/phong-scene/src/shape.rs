@@ -177,7 +177,7 @@
 //! | key | value | default | meaning |
 //! |---|---|---|---|
 //! | `file` | the path of a file, in quotes | required | A file of atoms or particles: PDB, CIF, XYZ, GRO or LAMMPS. |
-//! | `trajectory` | the path of a file, in quotes | none: the file's own places | A DCD file of the same atoms, whose places are drawn: its first frame, or those of `--frames`. |
+//! | `trajectory` | the path of a file, in quotes | none: the file's own places | A DCD or XTC file of the same atoms, whose places are drawn: its first frame, or those of `--frames`. |
 //! | `style` | `spacefill`, `ball-and-stick`, `sticks` or `tube` | `"ball-and-stick"` for up to 400 atoms with bonds, else `"spacefill"` | Spheres of the van der Waals radii; balls of a quarter of them, and sticks for bonds; sticks alone; a tube along the backbone of each chain, and balls and sticks for the rest. |
 //! | `select` | text | all but water, if there is anything else | What is drawn: `chain A and not water`, `residue ALA 10-20 or z < 5`. |
 //! | `color_by` | text | the file's colours, else `element`, else `type` | `element`, or a column of the file: `chain`, `residue`, `number`, `b-factor`, `charge`, `type`, …. |

@@ -101,8 +101,8 @@ pub(crate) struct FilmArgs {
     pub(crate) turntable: Option<u32>,
 
     /// Frames A, A + S, ... below B of a trajectory, counted from 0: 0:100:10, 50:, or one, 7.
-    /// XYZ, PDB of several models, GRO, LAMMPS dumps, and DCD beside a molecule, also where a scene names
-    /// them. Files as for --turntable, with the frame's number
+    /// XYZ, PDB of several models, GRO, LAMMPS dumps, and DCD or XTC beside a molecule, also where a scene
+    /// names them. Files as for --turntable, with the frame's number
     #[arg(long, value_name = "A:B:S", value_parser = values::frames)]
     #[arg(conflicts_with_all = ["tile", "watch", "turntable"], allow_hyphen_values = true)]
     pub(crate) frames: Option<phong_scene::FrameRange>,

@@ -3,7 +3,6 @@
 
 mod atoms;
 mod cif;
-mod dcd;
 pub(crate) mod export;
 mod faces;
 pub(crate) mod frames;
@@ -23,6 +22,7 @@ pub(crate) mod table;
 pub(crate) mod tachyon;
 mod text;
 pub(crate) mod toml;
+mod trajectory;
 mod triangles;
 mod xyz;
 
@@ -45,10 +45,9 @@ const OF_PROGRAMS: &str = "let the program that wrote it export the model as .ob
                        .dat for Tachyon, as VMD and OVITO do";
 
 /// What to do with frames that say nothing of their atoms.
-const OF_TRAJECTORIES: &str = "a DCD is named beside the file of its atoms, as `trajectory` of a `[[molecule]]` \
-                               (`phong render a.pdb --set molecule.1.trajectory=a.dcd`); of others let the program that \
-                               wrote them make one file of several models: `gmx trjconv -f a.xtc -s a.tpr -o a.pdb`, or \
-                               VMD or MDAnalysis a .dcd, .pdb or .xyz";
+const OF_TRAJECTORIES: &str = "an XTC or a DCD is named beside the file of its atoms, as `trajectory` of a `[[molecule]]` \
+                               (`phong render a.pdb --set molecule.1.trajectory=a.xtc`); of a TRR let the program that \
+                               wrote it make an XTC: `gmx trjconv -f a.trr -o a.xtc`";
 
 /// Reads a scene or a bare model, and everything there is to say about it.
 ///

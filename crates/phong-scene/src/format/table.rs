@@ -7,7 +7,7 @@ use std::fmt;
 use super::export::WriteScene;
 use super::input::{Models, Named, ReadModel, ReadScene};
 use super::text::decode;
-use super::{cif, dcd, gltf, gro, lammps, nff, obj, off, pdb, ply, stl, tachyon, toml, xyz};
+use super::{cif, gltf, gro, lammps, nff, obj, off, pdb, ply, stl, tachyon, toml, trajectory, xyz};
 use crate::source::Source;
 use crate::unpack::head_of;
 
@@ -51,8 +51,8 @@ pub enum Format {
     Nff,
     /// POV-Ray scenes: known, but programs in a language of their own, which are not read.
     PovRay,
-    /// XTC, TRR and DCD: known, but they say where atoms are and not which, and are not read alone. A DCD is
-    /// named by the `[[molecule]]` of its atoms.
+    /// XTC, DCD and TRR: known, but they say where atoms are and not which, and are not read alone. XTC and DCD
+    /// are named by the `[[molecule]]` of their atoms.
     Trajectory,
 }
 
@@ -220,18 +220,12 @@ static TABLE: [Entry; 15] = [
         format: Format::Trajectory,
         name: "binary trajectory",
         endings: &["xtc", "dcd", "trr"],
-        tells: Some(is_trajectory),
+        tells: Some(trajectory::is_trajectory),
         bare: true,
         read: None,
         write: None,
     },
 ];
-
-/// Whether a file begins as XTC or TRR files do, or as DCD files of either order of bytes.
-fn is_trajectory(head: &[u8]) -> bool {
-    let frame = |number: [u8; 4]| head.starts_with(&number);
-    dcd::is_dcd(head) || frame(1995_u32.to_be_bytes()) || frame(1993_u32.to_be_bytes())
-}
 
 /// The table as scenes see it.
 pub(crate) static MODELS: Models = Models { find, help: models_are_read_from };

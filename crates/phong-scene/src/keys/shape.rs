@@ -352,7 +352,7 @@ pub(crate) static MOLECULE: Table = Table {
                 "trajectory",
                 Kind::File,
                 Default::Said("none: the file's own places"),
-                "A DCD file of the same atoms, whose places are drawn: its first frame, or those of `--frames`.",
+                "A DCD or XTC file of the same atoms, whose places are drawn: its first frame, or those of `--frames`.",
             ),
             Key::new(
                 "style",

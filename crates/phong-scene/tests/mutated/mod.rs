@@ -11,7 +11,8 @@ use std::time::{Duration, Instant};
 use phong_scene::{Diagnostic, Limits, Memory, read};
 
 /// The folders whose files are damaged.
-const FOLDERS: [&str; 9] = ["atoms", "gltf", "mtl", "nff", "obj", "off", "ply", "stl", "tachyon"];
+const FOLDERS: [&str; 10] =
+    ["atoms", "gltf", "mtl", "nff", "obj", "off", "ply", "stl", "tachyon", "trajectories"];
 
 /// Damaged files that are read in any case.
 const LEAST: u64 = 300;
@@ -142,14 +143,27 @@ fn damaged_files_are_read_to_a_sound_scene_or_to_errors() {
         let mut bytes = bytes.clone();
         damage(&mut bytes, &mut random);
         let source = all.clone().with(name.as_str(), bytes.clone());
-        // Materials are read by the model that names them.
+        // Materials and trajectories are read by the file that names them.
         let mut name = name.clone();
-        let source = if Path::new(&name).extension().is_some_and(|ending| ending == "mtl") {
-            let model = format!("mtllib {name}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-            name = "model.obj".to_owned();
-            source.with("model.obj", model.into_bytes())
-        } else {
-            source
+        let ending = Path::new(&name).extension().and_then(|ending| ending.to_str());
+        let by = match ending {
+            Some("mtl") => {
+                let model = format!("mtllib {name}\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+                Some(("model.obj", model))
+            }
+            Some("dcd" | "xtc") => {
+                let camera = "version = 1\n[camera]\neye = [0, 0, 50]\nlook_at = [5, 5, 5]";
+                let molecule = format!("file = \"waters.xyz\"\ntrajectory = \"{name}\"");
+                Some(("model.toml", format!("{camera}\n[[molecule]]\n{molecule}\n")))
+            }
+            _ => None,
+        };
+        let source = match by {
+            Some((by, text)) => {
+                name = by.to_owned();
+                source.with(by, text.into_bytes())
+            }
+            None => source,
         };
         if let Err(panic) = catch_unwind(AssertUnwindSafe(|| check(&name, &source))) {
             let kept = std::env::temp_dir().join(format!("damaged-{seed}-{round}-{name}"));

@@ -11,10 +11,10 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::dcd;
 use super::input::{Input, Wanted};
 use super::origin::origin_of;
 use super::text::{Findings, whole};
+use super::trajectory;
 use crate::diagnostic::Diagnostic;
 use crate::fragment::Fragment;
 use crate::limits::{LARGEST, Limits};
@@ -107,11 +107,11 @@ fn follow(
     let read = || {
         let blob = input.source.open(path)?;
         // Of the frames of a film, the source has one at a time, behind the first if atoms are fixed.
-        dcd::read(&*blob, input.topology.is_some(), molecule.len() as u64)
+        trajectory::read(&*blob, input.topology.is_some(), molecule.len() as u64)
     };
     let frame = read().map_err(|fault| match fault {
-        dcd::Fault::Io(fault) => error(format!("it cannot be read: {}", trouble(&fault))),
-        dcd::Fault::Broken(message) => error(message),
+        trajectory::Fault::Io(fault) => error(format!("it cannot be read: {}", trouble(&fault))),
+        trajectory::Fault::Broken(message) => error(message),
     })?;
     let held = |place: &DVec3| place.is_finite() && place.abs().max_element() <= LARGEST;
     let lost = frame.places.iter().filter(|place| !held(place)).count();
@@ -130,6 +130,9 @@ fn follow(
     } else if one && frame.said != 0 && frame.said != frame.count {
         let (said, count) = (frame.said, frame.count);
         let message = format!("the trajectory says that it has {said} frames, but it has {count}");
+        Some(Diagnostic::warning(message, whole(&at)))
+    } else if let Some(broken) = frame.broken {
+        let message = format!("the trajectory is sound for {} frames; then, {broken}", frame.count);
         Some(Diagnostic::warning(message, whole(&at)))
     } else if one && frame.count > 1 {
         let message = "the first frame of the trajectory is drawn; others follow it";

@@ -35,7 +35,7 @@ pub struct FrameRange {
 
 /// A source whose trajectories have one frame at a time.
 ///
-/// A trajectory is a file of several frames: XYZ, PDB with several models, GRO, a LAMMPS dump, or a DCD. It is
+/// A trajectory is a file of several frames: XYZ, PDB with several models, GRO, a LAMMPS dump, DCD or XTC. It is
 /// looked through once, where its frames begin is kept, and then each is read by itself; files of one
 /// frame, and all others, are read as they are. Bonds that are found by covalent radii are those of the
 /// first frame that is read, as long as the atoms are the same.
@@ -171,7 +171,7 @@ impl<'a> Frames<'a> {
                 return state.fault.take().map_or(Ok(vec![0]), |fault| Err(Box::new(fault)));
             }
             let message = "no file that is read has several frames";
-            let help = "frames are read of XYZ, PDB, GRO, LAMMPS dump and DCD files";
+            let help = "frames are read of XYZ, PDB, GRO, LAMMPS dump, DCD and XTC files";
             return Err(Box::new(Diagnostic::error(message, None).with_help(help)));
         };
         let end = end.map_or(count, |end| end.min(count));
@@ -205,7 +205,8 @@ impl<'a> Frames<'a> {
             Ok(around) => around,
             Err(broken) => {
                 let message = format!("frame {}: {}", broken.frame, broken.message);
-                let place = Place { file: path.into(), line: line_of(broken.line), column: 1 };
+                let column = u32::from(broken.line > 0);
+                let place = Place { file: path.into(), line: line_of(broken.line), column };
                 let span = Span { place, ..Span::default() };
                 let help = format!("frames before it can be drawn: `--frames 0:{}`", broken.frame);
                 state.fault = Some(Diagnostic::error(message.clone(), span).with_help(help));

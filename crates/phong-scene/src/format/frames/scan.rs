@@ -2,10 +2,11 @@
 //! memory.
 
 use std::io;
+use std::ops::Range;
 
-use crate::format::dcd::{Fault, Header};
 use crate::format::lammps::is_dump;
 use crate::format::table::Format;
+use crate::format::trajectory::{Sections, sections};
 use crate::source::Blob;
 
 /// Bytes that are read at a time.
@@ -31,9 +32,9 @@ pub(super) struct Section {
 pub(super) struct Broken {
     /// The frame's number, from 0.
     pub(super) frame: u64,
-    /// The number of the line, from 1.
+    /// The number of the line, from 1; 0 if there are none.
     pub(super) line: u64,
-    pub(super) message: &'static str,
+    pub(super) message: String,
 }
 
 /// What stands before all frames and behind them, and belongs to each.
@@ -58,7 +59,7 @@ pub(super) fn scan(
         Format::Gro => counted(&mut lines, true, take),
         Format::Pdb => models(&mut lines, take),
         Format::Lammps => time_steps(&mut lines, take),
-        Format::Trajectory => of_dcd(blob, take),
+        Format::Trajectory => of_trajectory(blob, take),
         _ => Ok(Ok(Around::default())),
     }
 }
@@ -88,7 +89,7 @@ fn counted(
             } else {
                 "this is not how many atoms the frame has; perhaps the one before has not as many as it says"
             };
-            return Ok(Err(Broken { frame, line, message }));
+            return Ok(Err(Broken { frame, line, message: message.to_owned() }));
         };
         // A box behind the atoms, or a comment before them.
         let mut rest = if titled { count.saturating_add(1) } else { count };
@@ -181,28 +182,20 @@ fn time_steps(
     Ok(Ok(Around::default()))
 }
 
-/// Frames of a DCD file, which are where its header says.
-fn of_dcd(
+/// Frames of binary files, which have no lines.
+fn of_trajectory(
     blob: &dyn Blob,
     take: &mut dyn FnMut(Section) -> bool,
 ) -> io::Result<Result<Around, Broken>> {
-    let header = match Header::read(blob) {
-        Ok(header) => header,
-        Err(Fault::Io(error)) => return Err(error),
-        // The reader says it.
-        Err(Fault::Broken(_)) => return Ok(Ok(Around::default())),
+    let bytes =
+        |range: Range<u64>| Section { start: range.start, end: range.end, line: 0, lines: 0 };
+    let found = sections(blob, &mut |range| take(bytes(range)))?;
+    let around = |found: Sections| Around {
+        head: found.head.map(bytes),
+        tail: None,
+        first: found.first.map(bytes),
     };
-    let bytes = |start, end| Section { start, end, line: 0, lines: 0 };
-    let first = bytes(header.start, header.start + header.first_bytes());
-    let mut next = first;
-    for _ in 0..header.count(blob.len()) {
-        if !take(next) {
-            break;
-        }
-        next = bytes(next.end, next.end + header.other_bytes());
-    }
-    let first = header.has_fixed().then_some(first);
-    Ok(Ok(Around { head: Some(bytes(0, header.start)), tail: None, first }))
+    Ok(found.map(around).map_err(|(frame, message)| Broken { frame, line: 0, message }))
 }
 
 impl Section {

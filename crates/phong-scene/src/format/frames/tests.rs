@@ -5,8 +5,8 @@ use glam::DVec3;
 use super::{FrameRange, Frames};
 use crate::change::Change;
 use crate::diagnostic::Diagnostic;
-use crate::format::dcd::read;
 use crate::format::read_changed;
+use crate::format::trajectory::read;
 use crate::limits::Limits;
 use crate::scene::Scene;
 use crate::source::{Memory, Source};
@@ -107,6 +107,36 @@ fn a_trajectory_is_read_in_either_order_of_bytes_with_cells_and_fixed_atoms() {
             }
         }
     }
+}
+
+#[test]
+fn frames_of_an_xtc_are_read_one_by_one_up_to_the_one_that_is_broken() {
+    let xtc = include_bytes!("../../../tests/trajectories/waters.xtc");
+    let atoms = include_bytes!("../../../tests/trajectories/waters.xyz");
+    let limits = Limits::default();
+    let files = |xtc: &[u8]| Memory::new().with("dir/a.xyz", *atoms).with("dir/a.dcd", xtc);
+    let range = FrameRange { start: 0, end: None, step: 1 };
+    let whole = files(xtc);
+    let frames = Frames::new(&whole, &limits, range);
+    for (number, x) in [(0, 3.24), (2, 2.79), (1, 3.12)] {
+        let reading = frames.read(number, "dir/a.xyz", None, &changes());
+        assert_eq!(reading.diagnostics, []);
+        let first = places(&reading.scene.unwrap())[0][0];
+        assert!((first - x).abs() < 1e-6, "{number}: {first}");
+    }
+    assert_eq!(frames.numbers().unwrap(), [0, 1, 2]);
+
+    let cut = files(&xtc[..xtc.len() - 4]);
+    let frames = Frames::new(&cut, &limits, range);
+    let reading = frames.read(0, "dir/a.xyz", None, &changes());
+    let said = reading.diagnostics[0].to_string();
+    assert!(reading.scene.is_none() && said.contains("frame 2: byte 284: the frame"), "{said}");
+    assert!(said.starts_with("dir/a.dcd: "), "{said}");
+    let (scene, said) = {
+        let reading = read_changed("dir/a.xyz", None, &cut, &limits, &changes());
+        (reading.scene, reading.diagnostics)
+    };
+    assert!(scene.is_some() && said[0].message.contains("sound for 2 frames"), "{said:?}");
 }
 
 #[test]

@@ -13,41 +13,11 @@
 
 mod header;
 
-use std::io;
-
 use glam::DVec3;
 
 pub(crate) use self::header::{Header, is_dcd};
-use crate::molecule::Cell;
+use super::frame::{Fault, Frame};
 use crate::source::Blob;
-
-/// The frame of a trajectory that is read.
-#[derive(Debug)]
-pub(crate) struct Frame {
-    /// The places, in the order of the topology.
-    pub(crate) places: Vec<DVec3>,
-    /// The cell, if the frame has one.
-    pub(crate) cell: Option<Cell>,
-    /// How many frames the file has.
-    pub(crate) count: u64,
-    /// How many it says to have.
-    pub(crate) said: u64,
-}
-
-/// What is wrong with a file.
-#[derive(Debug)]
-pub(crate) enum Fault {
-    /// It cannot be read.
-    Io(io::Error),
-    /// It is not what it should be.
-    Broken(String),
-}
-
-impl From<io::Error> for Fault {
-    fn from(error: io::Error) -> Self {
-        Self::Io(error)
-    }
-}
 
 /// Reads the first frame, or the last, of a trajectory of so many atoms.
 pub(crate) fn read(blob: &dyn Blob, last: bool, atoms: u64) -> Result<Frame, Fault> {
@@ -75,5 +45,5 @@ pub(crate) fn read(blob: &dyn Blob, last: bool, atoms: u64) -> Result<Frame, Fau
         header.frame(blob, 0, &mut places)?;
     }
     let cell = header.frame(blob, number, &mut places)?;
-    Ok(Frame { places, cell, count, said: header.said })
+    Ok(Frame { places, cell, count, said: header.said, broken: None })
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::Fault;
+use super::super::frame::Fault;
 use crate::molecule::Cell;
 use crate::source::Blob;
 
