@@ -227,6 +227,18 @@ def walk(browser, address, faults):
     page.keyboard.press("ArrowLeft")
     wait(page, f"studio.look.picture > {before} && studio.done === studio.look.picture")
     page.screenshot(path=FOLDER / "1-static.png")
+    # Each worker tries a look on and takes it off again; the first has the whole figure to save.
+    before = page.evaluate("studio.look.picture")
+    page.focus("#look")
+    page.keyboard.press("ArrowDown")
+    page.keyboard.press("End")
+    wait(page, f"studio.tried === 'technical' && studio.look.picture > {before} && studio.done === studio.look.picture")
+    page.keyboard.press("Escape")
+    wait(page, "studio.tried === null && studio.done === studio.look.picture")
+    with page.expect_download() as download:
+        page.click("#svg")
+    download.value.save_as(FOLDER / "saved.svg")
+    assert (FOLDER / "saved.svg").read_bytes().startswith(b"<svg")
     # The service worker has all it needs: the page comes without a network, too.
     page.evaluate("navigator.serviceWorker.ready.then(() => true)")
     context.set_offline(True)
