@@ -303,7 +303,7 @@ def is_other(path: Path, kind: str) -> bool:
     """Whether a name's ending means something else there: entities of XML, and tables of other programs."""
     with path.open("rb") as file:
         head = file.read(4096)
-    return (kind == "ent" and head.startswith(b"<")) or (kind == "data" and b"atoms" not in head)
+    return (kind == "ent" and b"<!" in head) or (kind == "data" and b"atoms" not in head)
 
 
 def compared(program: str, path: Path, reader) -> tuple[str, list[str]]:
