@@ -516,7 +516,8 @@ impl Engine {
         };
         let told = phong::explain::explain(&view, &options, pixel);
         let mut told = told.map_err(|outside| outside.to_string())?;
-        painting.finish_told(&mut told);
+        let finished = painting.finish_told(&mut told, &view, &options);
+        finished.map_err(|error| error.to_string())?;
         Ok((told, view, painting.number()))
     }
 

@@ -7,7 +7,7 @@ use phong::explain::Explanation;
 use phong::film::{Film, Window};
 use phong::finish::{Finishing, ToneMap, finish};
 use phong::part::furniture_of;
-use phong::render::{Cancel, Event, Passes, RenderOptions, Rendering, render};
+use phong::render::{Cancel, Event, OptionsError, Passes, RenderOptions, Rendering, render};
 use phong::scene::{Exposure, Scene, Tone};
 use phong::terms::TermSet;
 use phong::view::View;
@@ -145,14 +145,30 @@ impl Painting {
         }
     }
 
-    /// Tells how a pixel's light becomes what is seen of it, as far as there is a picture to say so.
-    pub(super) fn finish_told(&self, told: &mut Explanation) {
-        match self.film.as_ref().filter(|film| film.is_complete()) {
-            Some(film) if self.options.cel().is_some() => {
-                told.finish_as(&finish(film, &Finishing::of(&self.options)));
-            }
-            _ => told.tone = self.tone(),
+    /// Tells how a pixel's light becomes what is seen of it. `view` and `options` are those that it was explained
+    /// with: steps of luminance are found by its neighbours, as few samples of them as of itself, but where
+    /// the picture exposes itself, by what there is of that.
+    pub(super) fn finish_told(
+        &self,
+        told: &mut Explanation,
+        view: &View,
+        options: &RenderOptions,
+    ) -> Result<(), OptionsError> {
+        let exposes_itself = options.tone().exposure == Exposure::Auto;
+        let film = self.film.as_ref().filter(|film| film.is_complete());
+        if options.cel().is_none() || exposes_itself && film.is_none() {
+            told.tone = self.tone();
+        } else if let (true, Some(film)) = (exposes_itself, film) {
+            told.finish_as(&finish(film, &Finishing::of(&self.options)));
+        } else {
+            let [x, y] = told.pixel;
+            let pixel = Window { x0: x, y0: y, x1: x + 1, y1: y + 1 };
+            let options = options.clone().with_terms(TermSet::NONE).with_window(pixel)?;
+            let options = options.with_passes(Passes::One).with_share(0, 1)?;
+            let film = render(view, &options, &|_| {}, &Cancel::new()).film;
+            told.finish_as(&finish(&film, &Finishing::of(&options)));
         }
+        Ok(())
     }
 
     /// How many passes there are, with the first.

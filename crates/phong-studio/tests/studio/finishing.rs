@@ -117,3 +117,28 @@ fn tiles_of_a_share_have_their_tone_unless_that_needs_the_whole_picture() {
     talk.draw();
     assert!(talk.page.pixels.iter().all(|value| value.is_nan()));
 }
+
+#[test]
+fn steps_of_luminance_are_seen_and_told_as_the_program_has_them() {
+    let text = SCENE.replacen("[image]\n", "[image]\ncel = 3\n", 1);
+    let files = Memory::new().with("a.toml", text.clone());
+    let scene = read("a.toml", None, &files, &Limits::default()).scene.unwrap();
+    assert_eq!(scene.image.cel, Some(3), "{text}");
+    let options = RenderOptions::of(&scene.image).unwrap().with_finishing_of(&scene);
+    let view = View::of(&scene).unwrap();
+    let film = render(&view, &options, &|_| {}, &Cancel::new()).film;
+    let settings = Settings::of(&scene, &options, Encoding::default());
+    let mut talk = Talk::of(&text);
+    talk.draw();
+    assert_eq!(seen(&talk.page), bits(&finish(&film, &settings.finishing()).into_film()));
+    let options = options.with_samples(1).unwrap();
+    for mut talk in [talk, Talk::sharing(&text, 1, 2)] {
+        for pixel in [[10, 8], [16, 12], [22, 9]] {
+            let mut told = phong::explain::explain(&view, &options, pixel).unwrap();
+            told.expose(&scene, &view, &options, &|_| {}, &Cancel::new());
+            talk.ask(&json!({ "do": "explain", "id": 1, "pixel": pixel }));
+            let bytes = &talk.page.last("explanation")["told"]["srgb8"];
+            assert_eq!(*bytes, json!(told.encoded().bytes), "{pixel:?}");
+        }
+    }
+}
