@@ -50,7 +50,7 @@ impl Painting {
         most: u64,
         share: Option<(u32, u32)>,
     ) -> Result<Self, String> {
-        let said = |error: phong::render::OptionsError| error.to_string();
+        let said = |error: OptionsError| error.to_string();
         // Terms are kept apart only where one of them is left out.
         let terms = if off == TermSet::NONE { TermSet::NONE } else { TermSet::ALL };
         let image = &scene.image;
