@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 import re
@@ -179,11 +180,28 @@ def finished_after(page: Page, number: int) -> int:
     return number_of(page)
 
 
-def pixels(page: Page) -> list[int]:
+def digest(values: bytes) -> str:
+    """Pixels as they are compared: pytest takes very long to say how two lists differ."""
+    return hashlib.sha256(values).hexdigest()
+
+
+def pixels(page: Page) -> str:
+    """The digest of the pixels that are shown."""
     values: list[int] = page.locator(".phong canvas").evaluate(
         "c => Array.from(c.getContext('2d').getImageData(0, 0, c.width, c.height).data)"
     )
-    return values
+    return digest(bytes(values))
+
+
+def comes_to(page: Page, wanted: str) -> bool:
+    """Whether these pixels are shown in the end.
+
+    On a busy machine the picture of an earlier key may come first.
+    """
+    until = time.monotonic() + 120
+    while pixels(page) != wanted and time.monotonic() < until:
+        time.sleep(0.1)
+    return pixels(page) == wanted
 
 
 def test_a_notebook_is_turned_lit_and_explained(
@@ -210,7 +228,7 @@ def test_a_notebook_is_turned_lit_and_explained(
     scene = scope["scene"]
     image = phong.render(scene, size=SIZE, samples=4)
     before = pixels(page)
-    assert before == image.to_srgb8().reshape(-1).tolist()
+    assert before == digest(image.to_srgb8().tobytes())
 
     # A click explains the pixel under it, with the numbers of `phong.explain`.
     canvas.scroll_into_view_if_needed()
@@ -235,12 +253,12 @@ def test_a_notebook_is_turned_lit_and_explained(
     # Keys do as well, and so do sliders; Home looks from the start.
     canvas.focus()
     page.keyboard.press("ArrowLeft")
-    third = finished_after(page, second)
+    finished_after(page, second)
     assert pixels(page) != turned
     canvas.focus()
     page.keyboard.press("Home")
-    fourth = finished_after(page, third)
-    assert pixels(page) == before
+    assert comes_to(page, before)
+    fourth = number_of(page)
     slider = page.locator('.phong input[type="range"]').first
     slider.evaluate("s => { s.value = s.min; s.dispatchEvent(new Event('input')); }")
     finished_after(page, fourth)
@@ -274,7 +292,7 @@ def test_marimo_shows_the_same_widget(browser_page: Page, tmp_path: Path) -> Non
             exec(SETUP, scope)
             scene = scope["scene"]
             image = phong.render(scene, size=SIZE, samples=4)
-            assert pixels(page) == image.to_srgb8().reshape(-1).tolist()
+            assert pixels(page) == digest(image.to_srgb8().tobytes())
             page.locator(".phong canvas").click(position={"x": 170.5, "y": 140.5})
             told = page.locator('.phong-explanation[data-pixel="170,140"]')
             assert told.text_content() == phong.explain(scene, 170, 140, size=SIZE, samples=4).text
