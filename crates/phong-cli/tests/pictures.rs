@@ -21,6 +21,15 @@ fn png_size(bytes: &[u8]) -> (u32, u32) {
     (reader.info().width, reader.info().height)
 }
 
+/// A scene drawn in two shares, `0.part` and `1.part`, which are put together.
+fn merged(folder: &Given, scene: &str) -> Vec<u8> {
+    for i in 0..2 {
+        folder.done(&format!("render {scene} -o {i}.part --tile {i}/2"));
+    }
+    folder.done("merge 1.part 0.part -o merged.png");
+    folder.bytes("merged.png")
+}
+
 #[test]
 fn a_picture_is_named_after_its_scene() {
     let folder = balls();
@@ -166,11 +175,7 @@ fn tone_is_the_same_in_shares_of_a_crop_that_of_the_crop_and_typed_as_it_is_writ
     assert!(stops != 0.0, "{told}");
     folder.done("render toned.toml -o written.png");
     assert_eq!(folder.bytes("whole.png"), folder.bytes("written.png"));
-    for i in 0..2 {
-        folder.done(&format!("render toned.toml -o {i}.part --tile {i}/2"));
-    }
-    folder.done("merge 1.part 0.part -o merged.png");
-    assert_eq!(folder.bytes("whole.png"), folder.bytes("merged.png"));
+    assert_eq!(folder.bytes("whole.png"), merged(&folder, "toned.toml"));
     // What auto has found, typed, gives the same; and a part of the picture is exposed by itself.
     folder.done(&format!("merge 0.part 1.part --exposure {stops} -o typed.png"));
     assert_eq!(folder.bytes("whole.png"), folder.bytes("typed.png"));
@@ -219,11 +224,7 @@ fn steps_of_luminance_are_the_same_in_shares_and_crops_and_told_to_the_byte() {
     folder.done("render a.toml -o whole.png");
     folder.done("render plain.toml -o plain.png");
     assert_ne!(folder.bytes("whole.png"), folder.bytes("plain.png"));
-    for i in 0..2 {
-        folder.done(&format!("render a.toml -o {i}.part --tile {i}/2"));
-    }
-    folder.done("merge 1.part 0.part -o merged.png");
-    assert_eq!(folder.bytes("whole.png"), folder.bytes("merged.png"));
+    assert_eq!(folder.bytes("whole.png"), merged(&folder, "a.toml"));
     folder.done("render a.toml -o part.png --crop 3,5,20,17");
     let picture = |name| phong::image::Picture::read(&folder.bytes(name)).unwrap();
     let (whole, part) = (picture("whole.png"), picture("part.png"));
