@@ -1,7 +1,7 @@
 // The way to an engine: a server's, over a socket, or one that runs in a worker of this page.
 // Both take requests and give replies and frames, as PROTOCOL.md says.
 
-import { frame } from "./frame.js";
+import { frames } from "./frame.js";
 import { work } from "./workers.js";
 
 // Connects. `hear(reply)` is given each reply, `take(frame)` each frame of bytes, `gone()` the end.
@@ -15,7 +15,10 @@ function call({ hear, take, gone }) {
   address.protocol = address.protocol === "https:" ? "wss:" : "ws:";
   const socket = new WebSocket(address);
   socket.binaryType = "arraybuffer";
-  socket.onmessage = ({ data }) => (typeof data === "string" ? hear(JSON.parse(data)) : take(frame(data)));
+  socket.onmessage = ({ data }) => {
+    if (typeof data === "string") return hear(JSON.parse(data));
+    for (const frame of frames(data)) take(frame);
+  };
   socket.onclose = gone;
   return {
     send(request) {

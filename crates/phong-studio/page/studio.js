@@ -19,7 +19,7 @@ import { drops, Teaching } from "./teaching.js";
 import { WhatIf } from "./whatif.js";
 import { fill, words } from "./words.js";
 
-const PROTOCOL = 3;
+const PROTOCOL = 4;
 const at = (id) => document.getElementById(id);
 
 fill(document);

@@ -10,6 +10,9 @@ const MOST_BYTES = 5e8;
 // How long to draw before the next request is heard, in ms.
 const SLICE = 12;
 
+// The first byte of a file among messages of bytes.
+const FILE = 3;
+
 let studio = null;
 let shelf = {};
 let deadline = 0;
@@ -22,21 +25,35 @@ const large = [];
 // The number of the newest picture.
 let picture = 0;
 const queue = [];
+// Tiles that are still to be posted.
+const tiles = [];
 let awake = false;
 
 // What the module calls.
 globalThis.hear = (reply) => {
+  post();
   if (reply.startsWith('{"is":"look"')) ({ picture } = JSON.parse(reply));
   if (kept) kept.push(reply);
   else postMessage(reply);
 };
 globalThis.take = (bytes) => {
-  if (bytes.length > 0) {
-    const { buffer } = bytes.slice();
-    postMessage(buffer, [buffer]);
-  }
+  if (bytes.length > 0) tiles.push(bytes.slice());
+  if (bytes[0] === FILE) post();
   return performance.now() < deadline;
 };
+
+// Posts the tiles of a slice as one message.
+function post() {
+  if (tiles.length === 0) return;
+  const all = new Uint8Array(tiles.reduce((sum, { length }) => sum + length, 0));
+  let at = 0;
+  for (const tile of tiles.splice(0)) {
+    all.set(tile, at);
+    at += tile.length;
+  }
+  postMessage(all.buffer, [all.buffer]);
+}
+
 globalThis.failed = (why) => (trouble = why);
 
 onmessage = ({ data }) => {
@@ -52,6 +69,7 @@ async function run() {
       if (!studio.has_work()) break;
       deadline = performance.now() + SLICE;
       studio.advance();
+      post();
       await breath();
     }
     awake = false;

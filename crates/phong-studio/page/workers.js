@@ -1,7 +1,7 @@
 // Engines in workers of this page, which draw each picture together: each has a share of its tiles, and
 // to the page they are one engine. The first answers; of the others only tiles and passes are used.
 
-import { frame } from "./frame.js";
+import { frames } from "./frame.js";
 import { words } from "./words.js";
 
 // More share what is drawn, but each reads the scene for itself.
@@ -101,7 +101,10 @@ class Team {
 
   heard(index, data) {
     if (typeof data === "string") return this.replied(index, JSON.parse(data));
-    if (data instanceof ArrayBuffer) return this.drawn(index, frame(data));
+    if (data instanceof ArrayBuffer) {
+      for (const frame of frames(data)) this.drawn(index, frame);
+      return;
+    }
     if (data.failed !== undefined) return this.restart(data.failed);
     this.parts.all.push(data.part);
     if (this.parts.all.length === this.count - 1) this.parts.resolve(this.parts.all);

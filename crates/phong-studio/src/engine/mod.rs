@@ -211,6 +211,11 @@ impl Engine {
         }
     }
 
+    /// The number of the newest picture; 0: there was none yet.
+    pub fn picture(&self) -> u32 {
+        self.picture
+    }
+
     /// Whether there is something to draw.
     pub fn has_work(&self) -> bool {
         !self.stopped && self.painting.as_ref().is_some_and(|painting| !painting.is_done())

@@ -11,7 +11,7 @@ use serde_json::{Map, Value};
 pub use frame::{HEADER, TileFrame, file_frame};
 
 /// The version of the protocol. A page and an engine of different versions do not talk.
-pub const VERSION: u32 = 3;
+pub const VERSION: u32 = 4;
 
 /// What the page asks for.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -5,6 +5,7 @@
 //! is read. Connections, sessions, messages and memory are bounded, and nothing waits for a client
 //! that does not read.
 
+mod bundle;
 mod gate;
 mod session;
 mod studio;
@@ -117,6 +118,8 @@ impl Server {
                 tokio::time::sleep(Duration::from_millis(20)).await;
                 continue;
             };
+            // A short message is not held back until the one before it was acknowledged, which may take 40 ms.
+            let _ = stream.set_nodelay(true);
             let service = service.clone();
             tokio::spawn(async move {
                 let connection = http1::Builder::new()

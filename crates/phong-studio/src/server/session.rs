@@ -1,18 +1,19 @@
 //! A session: a client, an engine on a thread of its own, and what is on its way between them.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, TryRecvError, sync_channel};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use axum::extract::ws::{Message as Sent, WebSocket};
 use futures_util::stream::{SplitSink, SplitStream};
-use futures_util::{SinkExt as _, StreamExt as _};
+use futures_util::{SinkExt as _, StreamExt as _, stream};
 use phong::render::Cancel;
 use tokio::sync::mpsc::{UnboundedReceiver, UnboundedSender, unbounded_channel};
-use tokio::time::{interval, timeout};
+use tokio::time::{interval, sleep_until, timeout};
 
+use super::bundle::{self, Bundle};
 use super::studio::Studio;
 use crate::engine::{Emit, Engine};
 use crate::protocol::{Message, Request};
@@ -98,7 +99,8 @@ fn can_wait(request: &Request) -> bool {
     )
 }
 
-/// Sends what is queued, and asks now and then whether anybody is there.
+/// Sends what is queued, and asks now and then whether anybody is there. Tiles of one moment go together, and none
+/// of a picture that another has taken the place of.
 async fn write(
     mut sink: SplitSink<WebSocket, Sent>,
     mut queue: UnboundedReceiver<Message>,
@@ -106,22 +108,46 @@ async fn write(
 ) {
     let mut ping = interval(PING);
     ping.tick().await; // the first is at once
+    let mut tiles = Bundle::new();
     loop {
-        let (sent, bytes) = tokio::select! {
+        let next = tokio::select! {
             next = queue.recv() => match next {
-                Some(Message::Text(text)) => { let n = text.len(); (Sent::Text(text.into()), n) }
-                Some(Message::Frame(frame)) => { let n = frame.len(); (Sent::Binary(frame.into()), n) }
+                Some(Message::Frame(frame)) if bundle::picture(&frame).is_some() => {
+                    tiles.push(frame);
+                    if !tiles.is_full() {
+                        continue;
+                    }
+                    None
+                }
+                Some(Message::Frame(frame)) => Some(Sent::Binary(frame.into())),
+                Some(Message::Text(text)) => Some(Sent::Text(text.into())),
                 Some(Message::Nothing) => continue,
                 None => break,
             },
-            _ = ping.tick() => (Sent::Ping(Vec::new().into()), 0),
+            () = sleep_until(tiles.due()), if !tiles.is_empty() => None,
+            _ = ping.tick() => Some(Sent::Ping(Vec::new().into())),
         };
-        if !matches!(timeout(SENDING, sink.send(sent)).await, Ok(Ok(()))) {
+        // What was queued behind tiles is sent behind them.
+        let tiles = tiles.take();
+        let bytes = tiles.len() + next.as_ref().map_or(0, length);
+        let seen = bundle::picture(&tiles).is_some_and(|picture| !shared.is_old(picture));
+        let tiles = seen.then(|| Sent::Binary(tiles.into()));
+        let mut all = stream::iter(tiles.into_iter().chain(next).map(Ok));
+        if !matches!(timeout(SENDING, sink.send_all(&mut all)).await, Ok(Ok(()))) {
             break;
         }
         shared.sent(bytes);
     }
     shared.end();
+}
+
+/// The bytes of a message that count as queued.
+fn length(message: &Sent) -> usize {
+    match message {
+        Sent::Text(text) => text.len(),
+        Sent::Binary(bytes) => bytes.len(),
+        _ => 0,
+    }
 }
 
 /// The engine's side, on a thread of its own.
@@ -156,6 +182,7 @@ fn work(studio: &Studio, heard: &Receiver<Heard>, shared: &Shared) {
         if done.is_err() {
             engine.broken(emit);
         }
+        shared.picture.store(engine.picture(), Ordering::SeqCst);
     }
 }
 
@@ -169,6 +196,8 @@ struct Shared {
     cancel: Mutex<Arc<Cancel>>,
     /// Asks to stop after the tiles under way.
     soon: AtomicBool,
+    /// The number of the newest picture.
+    picture: AtomicU32,
     over: AtomicBool,
 }
 
@@ -180,6 +209,7 @@ impl Shared {
             taken: Condvar::new(),
             cancel: Mutex::default(),
             soon: AtomicBool::new(false),
+            picture: AtomicU32::new(0),
             over: AtomicBool::new(false),
         }
     }
@@ -234,6 +264,13 @@ impl Shared {
             queued = waited.unwrap_or_else(PoisonError::into_inner).0;
         }
         *queued <= MOST_QUEUED / 2
+    }
+
+    /// Whether another picture has taken the place of the one of this number. Numbers begin anew after the
+    /// largest.
+    fn is_old(&self, picture: u32) -> bool {
+        let newest = self.picture.load(Ordering::SeqCst);
+        picture != newest && newest.wrapping_sub(picture) <= u32::MAX / 2
     }
 
     fn end(&self) {

@@ -28,29 +28,33 @@ impl Page {
                 }
                 self.replies.push(reply);
             }
-            Message::Frame(bytes) => self.take(bytes),
+            Message::Frame(bytes) if bytes[0] == 3 => self.file = bytes[HEADER..].to_vec(),
+            Message::Frame(bytes) => {
+                let mut rest = &bytes[..];
+                while !rest.is_empty() {
+                    rest = self.take(rest);
+                }
+            }
             Message::Nothing => {}
         }
     }
 
-    fn take(&mut self, bytes: &[u8]) {
-        if bytes[0] == 3 {
-            self.file = bytes[HEADER..].to_vec();
-            return;
-        }
+    /// Takes the first of some tiles; the rest.
+    fn take<'a>(&mut self, bytes: &'a [u8]) -> &'a [u8] {
         assert_eq!(bytes[0], 2, "linear tiles were asked for");
         let number = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap()) as usize;
         let (picture, x, y, width, height) =
             (number(4), number(8), number(12), number(16), number(20));
+        let (tile, rest) = bytes.split_at(HEADER + 16 * width * height);
         if bytes[1] != 1 || picture as u64 != self.picture {
-            return;
+            return rest;
         }
-        assert_eq!(bytes.len(), HEADER + 16 * width * height);
-        let values = bytes[HEADER..].chunks_exact(4);
+        let values = tile[HEADER..].chunks_exact(4);
         let values: Vec<f32> = values.map(|v| f32::from_le_bytes(v.try_into().unwrap())).collect();
         for (row, values) in values.chunks_exact(4 * width).enumerate() {
             self.pixels[4 * ((y + row) * self.width + x)..][..4 * width].copy_from_slice(values);
         }
+        rest
     }
 
     /// The replies of a kind, in order.

@@ -114,7 +114,7 @@ fn a_page_is_told_what_there_is_and_draws_it_to_the_end() {
     let mut client = studio.call().unwrap();
     client.until(|page| !page.all("hello").is_empty());
     let hello = client.page.last("hello");
-    assert_eq!((&hello["protocol"], &hello["open"]), (&json!(3), &json!("a.toml")));
+    assert_eq!((&hello["protocol"], &hello["open"]), (&json!(4), &json!("a.toml")));
     assert!(hello["files"].as_array().unwrap().contains(&json!("a.toml")));
     client.open("a.toml");
     client.until(Page::is_done);
