@@ -72,6 +72,17 @@ impl Default for Bounds {
 /// Takes what the engine says; false: it should stop after this tile, and be asked to go on later.
 pub type Emit<'a> = &'a (dyn Fn(Message) -> bool + Sync);
 
+/// How much of a picture was shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Nothing yet.
+    Begun,
+    /// Its first pass, at an eighth of the size, and perhaps tiles of the next.
+    Coarse,
+    /// A pass of its full size.
+    Fine,
+}
+
 /// One scene, one picture.
 #[derive(Debug)]
 pub struct Engine {
@@ -219,6 +230,11 @@ impl Engine {
     /// Whether there is something to draw.
     pub fn has_work(&self) -> bool {
         !self.stopped && self.painting.as_ref().is_some_and(|painting| !painting.is_done())
+    }
+
+    /// How much of the newest picture was shown.
+    pub fn stage(&self) -> Stage {
+        self.painting.as_ref().map_or(Stage::Begun, Painting::stage)
     }
 
     /// Draws until `cancel` is used, `emit` wants to stop, or nothing is left to do. What is drawn

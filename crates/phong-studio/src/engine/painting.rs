@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use phong::explain::Explanation;
 use phong::film::{Film, Window};
@@ -13,7 +14,7 @@ use phong::terms::TermSet;
 use phong::view::View;
 
 use super::finishing::{self, Sent};
-use super::{Emit, say};
+use super::{Emit, Stage, say};
 use crate::protocol::{Message, PixelKind, Reply, TileFrame};
 
 /// How many pixels of the picture, across and down, one of the first pass stands for.
@@ -37,6 +38,8 @@ pub(super) struct Painting {
     film: Option<Film>,
     /// What automatic exposure makes of that film; empty: nobody asked yet.
     exposed: OnceLock<ToneMap>,
+    /// Whether a pass after the first is whole.
+    refined: bool,
     done: bool,
 }
 
@@ -77,8 +80,21 @@ impl Painting {
             options = options.with_share(index, count).map_err(said)?;
             preview = preview.filter(|_| index == 0);
         }
-        let (film, exposed, done) = (None, OnceLock::new(), false);
-        Ok(Self { number, view, options, preview, off, draws, furniture, film, exposed, done })
+        let (film, exposed) = (None, OnceLock::new());
+        let (refined, done) = (false, false);
+        Ok(Self {
+            number,
+            view,
+            options,
+            preview,
+            off,
+            draws,
+            furniture,
+            film,
+            exposed,
+            refined,
+            done,
+        })
     }
 
     pub(super) fn number(&self) -> u32 {
@@ -100,6 +116,15 @@ impl Painting {
 
     pub(super) fn is_done(&self) -> bool {
         self.done
+    }
+
+    /// How much of it was shown.
+    pub(super) fn stage(&self) -> Stage {
+        match (&self.preview, self.refined) {
+            (Some(_), _) => Stage::Begun,
+            (None, false) => Stage::Coarse,
+            (None, true) => Stage::Fine,
+        }
     }
 
     /// What there is so far.
@@ -243,6 +268,7 @@ impl Painting {
                 say(emit, &Reply::Pass { picture, pass, passes, samples: drawn.samples() });
             }
         }
+        let refined = AtomicBool::new(false);
         let listen = |event: Event<'_>| {
             let goes_on = match event {
                 // Nothing that was drawn onto the pass before goes away until this one is whole, and no
@@ -254,6 +280,7 @@ impl Painting {
                         whole(&rendering.film(), options, pass + 1, 1);
                     }
                     say(emit, &Reply::Pass { picture, pass: pass + 1, passes, samples });
+                    refined.store(true, Ordering::Relaxed);
                     true
                 }
                 Event::Progress(_) => true,
@@ -264,6 +291,7 @@ impl Painting {
         };
         rendering.run(&listen, cancel);
         let outcome = rendering.finish();
+        self.refined |= refined.into_inner();
         self.done = outcome.complete;
         self.film = Some(outcome.film);
         Ok(())

@@ -2,9 +2,9 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
-use std::sync::mpsc::{Receiver, SyncSender, TryRecvError, sync_channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use axum::extract::ws::{Message as Sent, WebSocket};
 use futures_util::stream::{SplitSink, SplitStream};
@@ -15,7 +15,7 @@ use tokio::time::{interval, sleep_until, timeout};
 
 use super::bundle::{self, Bundle};
 use super::studio::Studio;
-use crate::engine::{Emit, Engine};
+use crate::engine::{Emit, Engine, Stage};
 use crate::protocol::{Message, Request};
 
 /// Requests that may wait for the engine; a client that sends more is dropped.
@@ -26,6 +26,11 @@ const MOST_QUEUED: usize = 8 << 20;
 
 /// How long a client may take for one message.
 const SENDING: Duration = Duration::from_secs(10);
+
+/// How long another change is waited for after the first pass of a picture, where the one before was given up with
+/// nothing more: as long as a page takes to show a first pass and to send what a hand did meanwhile. So a processor that a
+/// browser needs as well draws nothing that would be thrown away, while a picture that is done sooner is shown.
+const PAUSE: Duration = Duration::from_millis(50);
 
 /// How often a client is asked whether it is still there.
 const PING: Duration = Duration::from_secs(20);
@@ -156,20 +161,23 @@ fn work(studio: &Studio, heard: &Receiver<Heard>, shared: &Shared) {
     let mut engine = engine.with_keeper(studio.shelf.clone());
     let emit: Emit<'_> = &|message| shared.queue(message);
     shared.queue(engine.hello(studio.shelf.first(), studio.shelf.names(), studio.look));
+    // Whether the picture before was given up with nothing but its first pass, and when the newest had that.
+    let (mut hasty, mut seen) = (false, Instant::now());
     loop {
         let cancel = shared.begin();
-        let next = if engine.has_work() {
-            match heard.try_recv() {
-                Ok(next) => Some(next),
-                Err(TryRecvError::Empty) => None,
-                Err(TryRecvError::Disconnected) => return,
-            }
+        let next = if !engine.has_work() {
+            heard.recv().map_err(|_| RecvTimeoutError::Disconnected)
+        } else if hasty && engine.stage() == Stage::Coarse {
+            heard.recv_timeout(PAUSE.saturating_sub(seen.elapsed()))
         } else {
-            match heard.recv() {
-                Ok(next) => Some(next),
-                Err(_) => return,
-            }
+            heard.recv_timeout(Duration::ZERO)
         };
+        let next = match next {
+            Ok(next) => Some(next),
+            Err(RecvTimeoutError::Timeout) => None,
+            Err(RecvTimeoutError::Disconnected) => return,
+        };
+        let (picture, stage) = (engine.picture(), engine.stage());
         if shared.is_over() {
             return;
         }
@@ -181,6 +189,13 @@ fn work(studio: &Studio, heard: &Receiver<Heard>, shared: &Shared) {
         }));
         if done.is_err() {
             engine.broken(emit);
+        }
+        if engine.picture() == picture {
+            if (stage, engine.stage()) == (Stage::Begun, Stage::Coarse) {
+                seen = Instant::now();
+            }
+        } else if stage != Stage::Begun {
+            hasty = stage == Stage::Coarse;
         }
         shared.picture.store(engine.picture(), Ordering::SeqCst);
     }

@@ -9,7 +9,7 @@ use phong::part::fingerprint;
 use phong::render::{Cancel, RenderOptions, render};
 use phong::scene::{Change, Limits, Memory, Scene, TexelValues, Texels, read_changed};
 use phong::view::View;
-use phong_studio::engine::{Bounds, Engine};
+use phong_studio::engine::{Bounds, Engine, Stage};
 use phong_studio::protocol::Message;
 use serde_json::{Value, json};
 
@@ -116,6 +116,18 @@ fn stopped_after_every_tile_it_comes_to_the_same_bits() {
     talk.stops = true;
     assert!(talk.draw() > 5);
     assert_eq!(seen(&talk.page), bits(&film(&scene(&[]))));
+}
+
+#[test]
+fn a_picture_is_coarse_until_a_pass_of_full_size_is_whole() {
+    let mut talk = Talk::new();
+    assert_eq!((talk.engine.stage(), talk.engine.picture()), (Stage::Begun, 1));
+    talk.some();
+    assert_eq!(talk.engine.stage(), Stage::Coarse);
+    talk.draw();
+    assert_eq!(talk.engine.stage(), Stage::Fine);
+    talk.ask(&json!({ "do": "turn", "by": [0.1, 0] }));
+    assert_eq!((talk.engine.stage(), talk.engine.picture()), (Stage::Begun, 2));
 }
 
 #[test]

@@ -124,6 +124,17 @@ fn a_page_is_told_what_there_is_and_draws_it_to_the_end() {
         client.ask(&json!({ "do": "turn", "by": [0.01, 0] }));
     }
     client.until(|page| page.all("look").len() == 101 && page.is_done());
+    // And as by a hand, which waits for the first pass of each: the last is drawn to the end.
+    for turn in 0..10 {
+        client.ask(&json!({ "do": "turn", "by": [0, 0.01] }));
+        client.until(|page| {
+            let [looks, passes] = ["look", "pass"].map(|is| page.all(is));
+            looks.len() == 102 + turn
+                && passes.iter().any(|pass| pass["picture"] == looks[101 + turn]["picture"])
+        });
+    }
+    client.until(Page::is_done);
+    assert!(client.page.pixels.iter().all(|v| v.is_finite()));
     client.ask(&json!({ "do": "keys" }));
     client.until(|page| !page.all("keys").is_empty());
     assert!(client.page.last("keys")["schema"]["properties"]["materials"].is_object());
