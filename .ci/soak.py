@@ -39,7 +39,8 @@ class Client:
         assert b"101" in status, status
         while self.file.readline().strip():
             pass
-        self.look, self.tiles = {}, 0
+        # The newest picture; how many messages of tiles came, and bytes in them.
+        self.look, self.tiles, self.bytes = {}, 0, 0
 
     def ask(self, **request):
         data = json.dumps(request).encode()
@@ -62,6 +63,7 @@ class Client:
             reply = self.hear()
             if isinstance(reply, bytes):
                 self.tiles += 1
+                self.bytes += len(reply)
                 continue
             if reply["is"] == "look":
                 self.look = reply
@@ -210,15 +212,20 @@ def speed(arguments):
         studio.wait()
 
 
-parser = argparse.ArgumentParser()
-parser.add_argument("phong")
-parser.add_argument("--scene", default="scenes/two-balls.toml")
-parser.add_argument("--minutes", type=float, default=60)
-parser.add_argument("--pause", type=float, default=0, help="seconds between two clients")
-parser.add_argument("--seconds", type=float, help="measure pictures a second for so long, and nothing else")
-parser.add_argument("--full", type=int, default=0, help="the pass that counts as a picture: 0 at an eighth of the size, 1 in full")
-arguments = parser.parse_args()
-if arguments.seconds:
-    speed(arguments)
-else:
-    soak(arguments)
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("phong")
+    parser.add_argument("--scene", default="scenes/two-balls.toml")
+    parser.add_argument("--minutes", type=float, default=60)
+    parser.add_argument("--pause", type=float, default=0, help="seconds between two clients")
+    parser.add_argument("--seconds", type=float, help="measure pictures a second for so long, and nothing else")
+    parser.add_argument("--full", type=int, default=0, help="the pass that counts as a picture: 0 at an eighth of the size, 1 in full")
+    arguments = parser.parse_args()
+    if arguments.seconds:
+        speed(arguments)
+    else:
+        soak(arguments)
+
+
+if __name__ == "__main__":
+    main()

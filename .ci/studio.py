@@ -9,11 +9,13 @@ import json
 import re
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
 from playwright.sync_api import sync_playwright
 
+import studio_speed
 import studio_walks
 
 PHONG, SHOTS = Path(sys.argv[1]).resolve(), Path(sys.argv[2])
@@ -165,7 +167,7 @@ def walk(browser, url, scene):
         begun = time.monotonic()
         step(other)
         print(f"walked: {step.__name__}, {time.monotonic() - begun:.1f} s")
-    print(f"pictures a second while it is turned, {SCENE.count('[[')} objects and lights: {studio_walks.pictures_a_second(page):.1f}")
+    print(f"pictures a second while it is turned, {SCENE.count('[[')} objects and lights: {studio_speed.keys(page):.1f}")
     assert not faults, faults
     context.close()
 
@@ -202,6 +204,8 @@ def main():
         with sync_playwright() as playwright:
             browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
             walk(browser, url, scene)
+            with tempfile.TemporaryDirectory() as folder:
+                studio_speed.tell(browser, PHONG, Path(folder))
             browser.close()
     finally:
         studio.terminate()

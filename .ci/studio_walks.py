@@ -382,23 +382,3 @@ CONTRAST = """(() => {
 })()"""
 
 ALL = [writing, typing, handles, seeing, files, looks, frames, saving, teaching, manners]
-
-
-def pictures_a_second(page, seconds=3):
-    """How many pictures are seen while the keyboard turns the scene without a rest."""
-    return page.evaluate(
-        """(seconds) => new Promise((resolve) => {
-            const frame = document.getElementById("frame");
-            const end = performance.now() + 1000 * seconds;
-            const first = studio.look.picture;
-            let seen = 0, last = first, shown = 0;
-            const turn = () => {
-                frame.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowLeft" }));
-                if (studio.seen !== shown) { shown = studio.seen; seen += 1; }
-                if (performance.now() < end) requestAnimationFrame(turn);
-                else resolve(seen / seconds);
-            };
-            turn();
-        })""",
-        seconds,
-    )
