@@ -20,6 +20,13 @@ use crate::report;
 /// The shortest time between two checkpoints; writing them takes a twentieth of the time at most.
 const PAUSE: Duration = Duration::from_secs(1);
 
+/// Where the checkpoint of a picture is that is to be written to `output`.
+pub(crate) fn path(output: &Path) -> PathBuf {
+    let mut path = output.as_os_str().to_owned();
+    path.push(".part");
+    path.into()
+}
+
 /// The checkpoint of one picture.
 #[derive(Debug)]
 pub(crate) struct Checkpoint {
@@ -41,11 +48,9 @@ impl Checkpoint {
         options: &RenderOptions,
         quiet: bool,
     ) -> Self {
-        let mut path = output.as_os_str().to_owned();
-        path.push(".part");
         // It may be of a run in passes, whatever this one is.
         let limit = options.clone().with_passes(Passes::CoarseToFine).film_bytes();
-        Self { path: path.into(), settings, limit, quiet, trouble: Mutex::default() }
+        Self { path: path(output), settings, limit, quiet, trouble: Mutex::default() }
     }
 
     /// What an earlier run has done of this very picture; `None` if there is no checkpoint.

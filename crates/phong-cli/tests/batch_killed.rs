@@ -156,6 +156,19 @@ fn a_damaged_checkpoint_is_begun_anew() {
 }
 
 #[test]
+fn a_checkpoint_of_a_picture_that_is_there_goes() {
+    let folder = slow();
+    folder.done("batch b.toml --task 0");
+    let picture = fs::read_dir(folder.path("b/by-content")).unwrap().next().unwrap().unwrap().path();
+    // A task that is killed when its picture has its name, and its checkpoint is not yet removed.
+    let checkpoint = picture.with_extension("png.part");
+    fs::write(&checkpoint, b"phong part 4\n").unwrap();
+    folder.done("batch b.toml --task 0");
+    assert!(!checkpoint.exists());
+    is_right(&folder);
+}
+
+#[test]
 fn a_scene_that_changes_while_it_is_drawn_gets_no_wrong_name() {
     let folder = slow();
     let mut child = task(&folder);

@@ -1,12 +1,14 @@
 //! One task: taken, done, and what became of it written down.
 
+use std::fs;
+use std::path::PathBuf;
 use std::time::Instant;
 
 use crate::args::RenderArgs;
 use crate::batch::{Contents, Held, Known, Task, Tasks, Work, link};
 use crate::command::{merge, render};
 use crate::failure::Failure;
-use crate::{report, threads};
+use crate::{checkpoint, report, threads};
 
 /// Does the task of this number, unless it is done; waits for whoever works on it. `threads` is what
 /// the command line says, and what this runs on.
@@ -35,6 +37,8 @@ pub(crate) fn run(tasks: &Tasks, number: usize, threads: Option<u32>) -> Result<
             }
         }
     }
+    // It stays where a task was killed just before it would have gone.
+    let _ = fs::remove_file(checkpoint::path(&file(tasks, task, &digest)));
     match task.work {
         Work::Share(_) => Ok(()),
         Work::Whole | Work::Merge => link(tasks, task.picture, &digest),
@@ -47,6 +51,14 @@ fn is_done(tasks: &Tasks, task: Task<'_>, digest: &str) -> bool {
     tasks.picture_file(digest).is_file() || matches!(task.work, Work::Share(share) if part(share))
 }
 
+/// What a task writes.
+fn file(tasks: &Tasks, task: Task<'_>, digest: &str) -> PathBuf {
+    match task.work {
+        Work::Share(share) => tasks.share_file(digest, share),
+        Work::Whole | Work::Merge => tasks.picture_file(digest),
+    }
+}
+
 fn work(
     tasks: &Tasks,
     task: Task<'_>,
@@ -55,18 +67,13 @@ fn work(
     held: &mut Held,
 ) -> Result<(), Failure> {
     let started = Instant::now();
-    let output = match task.work {
-        Work::Share(share) => tasks.share_file(digest, share),
-        Work::Whole | Work::Merge => tasks.picture_file(digest),
-    };
+    let output = file(tasks, task, digest);
     let mut args = tasks.render_args(task.picture)?;
     if task.work == Work::Merge {
         held.start(task.number, false)?;
         merge_shares(tasks, task, digest, &args)?;
     } else {
-        let mut checkpoint = output.clone().into_os_string();
-        checkpoint.push(".part");
-        held.start(task.number, std::path::Path::new(&checkpoint).is_file())?;
+        held.start(task.number, checkpoint::path(&output).is_file())?;
         args.output = Some(output.clone());
         args.work.resume = true;
         args.work.replace = true;
@@ -79,7 +86,7 @@ fn work(
     }
     if !known.holds() {
         // Its name says another content.
-        let _ = std::fs::remove_file(&output);
+        let _ = fs::remove_file(&output);
         let message = format!("{} changed while it was drawn", task.picture.input);
         return Err(Failure::System(format!("{message}; do the task again")));
     }
@@ -113,8 +120,10 @@ fn merge_shares(
     let (encoding, tone) = (args.encoding.clone(), args.tone.clone());
     merge::run(&merge::Args { parts: parts.clone(), output, encoding, tone })?;
     for part in parts {
-        // One that cannot be removed takes room and does no harm.
-        let _ = std::fs::remove_file(part);
+        // One that cannot be removed takes room and does no harm; nor does its checkpoint, which a killed
+        // task may have left.
+        let _ = fs::remove_file(checkpoint::path(&part));
+        let _ = fs::remove_file(part);
     }
     Ok(())
 }
