@@ -6,17 +6,20 @@ use fearless_simd::Simd;
 
 /// A set of vector instructions. Every level gives the same bits; they differ in speed alone.
 ///
-/// A level is offered where it can be tested.
+/// A level is offered where it can be tested. A development build has two of x86, [`Scalar`](Self::Scalar) and
+/// [`Avx2`](Self::Avx2): each takes the compiler a minute or more in the renderer. The release build has all, and
+/// the gate draws every scene at each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
     /// No vector instructions beyond what the compiler makes of plain code. Not offered by a module of
     /// WebAssembly that has vectors: nobody would run it, and it is larger than they are.
     Scalar,
-    /// x86 with SSE4.2: four lanes.
+    /// x86 with SSE4.2: four lanes. Not in a development build.
     Sse42,
     /// x86 with AVX2: eight lanes.
     Avx2,
     /// x86 with AVX-512 as of Ice Lake and Zen 4: eight lanes, more registers, masks of their own.
+    /// Not in a development build.
     Avx512,
     /// 64-bit ARM: four lanes.
     Neon,
@@ -52,11 +55,11 @@ impl Level {
 pub(crate) enum Token {
     #[cfg(not(all(target_arch = "wasm32", target_feature = "simd128")))]
     Scalar(fearless_simd::Fallback),
-    #[cfg(target_arch = "x86_64")]
+    #[cfg(all(target_arch = "x86_64", not(debug_assertions)))]
     Sse42(fearless_simd::x86::Sse4_2),
     #[cfg(target_arch = "x86_64")]
     Avx2(fearless_simd::x86::Avx2),
-    #[cfg(target_arch = "x86_64")]
+    #[cfg(all(target_arch = "x86_64", not(debug_assertions)))]
     Avx512(fearless_simd::x86::Avx512),
     #[cfg(target_arch = "aarch64")]
     Neon(fearless_simd::aarch64::Neon),
@@ -76,11 +79,11 @@ impl Token {
         match level {
             #[cfg(not(all(target_arch = "wasm32", target_feature = "simd128")))]
             Level::Scalar => Some(Self::BASE),
-            #[cfg(target_arch = "x86_64")]
+            #[cfg(all(target_arch = "x86_64", not(debug_assertions)))]
             Level::Sse42 => Cpu::new().as_sse4_2().map(Self::Sse42),
             #[cfg(target_arch = "x86_64")]
             Level::Avx2 => Cpu::new().as_avx2().map(Self::Avx2),
-            #[cfg(target_arch = "x86_64")]
+            #[cfg(all(target_arch = "x86_64", not(debug_assertions)))]
             Level::Avx512 => Cpu::new().as_avx512().map(Self::Avx512),
             #[cfg(target_arch = "aarch64")]
             Level::Neon => Cpu::new().as_neon().map(Self::Neon),
@@ -103,11 +106,11 @@ impl Token {
         match self {
             #[cfg(not(all(target_arch = "wasm32", target_feature = "simd128")))]
             Self::Scalar(simd) => at(simd, kernel),
-            #[cfg(target_arch = "x86_64")]
+            #[cfg(all(target_arch = "x86_64", not(debug_assertions)))]
             Self::Sse42(simd) => at(simd, kernel),
             #[cfg(target_arch = "x86_64")]
             Self::Avx2(simd) => at(simd, kernel),
-            #[cfg(target_arch = "x86_64")]
+            #[cfg(all(target_arch = "x86_64", not(debug_assertions)))]
             Self::Avx512(simd) => at(simd, kernel),
             #[cfg(target_arch = "aarch64")]
             Self::Neon(simd) => at(simd, kernel),
