@@ -157,16 +157,88 @@ impl<'a, S: Simd> Seen8<'a, S> {
             enter = Crossing::select(round, enter, cut_enter);
             leave = Crossing::select(round, leave, cut_leave);
         }
-        let t_min = f32x8::splat(simd, ray.t_min);
-        let Crossing { t, second_half } = Crossing::select(enter.t.simd_gt(t_min), enter, leave);
-        let hit = may & straight & t.simd_gt(t_min) & t.simd_lt(f32x8::splat(simd, ray.t_max));
+        let (hit, Crossing { t, second_half }) = met(ray, enter, leave);
         let tapered = (may & !straight).to_bitmask() as u32;
         CylinderHits {
-            hit: hit.to_bitmask() as u32,
+            hit: (may & straight & hit).to_bitmask() as u32,
             second_half: second_half.to_bitmask() as u32,
             tapered,
             t: t.to_array(),
         }
+    }
+}
+
+/// Which of its two crossings a ray meets, and the lanes in which it meets one.
+#[inline(always)]
+fn met<S: Simd>(
+    ray: &RayFrame<f32x8<S>>,
+    enter: Crossing<f32x8<S>>,
+    leave: Crossing<f32x8<S>>,
+) -> (mask32x8<S>, Crossing<f32x8<S>>) {
+    let met = Crossing::select(enter.t.simd_gt(ray.t_min), enter, leave);
+    (met.t.simd_gt(ray.t_min) & met.t.simd_lt(ray.t_max), met)
+}
+
+/// Boxes around the cylinders of a block, for rays that start within `far` of the origin, added up along the axes:
+/// no ray meets a cylinder, by its own test, whose box it misses. Least and greatest along each axis, as a node has
+/// them.
+#[inline(always)]
+pub(crate) fn boxes<S: Simd>(simd: S, block: &[Row; BLOCK], far: f32) -> [Row; 6] {
+    let pad = row(simd, block, 6) + ray_frame::slack(far);
+    let mut sides = [Row::ZERO; 6];
+    for axis in 0..3 {
+        let from = row(simd, block, axis);
+        let half = row(simd, block, 3 + axis);
+        let to = from + (half + half);
+        (from.min(to) - pad).store_array(&mut sides[2 * axis].0);
+        (from.max(to) + pad).store_array(&mut sides[2 * axis + 1].0);
+    }
+    sides
+}
+
+/// Eight rays of the same axes against the cylinder in one lane of a block.
+pub(crate) struct OneHits<S: Simd> {
+    /// The rays that meet it, a bit each.
+    pub(crate) hit: u32,
+    /// Where they do, and 1 where that is in the half of the second end, else 0.
+    pub(crate) at: [f32x8<S>; 2],
+    /// The rays that may meet it where it has two radii, a bit each; then nothing else is known.
+    pub(crate) tapered: u32,
+}
+
+impl<S: Simd> OneHits<S> {
+    /// The rays `among` against it; none where they all miss it widely.
+    #[inline(always)]
+    pub(crate) fn of(
+        simd: S,
+        rays: &RayFrame<f32x8<S>>,
+        block: &[Row; BLOCK],
+        lane: usize,
+        among: u32,
+    ) -> Option<Self> {
+        let number = |row: usize| block[row].0[lane & 7];
+        let splat = |row: usize| f32x8::splat(simd, number(row));
+        let [x, y, z] = rays.axes();
+        let half = [splat(3 + x), splat(3 + y), splat(3 + z)];
+        let seen = Seen::new(rays, [splat(x), splat(y), splat(z)], half);
+        let may = among & !seen.misses(rays, splat(6)).to_bitmask() as u32;
+        if may == 0 {
+            return None;
+        }
+        let [first, second] = [number(7), number(8)];
+        let zero = f32x8::splat(simd, 0.0);
+        if first.abs() != second.abs() {
+            return Some(Self { hit: 0, at: [zero; 2], tapered: may });
+        }
+        let chord = seen.chord(rays, f32x8::splat(simd, first.abs()));
+        let [enter, leave] = if first == second {
+            chord.round()
+        } else {
+            chord.cut(f32x8::splat(simd, first).simd_lt(zero))
+        };
+        let (hit, Crossing { t, second_half }) = met(rays, enter, leave);
+        let half = second_half.select(f32x8::splat(simd, 1.0), zero);
+        Some(Self { hit: may & hit.to_bitmask() as u32, at: [t, half], tapered: 0 })
     }
 }
 

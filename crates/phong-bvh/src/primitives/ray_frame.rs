@@ -14,7 +14,7 @@
 use fearless_simd::{Simd, SimdBase, f32x8};
 
 use crate::{
-    lanes::{self, Lanes, dot},
+    lanes::{Lanes, dot},
     local::Ray,
     primitives::splat3,
 };
@@ -39,10 +39,19 @@ pub(crate) struct RayFrame<F> {
     unit: F,
     /// How much farther than it must a test looks, for what rounding does to the ray.
     slack: F,
-    /// d / d·d. What follows is the same in every lane, and asked for seldom.
-    along: [f32; 3],
-    pub(super) t_min: f32,
-    pub(super) t_max: f32,
+    /// d / d·d.
+    along: [F; 3],
+    pub(super) t_min: F,
+    pub(super) t_max: F,
+}
+
+/// The axis of space that a ray goes along least, the first of equal ones; then those that follow it.
+#[inline(always)]
+pub(crate) fn axes([x, y, z]: [f32; 3]) -> [usize; 3] {
+    let size = [x.abs(), y.abs(), z.abs()];
+    let first = usize::from(size[1] < size[0]);
+    let first = if size[2] < size[first] { 2 } else { first };
+    [first, (first + 1) % 3, (first + 2) % 3]
 }
 
 impl RayFrame<f32> {
@@ -50,28 +59,8 @@ impl RayFrame<f32> {
     #[inline(always)]
     pub(crate) fn new(ray: &Ray) -> Self {
         let Ray { origin, dir, t_min, t_max } = *ray;
-        let size = dir.abs();
-        let first = usize::from(size.y < size.x);
-        let first = if size.z < size[first] { 2 } else { first };
-        let axes = [first, (first + 1) % 3, (first + 2) % 3];
-        let [x, y, z] = [dir[axes[0]], dir[axes[1]], dir[axes[2]]];
-        let across = y * y + z * z;
-        let square = across + x * x;
-        let per_square = 1.0 / square;
-        let unit = per_square.sqrt();
-        let per = 1.0 / (across * square).sqrt();
-        let per_right = per * unit;
-        Self {
-            axes,
-            origin: [origin[axes[0]], origin[axes[1]], origin[axes[2]]],
-            right: [-across * per_right, x * y * per_right, x * z * per_right],
-            up: [z * per, -y * per],
-            along: [x * per_square, y * per_square, z * per_square],
-            unit,
-            slack: origin.abs().element_sum() * unit * ROUNDED,
-            t_min,
-            t_max,
-        }
+        let (origin, dir) = (origin.to_array(), dir.to_array());
+        Across::new(axes(dir), origin, dir).frame(origin, t_min, t_max)
     }
 
     /// The same in eight lanes.
@@ -85,10 +74,72 @@ impl RayFrame<f32> {
             up: [SimdBase::splat(simd, up_y), SimdBase::splat(simd, up_z)],
             unit: SimdBase::splat(simd, self.unit),
             slack: SimdBase::splat(simd, self.slack),
-            along: self.along,
-            t_min: self.t_min,
-            t_max: self.t_max,
+            along: splat3(simd, self.along),
+            t_min: SimdBase::splat(simd, self.t_min),
+            t_max: SimdBase::splat(simd, self.t_max),
         }
+    }
+}
+
+/// What a [`RayFrame`] has beyond its ray.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Across<F> {
+    axes: [usize; 3],
+    right: [F; 3],
+    up: [F; 2],
+    unit: F,
+    slack: F,
+    along: [F; 3],
+}
+
+/// How many numbers an [`Across`] has.
+pub(crate) const ACROSS: usize = 10;
+
+impl<F: Lanes<Scalar = f32>> Across<F> {
+    /// Of a ray, or of several for which [`axes`] are the same.
+    #[inline(always)]
+    pub(crate) fn new(axes: [usize; 3], origin: [F; 3], dir: [F; 3]) -> Self {
+        let [x, y, z] = [dir[axes[0]], dir[axes[1]], dir[axes[2]]];
+        let across = y * y + z * z;
+        let square = across + x * x;
+        let one = square.splat(1.0);
+        let per_square = one / square;
+        let unit = per_square.sqrt();
+        let per = one / (across * square).sqrt();
+        let per_right = per * unit;
+        let far = origin[0].abs() + origin[1].abs() + origin[2].abs();
+        Self {
+            axes,
+            right: [-across * per_right, x * y * per_right, x * z * per_right],
+            up: [z * per, -y * per],
+            along: [x * per_square, y * per_square, z * per_square],
+            unit,
+            slack: far * unit * ROUNDED,
+        }
+    }
+}
+
+impl<F: Copy> Across<F> {
+    /// Its numbers side by side, to be kept.
+    #[inline(always)]
+    pub(crate) fn numbers(&self) -> [F; ACROSS] {
+        let ([a, b, c], [d, e], [f, g, h]) = (self.right, self.up, self.along);
+        [a, b, c, d, e, f, g, h, self.unit, self.slack]
+    }
+
+    /// From the numbers that were kept.
+    #[inline(always)]
+    pub(crate) fn of(axes: [usize; 3], [a, b, c, d, e, f, g, h, unit, slack]: [F; ACROSS]) -> Self {
+        Self { axes, right: [a, b, c], up: [d, e], along: [f, g, h], unit, slack }
+    }
+
+    /// Together with its ray.
+    #[inline(always)]
+    pub(crate) fn frame(&self, origin: [F; 3], t_min: F, t_max: F) -> RayFrame<F> {
+        let Self { axes, right, up, unit, slack, along } = *self;
+        let [x, y, z] = axes;
+        let origin = [origin[x], origin[y], origin[z]];
+        RayFrame { axes, origin, right, up, unit, slack, along, t_min, t_max }
     }
 }
 
@@ -106,6 +157,12 @@ impl<F> RayFrame<F> {
 pub(super) fn reach(radius: f32, from: [f32; 3], h: [f32; 3]) -> f32 {
     let size = |[x, y, z]: [f32; 3]| x.abs() + y.abs() + z.abs();
     radius * 1.000_01 + (size(from) + size(h)) * ROUNDED
+}
+
+/// How much farther than [`reach`] a box around a segment reaches, so that it holds all that rays may meet which
+/// start within `far` of the origin, their coordinates added up: twice what rounding does to them.
+pub(super) fn slack(far: f32) -> f32 {
+    2.0 * ROUNDED * far
 }
 
 /// A segment as a ray sees it, or eight of them. With `r²` over the square of the ray's length, all is in the
@@ -157,14 +214,13 @@ impl<F: Lanes<Scalar = f32>> Seen<F> {
         let Self { c, h, p, q, cross, pq, qq } = *self;
         let radius = radius * ray.unit;
         let square = radius * radius;
-        let along = lanes::splat3(qq, ray.along);
-        let k = dot(along, h);
+        let k = dot(ray.along, h);
         let hh = qq + k * k;
         let per_qq = qq.splat(1.0) / qq.at_least(TINY);
         let nearest = -(pq * per_qq) * k;
         let reach = ((square - cross * (cross * per_qq)) * (hh * per_qq)).sqrt();
         let [enter, leave] = [nearest - reach, nearest + reach];
-        Chord { middle: dot(along, c) + k, p, q, k, pq, hh, square, enter, leave }
+        Chord { middle: dot(ray.along, c) + k, p, q, k, pq, hh, square, enter, leave }
     }
 }
 

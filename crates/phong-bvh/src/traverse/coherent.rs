@@ -12,6 +12,7 @@ use fearless_simd::{Simd, f32x8, mask32x8, prelude::*, u32x8};
 use super::{
     World,
     columns::{Columns, PACKETS, Packets},
+    framed::{Entered, Framed},
     frustum::Frustum,
     leaves::{Content, Leaves},
     query::Query,
@@ -44,6 +45,7 @@ pub(super) struct Group {
     pause: Pause,
     columns: Columns,
     sheared: Sheared,
+    framed: Framed,
     entries: Entries,
 }
 
@@ -53,6 +55,7 @@ impl Group {
         pause: Pause::NONE,
         columns: Columns::EMPTY,
         sheared: Sheared::EMPTY,
+        framed: Framed::EMPTY,
         entries: [Entry::NONE; _],
     };
 }
@@ -207,7 +210,7 @@ impl<E: Query, C: Content> Together<'_, E, C> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S, query: &mut E, group: &mut Group) -> bool {
         let Self { world, root, packets, .. } = self;
-        let Group { columns, sheared, entries, .. } = group;
+        let Group { columns, sheared, framed, entries, .. } = group;
         columns.fill(simd, &packets);
         for (packet, rays) in packets.rays.iter().enumerate() {
             let t_max = query.t_max(rays, packets.first_eight + packet);
@@ -219,6 +222,7 @@ impl<E: Query, C: Content> Together<'_, E, C> {
         let backwards = if E::ANY { Frustum::backwards(columns) } else { None };
         let frustum = backwards.unwrap_or_else(|| Frustum::new(columns));
         let sheared = (C::TRIANGLES && sheared.fill(simd, columns, &packets)).then_some(&*sheared);
+        let framed = (C::CYLINDERS && framed.fill(simd, columns, &packets)).then_some(&*framed);
         let mut farthest = columns.farthest(simd);
         let mut patience = PATIENCE * packets.count();
         entries[0] = Entry { key: u64::from(root.0), parent: 0 };
@@ -247,6 +251,9 @@ impl<E: Query, C: Content> Together<'_, E, C> {
                 && let Some(sheared) = sheared
             {
                 sheared.leaf(simd, world, &packets, (at, met), columns, query);
+            } else if let Some(framed) = framed {
+                let entered = Entered { leaf: at, met, frustum: &frustum, farthest };
+                framed.leaf(simd, world, &packets, entered, columns, query);
             } else {
                 while met != 0 {
                     let i = met.trailing_zeros() as usize;

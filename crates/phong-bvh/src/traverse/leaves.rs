@@ -28,6 +28,8 @@ pub(super) trait Content {
     /// Whether groups are worth while for any-hit queries. Among many spheres each ray is soon blocked by
     /// another one, before a group has saved what it cost.
     const ANY_TOGETHER: bool = true;
+    /// Whether groups prepare their rays for leaves of cylinders.
+    const CYLINDERS: bool = false;
 }
 
 /// A ray prepared for the primitives of leaves.
@@ -65,6 +67,7 @@ impl Content for OnlyCylinders {
     type Leaves<S: Simd> = Cylinders<S>;
     const TRIANGLES: bool = false;
     const ANY_TOGETHER: bool = false;
+    const CYLINDERS: bool = true;
 }
 
 impl Content for Anything {
@@ -173,10 +176,18 @@ pub(super) struct Cylinders<S: Simd> {
     frame: RayFrame<f32x8<S>>,
 }
 
+impl<S: Simd> Cylinders<S> {
+    /// A ray that is prepared already.
+    #[inline(always)]
+    pub(super) fn of(simd: S, frame: &RayFrame<f32>) -> Self {
+        Self { frame: frame.eight(simd) }
+    }
+}
+
 impl<S: Simd> Leaves<S> for Cylinders<S> {
     #[inline(always)]
     fn new(simd: S, ray: &Ray) -> Self {
-        Self { frame: RayFrame::new(ray).eight(simd) }
+        Self::of(simd, &RayFrame::new(ray))
     }
 
     #[inline(always)]

@@ -4,6 +4,7 @@ mod boxes;
 mod coherent;
 mod columns;
 mod every;
+mod framed;
 mod frustum;
 mod interleaved;
 mod leaves;

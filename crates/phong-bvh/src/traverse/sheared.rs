@@ -195,7 +195,7 @@ impl Sheared {
 
 /// The number of eights that have a ray among `rays`.
 #[inline(always)]
-fn packets(mut rays: u64) -> u32 {
+pub(super) fn packets(mut rays: u64) -> u32 {
     rays |= rays >> 4;
     rays |= rays >> 2;
     rays |= rays >> 1;
