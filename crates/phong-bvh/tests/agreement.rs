@@ -256,6 +256,40 @@ proptest! {
     }
 
     #[test]
+    fn a_coherent_bundle_among_cylinders_finds_what_brute_force_finds(seed: u64) {
+        let mut numbers = Random(seed);
+        let (scale, size) = (numbers.scale(), numbers.scale().min(1.0));
+        let caps = [Caps::Round, Caps::Round, Caps::Flat, Caps::Open][numbers.below(4)];
+        let tapered = numbers.below(2) == 0;
+        let cylinders: Vec<Cylinder> = (0..=numbers.below(200))
+            .map(|_| {
+                let from = scale * numbers.point();
+                let cylinder = cylinder(&mut numbers, scale * size, from);
+                let radius_to = if tapered { cylinder.radius_to } else { cylinder.radius };
+                Cylinder { radius_to, ..cylinder }
+            })
+            .collect();
+        // As a camera's rays are: to one of them and around it, some at its rim.
+        let away = [0.0, 3.0, 300.0][numbers.below(3)];
+        let (eye, spread) = (away * scale * numbers.point(), [0.0, 1e-3, 0.02][numbers.below(3)]);
+        let aim = cylinders[numbers.below(cylinders.len())];
+        let straight = (aim.from.lerp(aim.to, 0.5) - eye).normalize_or(Vec3::X);
+        let rays: Vec<Ray> = (0..192)
+            .map(|i| {
+                let Cylinder { from, radius, to, .. } = cylinders[i % cylinders.len()];
+                let at = from.lerp(to, 0.5 + 0.6 * numbers.signed());
+                let rim = (at - eye).cross(to - from).normalize_or(Vec3::Y);
+                let rim = at + radius * (1.0 - 1e-3 * numbers.signed()) * rim;
+                let to_rim = (rim - eye).normalize_or(straight);
+                let near = to_rim.abs_diff_eq(straight, 0.04) && i % 3 == 0;
+                let dir = if near { to_rim } else { straight + spread * numbers.point() };
+                Ray::new(eye, dir.normalize_or(straight))
+            })
+            .collect();
+        agrees_with_brute_force(&[Primitives::cylinders(cylinders, caps)], &rays);
+    }
+
+    #[test]
     fn a_coherent_bundle_finds_what_brute_force_finds(seed: u64) {
         let mut numbers = Random(seed);
         let geometry = geometry(&mut numbers, 400);

@@ -159,7 +159,8 @@ fn a_damaged_checkpoint_is_begun_anew() {
 fn a_checkpoint_of_a_picture_that_is_there_goes() {
     let folder = slow();
     folder.done("batch b.toml --task 0");
-    let picture = fs::read_dir(folder.path("b/by-content")).unwrap().next().unwrap().unwrap().path();
+    let picture =
+        fs::read_dir(folder.path("b/by-content")).unwrap().next().unwrap().unwrap().path();
     // A task that is killed when its picture has its name, and its checkpoint is not yet removed.
     let checkpoint = picture.with_extension("png.part");
     fs::write(&checkpoint, b"phong part 4\n").unwrap();
