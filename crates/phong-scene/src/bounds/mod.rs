@@ -87,32 +87,29 @@ impl Mesh {
 
     /// The same relative to the origin.
     fn extremes(&self) -> (Vec3, Vec3) {
-        let all = self
+        let boxes: Vec<(Vec3, Vec3)> = self
             .positions
             .par_chunks(PIECE)
             .map(|piece| piece.iter().fold(empty(), |b, p| (b.0.min(*p), b.1.max(*p))))
-            .reduce(empty, join);
+            .collect();
+        let all = boxes.iter().copied().fold(empty(), join);
         // Most meshes use all their positions. Then it is the box of these, as it is if only those on its
         // sides are used, and the corners need not be looked up one by one.
-        if self.reaches_sides(all) { all } else { self.extremes_of_corners() }
+        if self.reaches_sides(all, &boxes) { all } else { self.extremes_of_corners() }
     }
 
-    /// Whether a triangle has a corner on each side of a box around all positions.
-    fn reaches_sides(&self, (min, max): (Vec3, Vec3)) -> bool {
-        let first = |on_side: &(dyn Fn(&Vec3) -> bool + Sync)| {
-            let number = self.positions.iter().position(on_side)?;
-            u32::try_from(number).ok()
+    /// Whether a triangle has a corner on each side of a box around all positions, which is that of the
+    /// boxes around pieces.
+    fn reaches_sides(&self, all: (Vec3, Vec3), boxes: &[(Vec3, Vec3)]) -> bool {
+        let on_side = |side: usize| {
+            let of = |(min, max): &(Vec3, Vec3)| if side < 3 { min[side] } else { max[side - 3] };
+            let start = boxes.iter().position(|piece| of(piece) == of(&all))? * PIECE;
+            let mut rest = self.positions.get(start..)?.iter();
+            let number = rest.position(|p| p[side % 3] == of(&all))?;
+            u32::try_from(start + number).ok()
         };
-        let sides = [
-            first(&|p| p.x == min.x),
-            first(&|p| p.y == min.y),
-            first(&|p| p.z == min.z),
-            first(&|p| p.x == max.x),
-            first(&|p| p.y == max.y),
-            first(&|p| p.z == max.z),
-        ];
         let corners = self.indices.as_flattened();
-        sides.into_iter().all(|side| side.is_some_and(|number| is_among(number, corners)))
+        (0..6).all(|side| on_side(side).is_some_and(|number| is_among(number, corners)))
     }
 
     /// The box of all corners.
@@ -131,7 +128,8 @@ impl Mesh {
 /// Whether `number` is one of `all`.
 fn is_among(number: u32, all: &[u32]) -> bool {
     // Pieces without a branch for each.
-    all.chunks(PIECE).any(|piece| piece.iter().fold(false, |any, &n| any | (n == number)))
+    let is_in = |piece: &[u32]| piece.iter().fold(false, |any, &n| any | (n == number));
+    all.par_chunks(PIECE).any(is_in)
 }
 
 impl Points {
