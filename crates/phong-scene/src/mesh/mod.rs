@@ -6,6 +6,7 @@
 mod blocks;
 mod closed;
 mod cylinders;
+mod few;
 mod fields;
 mod groups;
 mod part;
@@ -17,6 +18,7 @@ mod tidy;
 mod weld;
 
 pub use cylinders::{Caps, Cylinders};
+pub(crate) use few::Few;
 pub use fields::Field;
 pub(crate) use groups::FLAT;
 pub(crate) use polygon::cut_polygons;

@@ -1,11 +1,12 @@
 //! Binary files: facets of 50 bytes, read block by block in parallel.
 //!
 //! Each block puts its own corners together while they lie in the cache; what is left of them, about
-//! a sixth, is put together over the whole file, in the order of the blocks. So vertices are numbered
-//! in the order of first use, whatever the number of threads.
+//! a sixth to a quarter, is put together over the whole file, in the order of the blocks. So vertices are
+//! numbered in the order of first use, whatever the number of threads.
 
 use std::io;
-use std::sync::Arc;
+use std::ops::Range;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use glam::Vec3;
 use rayon::prelude::*;
@@ -14,11 +15,11 @@ use super::{Counts, FACET, Facets, HEAD, are_held, blame, is_contrary, number_at
 use crate::format::text::{Findings, whole};
 use crate::format::triangles::has_room;
 use crate::limits::Limits;
-use crate::mesh::{Hash, Weld};
+use crate::mesh::{Few, Hash, Weld};
 use crate::source::Blob;
 
 /// Facets of a block.
-const BLOCK: u64 = 1 << 13;
+const BLOCK: u64 = 1 << 14;
 
 /// Whether the number of facets that a binary file would have fits the length.
 pub(super) fn fits(blob: &dyn Blob) -> io::Result<bool> {
@@ -94,53 +95,81 @@ pub(super) fn read(
     }
 
     // Closed meshes have half as many vertices as triangles; more room is made where there are more.
-    let mut all = Facets::default();
     let hash = Hash::new();
     let mut weld = Weld::with_room((count / 2) as usize, hash);
-    all.indices.reserve_exact(count as usize);
-    let wave = (2 * rayon::current_num_threads() as u64).clamp(4, 64);
+    let mut indices = vec![[0; 3]; count as usize];
+    let mut counts = Counts::default();
+    let size = (2 * rayon::current_num_threads() as u64).clamp(4, 64);
     let blocks = count.div_ceil(BLOCK);
-    let mut numbers = Vec::new();
-    let mut parsed: Vec<Block> = Vec::new();
-    let mut first = 0;
+    let tools = Mutex::new(Vec::new());
+    let (mut first, mut filled) = (0, 0);
+    // One wave is read, that before it numbered, and that before that one written, all at once.
+    let (mut read, mut numbered): (Vec<Block>, Vec<Block>) = Default::default();
+    let mut spare: Vec<Block> = Vec::new();
     loop {
-        let (room, next) = rayon::join(
-            || {
-                parsed.drain(..).all(|block| {
-                    let bytes = 12 * count + weld.bytes();
-                    let vertices = weld.positions().len() as u64;
-                    findings.append(block.findings);
-                    all.counts.add(block.counts);
-                    numbers.clear();
-                    numbers.extend(block.positions.iter().map(|p| weld.number(*p)));
-                    let number = |i: u32| numbers[i as usize];
-                    all.indices.extend(block.indices.iter().map(|t| t.map(number)));
-                    has_room(count, vertices, bytes, limits, file, findings)
-                })
-            },
-            || {
-                let wave = first..(first + wave).min(blocks);
-                let read = |buffer: &mut Vec<u8>, block: u64| {
-                    let facets = block * BLOCK..((block + 1) * BLOCK).min(count);
-                    buffer.resize((facets.end - facets.start) as usize * FACET, 0);
-                    let at = HEAD + facets.start * FACET as u64;
-                    if blob.read_full(buffer, at)? < buffer.len() {
-                        let message = "it became shorter meanwhile";
-                        return Err(io::Error::new(io::ErrorKind::UnexpectedEof, message));
-                    }
-                    Ok(Block::parse(buffer, facets.start, hash, file))
-                };
-                wave.into_par_iter().map_init(Vec::new, read).collect::<io::Result<Vec<Block>>>()
-            },
-        );
-        parsed = next?;
-        first += wave;
-        if !room || parsed.is_empty() {
+        let wave = (blocks - first).min(size) as usize;
+        spare.resize_with(wave, Block::default);
+        let mut places = Vec::with_capacity(numbered.len());
+        let mut rest = &mut indices[filled..];
+        for block in &numbered {
+            filled += block.indices.len();
+            let (place, behind) = std::mem::take(&mut rest).split_at_mut(block.indices.len());
+            places.push(place);
+            rest = behind;
+        }
+        let read_block = |(i, block): (usize, &mut Block)| {
+            let mut own = held(&tools).pop().unwrap_or_else(|| Tools::new(hash));
+            let start = (first + i as u64) * BLOCK;
+            let facets = start..(start + BLOCK).min(count);
+            let result = block.read(blob, facets, &mut own, file);
+            held(&tools).push(own);
+            result
+        };
+        let number_blocks = || {
+            read.iter_mut().all(|block| {
+                weld.number_all(&block.positions, &mut block.numbers);
+                findings.append(std::mem::take(&mut block.findings));
+                counts.add(block.counts);
+                let (vertices, bytes) = (weld.positions().len() as u64, 12 * count + weld.bytes());
+                has_room(count, vertices, bytes, limits, file, findings)
+            })
+        };
+        let (room, (result, ())) = rayon::join(number_blocks, || {
+            rayon::join(
+                || spare.par_iter_mut().enumerate().map(read_block).collect::<io::Result<()>>(),
+                || numbered.par_iter().zip(places).for_each(|(block, place)| block.write(place)),
+            )
+        });
+        result?;
+        if !room {
+            break;
+        }
+        (read, numbered, spare) = (spare, read, numbered);
+        first += wave as u64;
+        if read.is_empty() && numbered.is_empty() {
             break;
         }
     }
-    all.positions = weld.into_positions();
-    Ok(all)
+    indices.truncate(filled);
+    Ok(Facets { positions: weld.into_positions(), indices, counts, ..Facets::default() })
+}
+
+/// What a thread needs to read a block, kept from block to block.
+#[derive(Debug)]
+struct Tools {
+    bytes: Vec<u8>,
+    few: Few,
+}
+
+impl Tools {
+    fn new(hash: Hash) -> Self {
+        let few = Few::with_room(BLOCK as usize, 3 * BLOCK as usize, hash);
+        Self { bytes: Vec::new(), few }
+    }
+}
+
+fn held<T>(tools: &Mutex<T>) -> MutexGuard<'_, T> {
+    tools.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Some facets with their own vertices.
@@ -148,26 +177,48 @@ pub(super) fn read(
 struct Block {
     positions: Vec<Vec3>,
     indices: Vec<[u32; 3]>,
+    /// The numbers that the positions have in the file.
+    numbers: Vec<u32>,
     counts: Counts,
     findings: Findings,
 }
 
 impl Block {
+    /// Reads facets of these numbers.
+    fn read(
+        &mut self,
+        blob: &dyn Blob,
+        facets: Range<u64>,
+        tools: &mut Tools,
+        file: &Arc<str>,
+    ) -> io::Result<()> {
+        let Tools { bytes, few } = tools;
+        bytes.resize((facets.end - facets.start) as usize * FACET, 0);
+        if blob.read_full(bytes, HEAD + facets.start * FACET as u64)? < bytes.len() {
+            let message = "it became shorter meanwhile";
+            return Err(io::Error::new(io::ErrorKind::UnexpectedEof, message));
+        }
+        self.parse(bytes, facets.start, few, file);
+        self.positions = few.take(std::mem::take(&mut self.positions));
+        Ok(())
+    }
+
     /// Parses whole facets, the first of which has this number.
-    fn parse(bytes: &[u8], first: u64, hash: Hash, file: &Arc<str>) -> Self {
+    fn parse(&mut self, bytes: &[u8], first: u64, few: &mut Few, file: &Arc<str>) {
         let (facets, _) = bytes.as_chunks::<FACET>();
-        let mut block = Self::default();
-        block.indices.reserve_exact(facets.len());
-        let mut weld = Weld::with_room(facets.len(), hash);
+        self.counts = Counts::default();
+        self.indices.clear();
+        self.indices.reserve_exact(facets.len());
+        let (mut before, mut numbered) = ([Vec3::NAN; 3], [0; 3]);
         for (number, facet) in facets.iter().enumerate() {
             let (numbers, _) = facet.as_chunks::<4>();
             let number_at = |i: usize| f32::from_le_bytes(numbers[i]);
             let vector = |i: usize| Vec3::new(number_at(i), number_at(i + 1), number_at(i + 2));
             let (normal, corners) = (vector(0), [vector(3), vector(6), vector(9)]);
-            block.counts.facets += 1;
-            block.counts.attributes += u64::from(facet[48..] != [0, 0]);
+            self.counts.facets += 1;
+            self.counts.attributes += u64::from(facet[48..] != [0, 0]);
             if !are_held(&corners) {
-                block.findings.warning(
+                self.findings.warning(
                     "facets that are left out",
                     || whole(file),
                     || {
@@ -179,10 +230,21 @@ impl Block {
                 );
                 continue;
             }
-            block.counts.contrary += u64::from(is_contrary(normal, corners));
-            block.indices.push(corners.map(|p| weld.number(p)));
+            self.counts.contrary += u64::from(is_contrary(normal, corners));
+            // Neighbours in the file are mostly neighbours in space.
+            let number = |p: Vec3| match before.iter().position(|known| *known == p) {
+                Some(known) => numbered[known],
+                None => few.number(p),
+            };
+            (before, numbered) = (corners, corners.map(number));
+            self.indices.push(numbered);
         }
-        block.positions = weld.into_positions();
-        block
+    }
+
+    /// Writes the triangles by the numbers that their corners have in the file.
+    fn write(&self, to: &mut [[u32; 3]]) {
+        for (to, triangle) in to.iter_mut().zip(&self.indices) {
+            *to = triangle.map(|i| self.numbers[i as usize]);
+        }
     }
 }
