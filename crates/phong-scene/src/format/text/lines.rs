@@ -12,6 +12,7 @@ use rayon::prelude::*;
 
 use super::number::{BadNumber, Decimal, blame};
 use super::report::span;
+use super::rows::{count_lines, count_rows};
 use crate::diagnostic::Span;
 use crate::source::Blob;
 
@@ -179,29 +180,6 @@ impl Lines<'_> {
     }
 }
 
-fn count_lines(text: &[u8]) -> u64 {
-    // Sums of bytes that cannot overflow one: the compiler counts many at a time.
-    let sum = |part: &[u8]| part.iter().map(|b| u8::from(*b == b'\n')).sum::<u8>();
-    text.chunks(255).map(|part| u64::from(sum(part))).sum()
-}
-
-/// How many lines there are, and how many with anything on them, or anything but a comment.
-fn count_rows(text: &[u8], comments: bool) -> (u64, u64) {
-    let (mut lines, mut rows) = (0, 0);
-    let (mut something, mut comment) = (false, false);
-    for &byte in text {
-        if byte == b'\n' {
-            lines += 1;
-            rows += u64::from(something && !comment);
-            (something, comment) = (false, false);
-        } else if byte > b' ' {
-            comment |= comments && byte == b'#' && !something;
-            something = true;
-        }
-    }
-    (lines, rows + u64::from(something && !comment))
-}
-
 /// Walks over the lines of a piece.
 #[derive(Clone, Debug)]
 pub(crate) struct Cursor<'a> {
@@ -302,7 +280,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// The number that stands here, if it ends where a number may end. Else it stays.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn decimal(&mut self) -> Option<Decimal<'a>> {
         let decimal = Decimal::scan(self.rest())?;
         let end = self.at + decimal.len();
@@ -362,8 +340,31 @@ impl<'a> Cursor<'a> {
         self.span(file, self.at, self.at + self.word_length().max(1))
     }
 
+    /// Goes over this word, in capitals or not, if it stands here; whether it does.
+    #[inline]
+    pub(crate) fn take(&mut self, word: &[u8]) -> bool {
+        let end = self.at + word.len();
+        let there = self.text.get(self.at..end);
+        let taken =
+            there.is_some_and(|there| there.eq_ignore_ascii_case(word)) && self.ends_word(end);
+        if taken {
+            self.at = end;
+        }
+        taken
+    }
+
+    #[inline]
     fn word_length(&self) -> usize {
-        (self.at..self.text.len()).take_while(|at| !self.ends_word(*at)).count()
+        let may_end = |byte: &u8| *byte <= b' ' || matches!(byte, b'#' | b'\\');
+        let mut end = self.at;
+        while let Some(next) = self.text.get(end..).and_then(|rest| rest.iter().position(may_end)) {
+            end += next;
+            if self.ends_word(end) {
+                return end - self.at;
+            }
+            end += 1;
+        }
+        self.text.len().saturating_sub(self.at)
     }
 
     /// Whether a word ends before `at`: at a blank, a comment, or a backslash that joins lines.

@@ -4,6 +4,7 @@ mod encoding;
 mod lines;
 mod number;
 mod report;
+mod rows;
 mod words;
 
 pub(crate) use encoding::{as_text, decode, head_of, name_of, open_text, read_text};

@@ -100,7 +100,7 @@ impl<'a> Words<'a> {
     #[inline]
     pub(crate) fn key(&mut self, key: &str) -> Parsed<()> {
         let before = self.cursor.clone();
-        if self.word().eq_ignore_ascii_case(key.as_bytes()) {
+        if self.is_there() && self.cursor.take(key.as_bytes()) {
             return Ok(());
         }
         self.cursor = before;
