@@ -9,6 +9,9 @@ use super::sky::{Gradient, Haze};
 use super::texture::{Key, Texture};
 use crate::format::text::{Parsed, Words};
 
+/// How many names are looked through one by one: neighbours are mostly of a few textures.
+const FEW: usize = 8;
+
 /// A statement of which there are few.
 #[derive(Debug)]
 pub(super) enum Statement {
@@ -124,7 +127,10 @@ pub(super) struct Things {
     count: u32,
     names: HashMap<Vec<u8>, u32>,
     own: HashMap<(Key, [u32; 3]), u32>,
-    last: Option<(Vec<u8>, u32)>,
+    /// The last few of the names that were looked up, which are found sooner than among all.
+    few: Vec<(Vec<u8>, u32)>,
+    /// Which of them was looked up first.
+    oldest: usize,
 }
 
 /// A triangle.
@@ -150,8 +156,7 @@ impl Things {
 
     /// The number of the texture of this name, which stands on this line.
     pub(super) fn named(&mut self, word: &[u8], line: u64) -> u32 {
-        // Neighbours are mostly of one texture.
-        if let Some((_, number)) = self.last.as_ref().filter(|(name, _)| name == word) {
+        if let Some((_, number)) = self.few.iter().find(|(name, _)| name == word) {
             return *number;
         }
         let number = if let Some(number) = self.names.get(word) {
@@ -161,7 +166,15 @@ impl Things {
             self.names.insert(word.to_vec(), number);
             number
         };
-        self.last = Some((word.to_vec(), number));
+        if self.few.len() < FEW {
+            self.few.push((word.to_vec(), number));
+        } else {
+            let (name, of) = &mut self.few[self.oldest % FEW];
+            name.clear();
+            name.extend_from_slice(word);
+            *of = number;
+            self.oldest += 1;
+        }
         number
     }
 
@@ -185,12 +198,12 @@ impl Things {
     pub(super) fn begin_group(&mut self) {
         self.names.clear();
         self.own.clear();
-        self.last = None;
+        self.few.clear();
     }
 
     /// Whatever stands behind this word may mean another texture from now on.
     pub(super) fn define(&mut self, name: &[u8]) {
         self.names.remove(name);
-        self.last = None;
+        self.few.clear();
     }
 }
