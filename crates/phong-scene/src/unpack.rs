@@ -51,6 +51,10 @@ impl Source for Unpacked<'_> {
             };
             io::Error::new(error.kind(), message)
         })?;
+        if is_archive(&bytes) {
+            let message = "it is packed, and what it holds is an archive of several files: unpack it (tar xzf)";
+            return Err(io::Error::new(io::ErrorKind::InvalidData, message));
+        }
         Memory::new().with(path, bytes).open(path)
     }
 }
@@ -71,6 +75,11 @@ pub(crate) fn head_of(source: &dyn Source, path: &str, most: usize) -> io::Resul
         packed.take(most as u64).read_to_end(&mut head)?;
     }
     Ok(head)
+}
+
+/// Whether these are the bytes of a tar archive, as far as its first block says.
+fn is_archive(bytes: &[u8]) -> bool {
+    bytes.get(257..262) == Some(b"ustar")
 }
 
 /// A blob, read from its beginning on.
@@ -124,5 +133,15 @@ mod tests {
         assert!(error.contains("more than 1000 bytes"), "{error}");
         let error = open(zeros[..zeros.len() / 2].to_vec(), 1 << 30).expect_err("cut");
         assert!(error.to_string().contains("cannot be unpacked"), "{error}");
+    }
+
+    #[test]
+    fn an_archive_of_several_files_is_refused_with_a_way_out() {
+        let mut block = [0; 1024];
+        block[..5].copy_from_slice(b"1.pdb");
+        block[257..262].copy_from_slice(b"ustar");
+        let error = open(packed(&block), 1 << 20).expect_err("an archive").to_string();
+        assert!(error.contains("an archive of several files: unpack it"), "{error}");
+        assert_eq!(open(block.to_vec(), 1 << 20).expect("not packed").len(), 1024);
     }
 }
