@@ -2,8 +2,8 @@
 
 use glam::{DAffine3, DVec3, Vec3};
 use phong_scene::{
-    Caps, Cylinders, Export, ExportOptions, Format, Limits, Memory, Object, PlyEncoding, Reading,
-    Rgb, Scene, Shape, read,
+    Caps, Cylinders, Export, ExportOptions, Field, Format, Limits, Memory, Mesh, Object,
+    PlyEncoding, Reading, Rgb, Scene, Shape, read,
 };
 
 const HEAD: &str = "version = 1\n[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\n\
@@ -52,6 +52,25 @@ fn what_obj_cannot_hold_is_told_by_name_and_place() {
         assert!(told.contains(wanted), "{told}");
     }
     assert_eq!(export.account.carried["triangle"], 1);
+}
+
+#[test]
+fn numbers_that_maps_show_are_told_where_a_format_holds_none() {
+    let field = Field { name: "heat".into(), values: [1.0, 2.0, 3.0].into() };
+    let mesh = Mesh {
+        positions: [Vec3::ZERO, Vec3::X, Vec3::Y].into(),
+        indices: [[0, 1, 2]].into(),
+        fields: vec![field],
+        ..Mesh::default()
+    };
+    let objects = vec![Object { name: "plate".to_owned(), ..Object::from(Shape::from(mesh)) }];
+    for format in [Format::Obj, Format::Stl, Format::Gltf, Format::Tachyon] {
+        let scene = Scene { objects: objects.clone(), ..Scene::default() };
+        let options = ExportOptions { format, ..Default::default() };
+        let told = told(&scene.export(&options, "b").expect("something to write"));
+        let wanted = "the numbers of points that maps show are not written: those of plate";
+        assert!(told.contains(wanted), "{format}: {told}");
+    }
 }
 
 #[test]

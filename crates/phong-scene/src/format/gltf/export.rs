@@ -10,7 +10,7 @@ use super::surface::{base_color, surface};
 use crate::camera::CameraKind;
 use crate::color::Rgb;
 use crate::diagnostic::Diagnostic;
-use crate::format::export::flat::{leave_out, listed};
+use crate::format::export::flat::{leave_out, listed, say_fields};
 use crate::format::export::merge::Size;
 use crate::format::export::{Account, File, Writing};
 use crate::light::{Light, LightKind};
@@ -35,6 +35,7 @@ pub(crate) fn write_gltf(
         )
     };
     leave_out(&scene, &quiet, "triangles, points and lines", held, account);
+    say_fields(&scene, account);
     if !options.bare {
         let mut lost = Vec::new();
         if scene.image != Image::default() {
