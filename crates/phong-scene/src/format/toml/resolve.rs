@@ -70,7 +70,7 @@ impl Reader<'_> {
             notes.judge(|_| spot, |faults| legend_texture(legend, &textures, faults));
         }
         let sound = !notes.has_errors();
-        let scene = self.camera.filter(|_| sound).map(|camera| Scene {
+        let mut scene = self.camera.filter(|_| sound).map(|camera| Scene {
             image: self.image,
             camera,
             ambient: self.ambient,
@@ -87,7 +87,6 @@ impl Reader<'_> {
             objects,
             groups,
         });
-        let mut scene = scene;
         if let Some(scene) = &mut scene {
             let default = default_needed.then_some(default);
             let used: BTreeSet<_> = resolver.named.into_iter().flatten().chain(default).collect();
