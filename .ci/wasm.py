@@ -22,6 +22,8 @@ from pathlib import Path
 
 from playwright.sync_api import sync_playwright
 
+import studio_walks
+
 PHONG, FOLDER = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 CHROMIUM = "/usr/bin/chromium"
 ROOT = Path(__file__).resolve().parent.parent
@@ -33,6 +35,22 @@ POLICY = (
     "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' blob: data:; "
     "connect-src 'self'; worker-src 'self'; base-uri 'self'; form-action 'none'; frame-ancestors 'none'"
 )
+
+# A molecule of three frames, from an eye that stays where it is.
+TRAJECTORY = """version = 1
+[image]
+size = [320, 180]
+samples = 4
+[camera]
+eye = [0, 2.2, 8]
+look_at = [0, 0.9, 0]
+fov = 30
+[[light]]
+kind = "point"
+position = [-4, 6, 5]
+[[molecule]]
+file = "run.xyz"
+"""
 
 # Draws a scene with the page's own engine, and hands over the files and a pixel explained.
 DRAW = """async ([path, size, samples]) => {
@@ -253,6 +271,42 @@ def walk(browser, address, faults):
     return sorted(firsts)[1]
 
 
+def drawn(png):
+    """What a PNG holds but for its texts: of a film's frame the program also tells which picture it is."""
+    data, parts = png.read_bytes(), []
+    at = 8
+    while at < len(data):
+        end = at + 12 + int.from_bytes(data[at : at + 4], "big")
+        parts += [data[at:end]] if data[at + 4 : at + 8] != b"tEXt" else []
+        at = end
+    return parts
+
+
+def frames(browser, address, faults):
+    """Every worker shows the frame of a trajectory that the slider is at, and the picture is the program's."""
+    context, page = open_page(browser, f"{address}?workers=2", faults, service_workers="block")
+    wait(page, "studio.look && studio.done === studio.look.picture")
+    assert page.text_content("#frame-shown") == "0 (0 to 2)"
+    first = page.evaluate("document.getElementById('canvas').toDataURL()")
+    before = page.evaluate("studio.look.picture")
+    page.focus("#frame-number")
+    page.keyboard.press("End")
+    wait(page, f"studio.look.picture > {before} && studio.done === studio.look.picture")
+    assert page.text_content("#frame-shown") == "2 (0 to 2)"
+    assert page.evaluate("document.getElementById('canvas').toDataURL()") != first
+    with page.expect_download() as download:
+        page.click("#png")
+    download.value.save_as(FOLDER / "frame.png")
+    subprocess.run([PHONG, "render", FOLDER / "run.toml", "--frames", "2", "-o", FOLDER / "same.png", "--quiet"], check=True)
+    assert drawn(FOLDER / "frame.png") == drawn(FOLDER / "same.png"), "not the program's frame"
+    before = page.evaluate("studio.look.picture")
+    page.focus("#frame-number")
+    page.keyboard.press("Home")
+    wait(page, f"studio.look.picture > {before} && studio.done === studio.look.picture")
+    assert page.evaluate("document.getElementById('canvas').toDataURL()") == first
+    context.close()
+
+
 def too_large(browser, address, faults):
     """A file that is too large for a browser: that is told, and nothing of it is asked for."""
     context, page = open_page(browser, address, faults, service_workers="block")
@@ -291,6 +345,9 @@ def main():
     site = FOLDER / "web/a folder/studio"
     subprocess.run([PHONG, "studio", ROOT / "scenes", "--static", site], check=True)
     subprocess.run([PHONG, "studio", ROOT / "scenes/two-balls.toml", "--static", FOLDER / "web/two/balls"], check=True)
+    (FOLDER / "run.xyz").write_text(studio_walks.RUN)
+    (FOLDER / "run.toml").write_text(TRAJECTORY)
+    subprocess.run([PHONG, "studio", FOLDER / "run.toml", "--static", FOLDER / "web/run"], check=True)
     table, expected = {}, native()
     for kind in KINDS:
         got, seconds = in_node(kind)
@@ -306,6 +363,7 @@ def main():
         print(f"two balls at 960 × 540: {turns:.0f} turns a second, each with its first pass")
         first = walk(browser, f"{root}/two/balls/", faults)
         print(f"from the address to the first picture: median of 3 {first:.0f} ms")
+        frames(browser, f"{root}/run/", faults)
         too_large(browser, f"{root}/two/balls/", faults)
         browser.close()
     server.shutdown()
