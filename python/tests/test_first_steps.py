@@ -52,6 +52,25 @@ def test_text_and_code_give_the_same_bits() -> None:
     assert np.array_equal(text, code)
 
 
+def test_a_frame_of_a_trajectory_is_read(tmp_path: Path) -> None:
+    run = "".join(f"2\n\nC 0 0 0\nO {1 + number} 0 0\n" for number in range(3))
+    (tmp_path / "run.xyz").write_text(run)
+    (tmp_path / "second.xyz").write_text("2\n\nC 0 0 0\nO 2 0 0\n")
+    text = TEXT.split("[[sphere]]", maxsplit=1)[0] + '[[molecule]]\nfile = "run.xyz"\n'
+    (tmp_path / "a.toml").write_text(text)
+    drawn = phong.render(phong.Scene.read(tmp_path / "a.toml", frame=1), **SMALL)
+    parsed = phong.Scene.parse(text, tmp_path, frame=1)
+    alone = phong.Scene.parse(text.replace("run", "second"), tmp_path)
+    assert np.array_equal(drawn, phong.render(parsed, **SMALL))
+    assert np.array_equal(drawn, phong.render(alone, **SMALL))
+    first = phong.Scene.read(tmp_path / "a.toml", frame=0)
+    assert not np.array_equal(drawn, phong.render(first, **SMALL))
+    with pytest.raises(phong.SceneError, match="there is no frame 3"):
+        phong.Scene.read(tmp_path / "a.toml", frame=3)
+    with pytest.raises(phong.SceneError, match="no file that is read has several frames"):
+        phong.Scene.parse(TEXT, frame=1)
+
+
 def test_a_cloud_of_arrays_is_drawn() -> None:
     rng = np.random.default_rng(1)
     scene = phong.Scene()

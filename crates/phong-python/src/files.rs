@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use phong_lab::measure::memory::total;
-use phong_scene::{Folder, Format, Memory, Source};
+use phong_scene::{Folder, Format, FrameRange, Frames, Limits, Memory, Reading, Source, read};
 use pyo3::prelude::*;
 
 use crate::errors::{kind_of, type_error, value_error};
@@ -27,6 +27,26 @@ pub(crate) fn format_of(name: &str) -> PyResult<Format> {
 pub(crate) fn memory() -> u64 {
     static TOTAL: LazyLock<u64> = LazyLock::new(|| total().unwrap_or(u64::MAX));
     *TOTAL
+}
+
+/// Reads what is at a path, with the frame of this number of its trajectories.
+pub(crate) fn read_frame(
+    number: u64,
+    path: &str,
+    format: Option<Format>,
+    source: &dyn Source,
+    limits: &Limits,
+) -> Reading {
+    if number == 0 {
+        return read(path, format, source, limits);
+    }
+    let range = FrameRange { start: number, end: number.checked_add(1), step: 1 };
+    let frames = Frames::new(source, limits, range);
+    let mut reading = frames.read(number, path, format, &[]);
+    if let (Some(_), Err(none)) = (&reading.scene, frames.numbers()) {
+        (reading.scene, reading.diagnostics) = (None, vec![*none]);
+    }
+    reading
 }
 
 /// What a text that has no file is called.

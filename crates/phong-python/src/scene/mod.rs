@@ -8,14 +8,14 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use glam::{DAffine3, DVec3};
 use phong_scene::{
     ExportOptions, Folder, Format, Framing, Limits, MaterialId, NamedLook, Object, Points, Reading,
-    Scene as SceneText, Shape, closest, read,
+    Scene as SceneText, Shape, closest,
 };
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyList, PyTuple, PyType};
 
 use crate::arrays::{neither, transforms};
 use crate::errors::{diagnostics, os_error, scene_error, value_error};
-use crate::files::{Beside, TEXT, format_of, memory, path_of};
+use crate::files::{Beside, TEXT, format_of, memory, path_of, read_frame};
 use crate::keys::{Said, Text};
 use crate::look::{image_with, side};
 use crate::part::Part;
@@ -100,38 +100,43 @@ impl Scene {
     /// Reads a scene (`.toml`) or a bare model (`.obj`, `.ply`, each also `.gz`).
     ///
     /// A bare model has an automatic camera and lights. `format`: what it is, where its name does not
-    /// say. `lenient`: what can be drawn of a damaged model is. Warnings are found in `check()`.
+    /// say. `lenient`: what can be drawn of a damaged model is. `frame`: which frame of its trajectories
+    /// is read, from 0. Warnings are found in `check()`.
     /// Raises `phong.SceneError` with all diagnostics, each with file, line and column.
     #[classmethod]
-    #[pyo3(signature = (path, format = None, lenient = false))]
+    #[pyo3(signature = (path, format = None, lenient = false, *, frame = 0))]
     fn read(
         class: &Bound<'_, PyType>,
         path: &Bound<'_, PyAny>,
         format: Option<&str>,
         lenient: bool,
+        frame: u64,
     ) -> PyResult<Py<PyAny>> {
         let path = path_of(path)?;
         let format = format.map(format_of).transpose()?;
         let limits = Limits { lenient, bytes: memory(), ..Limits::default() };
-        let work = move |_: &_| read(&path, format, &Folder, &limits);
+        let work = move |_: &_| read_frame(frame, &path, format, &Folder, &limits);
         let reading = crate::work::quietly(class.py(), None, work)?;
         made(class, of_reading(class.py(), reading)?)
     }
 
     /// Reads the text of a scene; files that it names are looked for in `folder` (default: the current one).
+    /// `frame`: which frame of its trajectories is read, from 0.
     ///
     /// Raises `phong.SceneError` with all diagnostics.
     #[classmethod]
-    #[pyo3(signature = (text, folder = None))]
+    #[pyo3(signature = (text, folder = None, *, frame = 0))]
     fn parse(
         class: &Bound<'_, PyType>,
         text: String,
         folder: Option<&Bound<'_, PyAny>>,
+        frame: u64,
     ) -> PyResult<Py<PyAny>> {
         let folder = folder.map(path_of).transpose()?.unwrap_or_else(|| ".".to_owned());
         let work = move |_: &_| {
             let files = Beside { text, folder };
-            read(TEXT, Some(Format::Toml), &files, &Limits { bytes: memory(), ..Limits::default() })
+            let limits = Limits { bytes: memory(), ..Limits::default() };
+            read_frame(frame, TEXT, Some(Format::Toml), &files, &limits)
         };
         let reading = crate::work::quietly(class.py(), None, work)?;
         made(class, of_reading(class.py(), reading)?)

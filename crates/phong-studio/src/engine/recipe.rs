@@ -33,20 +33,25 @@ impl Opened {
     /// A program in Python that draws what is shown: from the file if it is the file that is shown,
     /// else from the text with what is laid over it written in.
     pub(super) fn python(&self) -> Result<String, String> {
-        if self.frame.number > 0 {
-            return Err("a program in Python reads the first frame alone".to_owned());
-        }
+        let frame = match (self.frame.number, &self.text) {
+            (0, _) => String::new(),
+            (number, Some(_)) => format!(", frame={number}"),
+            (_, None) => {
+                let why = "a program in Python sees no frame of a bare model as another frame is";
+                return Err(format!("{why}: copy the first"));
+            }
+        };
         // Text of JSON is text of Python.
         let read = match (&self.text, self.set.is_empty()) {
             (text, true) if *text == self.as_read => {
-                format!("phong.Scene.read({})", Value::from(self.path.as_str()))
+                format!("phong.Scene.read({}{frame})", Value::from(self.path.as_str()))
             }
             (None, _) => return Err("a bare model that was changed has no text to copy".to_owned()),
             (Some(text), _) => {
                 let text = written(text, &self.set)?
                     .replace('\\', "\\\\")
                     .replace("\"\"\"", "\\\"\\\"\\\"");
-                format!("phong.Scene.parse(\"\"\"\\\n{text}\"\"\")")
+                format!("phong.Scene.parse(\"\"\"\\\n{text}\"\"\"{frame})")
             }
         };
         let look = self.dressed.map(|look| format!("scene.look(\"{}\")\n", look.name()));

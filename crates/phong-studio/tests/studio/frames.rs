@@ -46,11 +46,16 @@ fn a_frame_of_a_scene_is_drawn_as_the_program_draws_it_and_what_is_laid_over_it_
     talk.draw();
     assert_eq!((told(&talk), seen(&talk.page)), ((json!(1), json!(3)), rendered(1)));
     assert_eq!(talk.page.last("look")["command"], "phong render a.toml --frames 1");
-    talk.ask(&json!({ "do": "export", "format": "python" }));
-    assert!(talk.page.last("error")["message"].as_str().unwrap().contains("first frame"));
+    let python = |talk: &mut Talk| {
+        talk.ask(&json!({ "do": "export", "format": "python" }));
+        String::from_utf8_lossy(&talk.page.file).into_owned()
+    };
+    assert!(python(&mut talk).contains("scene = phong.Scene.read(\"a.toml\", frame=1)\n"));
     let set = json!({ "molecule.1.scale": 0.5, "camera.fov": 20 });
     talk.ask(&json!({ "do": "look", "set": set }));
     talk.draw();
+    let program = python(&mut talk);
+    assert!(program.contains("scale = 0.5") && program.contains("\"\"\", frame=1)\n"), "{program}");
     let before = seen(&talk.page);
     talk.ask(&json!({ "do": "frame", "number": 2 }));
     talk.draw();
@@ -82,6 +87,8 @@ fn frames_of_a_bare_model_are_seen_as_the_first_one_is() {
     talk.ask(&json!({ "do": "frame", "number": 2 }));
     let look = talk.page.last("look");
     assert_eq!((&look["values"], &look["command"]), (&first["values"], &json!(null)));
+    talk.ask(&json!({ "do": "export", "format": "python" }));
+    assert!(talk.page.last("error")["message"].as_str().unwrap().contains("copy the first"));
     // So they are with a look on, and without it again.
     talk.ask(&json!({ "do": "put-on", "look": "clay" }));
     let clay = talk.page.last("look")["values"].clone();
