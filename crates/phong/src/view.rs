@@ -368,7 +368,7 @@ impl View {
     }
 
     /// The textures, ready to be looked up, in the order of the look's.
-    pub fn textures(&self) -> &[Texture] {
+    pub(crate) fn textures(&self) -> &[Texture] {
         &self.textures
     }
 
