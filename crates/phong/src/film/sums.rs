@@ -51,8 +51,8 @@ impl Sums8 {
         sums
     }
 
-    /// Adds samples to sums: one to each eight pixels, then the next to each, and so on. One that
-    /// brought nothing, outside a fisheye's image circle, still has its weight.
+    /// Adds samples to sums: of each eight pixels as many, one after the other. One that brought nothing, outside a
+    /// fisheye's image circle, still has its weight.
     pub(crate) fn add(bvh: &World, sums: &mut [Self], samples: &[Radiance8], weights: &[[f32; 8]]) {
         bvh.run(Add { sums, samples, weights });
     }
@@ -115,10 +115,11 @@ impl Kernel for Add<'_> {
     fn run<S: Simd>(self, simd: S) {
         let Self { sums, samples, weights } = self;
         let one = f32x8::splat(simd, 1.0);
-        let len = sums.len().max(1);
-        let (samples, weights) = (samples.chunks(len), weights.chunks(len));
-        for (samples, weights) in samples.zip(weights) {
-            for ((sums, sample), weight) in sums.iter_mut().zip(samples).zip(weights) {
+        // As many of each.
+        let len = samples.len().div_ceil(sums.len().max(1)).max(1);
+        let samples = samples.chunks(len).zip(weights.chunks(len));
+        for (sums, (samples, weights)) in sums.iter_mut().zip(samples) {
+            for (sample, weight) in samples.iter().zip(weights) {
                 add(simd, sums, sample, weight, one);
             }
         }

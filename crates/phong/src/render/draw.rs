@@ -51,7 +51,8 @@ pub(super) struct Samples {
 }
 
 impl Samples {
-    /// Draws one sample of each pixel after another, in the order of `indices`.
+    /// Draws the samples `indices` of the first eight pixels, then those of the next, and so on: rays that follow
+    /// one another are near one another, and are traced together.
     pub(super) fn draw(
         &mut self,
         integrator: &Integrator<'_>,
@@ -81,8 +82,8 @@ impl Samples {
         }
         self.bundle.clear();
         self.weights.clear();
-        for index in indices {
-            for pixels in pixels {
+        for pixels in pixels {
+            for index in indices.clone() {
                 let samplers = pixels.samplers.at(index);
                 let (mut rays, mut heights, mut weights) = (Rays8::NONE, [0.0; 8], [0.0; 8]);
                 for lane in 0..pixels.len as usize {
@@ -167,9 +168,9 @@ impl Kernel for ProjectiveRays<'_> {
         rays.resize(len, Rays8::NONE);
         weights.resize(len, [0.0; 8]);
         let mut eights = rays.iter_mut().zip(weights);
-        for index in indices {
-            for (pixels, (rays, weights)) in pixels.iter().zip(&mut eights) {
-                let [left, top] = [f64::from(pixels.first[0]), f64::from(pixels.first[1]) + 0.5];
+        for pixels in pixels {
+            let [left, top] = [f64::from(pixels.first[0]), f64::from(pixels.first[1]) + 0.5];
+            for (index, (rays, weights)) in indices.clone().zip(&mut eights) {
                 let [dx, dy, own] = match middle {
                     Some(middle) => middle,
                     None => filter.sample8(pixels.places.at([index; 8])),
@@ -249,7 +250,7 @@ mod tests {
                 let mut drawn = Samples::default();
                 drawn.draw(&integrator, &options, &filter, &pixels, 0..3);
                 for (i, rays) in drawn.bundle.rays.iter().enumerate() {
-                    let (index, pixels) = (i as u32 / 2, &pixels[i % 2]);
+                    let (index, pixels) = (i as u32 % 3, &pixels[i / 3]);
                     assert_eq!(rays.there, (1 << pixels.len) - 1);
                     for lane in lanes(rays.there) {
                         let sampler = drawn.bundle.samplers[i].get(lane);
