@@ -7,8 +7,8 @@ use fearless_simd::Simd;
 /// A set of vector instructions. Every level gives the same bits; they differ in speed alone.
 ///
 /// A level is offered where it can be tested. A development build has two of x86, [`Scalar`](Self::Scalar) and
-/// [`Avx2`](Self::Avx2): each takes the compiler a minute or more in the renderer. The release build has all, and
-/// the gate draws every scene at each.
+/// [`Avx2`](Self::Avx2), since every kernel is compiled once for each. The release build has all, and the gate draws
+/// every scene at each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
     /// No vector instructions beyond what the compiler makes of plain code. Not offered by a module of
