@@ -5,7 +5,7 @@ use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 use super::slabs::SLACK;
 use crate::{
     Aabb,
-    local::Rays8,
+    local::{Ray, Rays8},
     node8::{NODE, Row},
 };
 
@@ -109,6 +109,8 @@ impl Columns {
         self.packets = group.rays.len().min(PACKETS);
         let (packet, lane) = group.first();
         let first = &group.rays[packet];
+        let Ray { origin, dir, .. } = first.get(lane);
+        let (origin, dir) = (origin.to_array(), dir.to_array());
         let negative = |axis: usize| usize::from(first.dir[axis][lane].is_sign_negative());
         self.near = [negative(0), 2 + negative(1), 4 + negative(2)];
         // Minima, and maxima with their signs changed, so that one minimum finds both.
@@ -116,13 +118,8 @@ impl Columns {
         let (mut starts, mut ends, mut reciprocals) = ([most; 8], [most; 8], [most; 8]);
         for (packet, rays) in group.rays.iter().enumerate().take(PACKETS) {
             let own = mask32x8::from_bitmask(simd, group.lanes[packet].into());
-            let (origin, dir) = (&rays.origin, &rays.dir);
-            let x = own_or_first(simd, own, &origin[0], first.origin[0][lane]);
-            let y = own_or_first(simd, own, &origin[1], first.origin[1][lane]);
-            let z = own_or_first(simd, own, &origin[2], first.origin[2][lane]);
-            let dx = own_or_first(simd, own, &dir[0], first.dir[0][lane]);
-            let dy = own_or_first(simd, own, &dir[1], first.dir[1][lane]);
-            let dz = own_or_first(simd, own, &dir[2], first.dir[2][lane]);
+            let [x, y, z] = own_or_first3(simd, own, &rays.origin, origin);
+            let [dx, dy, dz] = own_or_first3(simd, own, &rays.dir, dir);
             let t_min = own_or_first(simd, own, &rays.t_min, first.t_min[lane]);
             let end = own_or_first(simd, own, &rays.t_max, first.t_max[lane]);
             t_min.store_array(&mut self.t_min[packet]);
@@ -202,6 +199,21 @@ pub(super) fn own_or_first<S: Simd>(
     first: f32,
 ) -> f32x8<S> {
     own.select(f32x8::load_array_ref(simd, lanes), f32x8::splat(simd, first))
+}
+
+/// [`own_or_first`] of three numbers of each ray.
+#[inline(always)]
+pub(super) fn own_or_first3<S: Simd>(
+    simd: S,
+    own: mask32x8<S>,
+    [x, y, z]: &[[f32; 8]; 3],
+    first: [f32; 3],
+) -> [f32x8<S>; 3] {
+    [
+        own_or_first(simd, own, x, first[0]),
+        own_or_first(simd, own, y, first[1]),
+        own_or_first(simd, own, z, first[2]),
+    ]
 }
 
 /// Transposes an 8 × 8 matrix by interleaving its halves three times.

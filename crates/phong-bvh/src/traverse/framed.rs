@@ -4,7 +4,7 @@ use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 
 use super::{
     World,
-    columns::{Column, Columns, Packets, ZERO, own_or_first},
+    columns::{Column, Columns, PACKETS, Packets, ZERO, own_or_first3},
     frustum::Frustum,
     leaves::Cylinders,
     query::Query,
@@ -67,17 +67,10 @@ impl Framed {
         self.axes = ray_frame::axes(first.dir.to_array());
         let far = columns.bounds.start;
         self.far = far.lo.abs().max(far.hi.abs()).element_sum();
-        for (packet, rays) in group.rays.iter().enumerate().take(self.across[0].len()) {
+        for (packet, rays) in group.rays.iter().enumerate().take(PACKETS) {
             let own = mask32x8::from_bitmask(simd, group.lanes[packet].into());
-            let take = |lanes: &[[f32; 8]; 3], first: [f32; 3]| {
-                [
-                    own_or_first(simd, own, &lanes[0], first[0]),
-                    own_or_first(simd, own, &lanes[1], first[1]),
-                    own_or_first(simd, own, &lanes[2], first[2]),
-                ]
-            };
-            let origin = take(&rays.origin, first.origin.to_array());
-            let dir = take(&rays.dir, first.dir.to_array());
+            let origin = own_or_first3(simd, own, &rays.origin, first.origin.to_array());
+            let dir = own_or_first3(simd, own, &rays.dir, first.dir.to_array());
             // The question of `axes` for eight rays.
             let [x, y, z] = [dir[0].abs(), dir[1].abs(), dir[2].abs()];
             let is_y = y.simd_lt(x);
