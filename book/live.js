@@ -22,7 +22,10 @@
     picture: "A live picture. Arrow keys turn it, plus and minus bring it nearer; click a point to ask for its numbers.",
     yes: (said) => `Yes: ${said}.`,
     no: (said) => `Not yet: ${said}.`,
-    value: (path, value, wanted) => `${path} is ${value}, and ${wanted} is asked for`,
+    value: (name, value, wanted) => `${name} is ${value}, and ${wanted} is asked for`,
+    of: (part, whole) => `${part} of ${whole}`,
+    colors: ["red", "green", "blue"],
+    sum: "the sum",
     nothing: "the ray through this pixel has no such number: click a point of the ball",
     width: (now, before) => `it is ${now} pixels wide at half its peak, and was ${before}`,
     facets: (count, error) => `with ${count} facets the error is ${error} of the peak`,
@@ -216,8 +219,7 @@
         const { told } = await stage.ask({ do: "explain", pixel: this.pixel });
         const value = read(told, path);
         if (typeof value !== "number") return [false, words.nothing];
-        const name = path.split(".").findLast((part) => !/^\d+$/.test(part)).replaceAll("_dot_", " · ");
-        return [Math.abs(value - wanted) <= tolerance, words.value(name, short(value), wanted)];
+        return [Math.abs(value - wanted) <= tolerance, words.value(named(path), short(value), wanted)];
       }
       const [term, ratio, tolerance] = [parts[0], Number(parts[1]), Number(parts[2])];
       const mine = this.set;
@@ -358,6 +360,14 @@
 
   // An empty plot.
   const plot = () => part("svg", { viewBox: "0 0 480 200", class: "live-plot", role: "img" });
+
+  // What the number is called that a path of an explanation leads to: `l · n`, `x of n`, `blue of the sum`.
+  function named(path) {
+    const [last, whole] = path.split(".").reverse();
+    if (!/^\d$/.test(last)) return last.replaceAll("_dot_", " · ");
+    if (whole.length === 1) return words.of("xyz"[last], whole);
+    return words.of(words.colors[last], whole === "linear" ? words.sum : whole);
+  }
 
   // What a path of an explanation leads to.
   function read(told, path) {
