@@ -381,3 +381,10 @@ fn a_remark_behind_the_atoms_of_a_lammps_file_is_no_style() {
     };
     assert_eq!(objects(&remark), objects(full));
 }
+
+#[test]
+fn a_lamp_of_a_large_ambient_colour_makes_no_bytes_of_the_others() {
+    // The Cornell box as it goes about: all numbers are whole, and one is 20.
+    let (white, told) = material("newmtl white\nKd 1 1 1\nnewmtl lamp\nKa 20 20 20\nKd 1 1 1\n");
+    assert_eq!((white.color, told.contains("bytes")), (Rgb::WHITE, false), "{told}");
+}

@@ -69,6 +69,12 @@ impl Draft {
         [self.ambient, self.diffuse, self.specular, self.filter].into_iter().flatten()
     }
 
+    /// Whether it scatters more light than falls on it. Other colours may be larger than 1: lamps have
+    /// an ambient colour of 20.
+    pub(super) fn is_brighter_than_white(&self) -> bool {
+        self.diffuse.is_some_and(|color| color.max_channel() > 1.0)
+    }
+
     /// Takes colours as counted up to 255.
     pub(super) fn divide_colors(&mut self) {
         for color in [&mut self.ambient, &mut self.diffuse, &mut self.specular, &mut self.filter] {

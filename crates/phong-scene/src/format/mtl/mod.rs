@@ -110,7 +110,8 @@ impl Library {
         for (number, draft) in drafts.iter().enumerate() {
             numbers.entry(draft.name.clone()).or_default().push(number);
         }
-        let bytes = are_bytes(drafts.iter().flat_map(Draft::colors));
+        let bytes = drafts.iter().any(Draft::is_brighter_than_white)
+            && are_bytes(drafts.iter().flat_map(Draft::colors));
         Some(Self { file, drafts, numbers, bytes, findings })
     }
 
