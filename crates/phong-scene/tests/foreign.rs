@@ -388,3 +388,43 @@ fn a_lamp_of_a_large_ambient_colour_makes_no_bytes_of_the_others() {
     let (white, told) = material("newmtl white\nKd 1 1 1\nnewmtl lamp\nKa 20 20 20\nKd 1 1 1\n");
     assert_eq!((white.color, told.contains("bytes")), (Rgb::WHITE, false), "{told}");
 }
+
+/// A triangle of three colours, red, green and blue, with these nodes, this list of roots and whatever
+/// else belongs into the file and into its primitive.
+fn gltf(nodes: &str, roots: &str, more: &str, of_primitive: &str) -> Reading {
+    let corners = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA/wAA/wD/AP8AAP//";
+    let file = format!(
+        r#"{{"asset": {{"version": "2.0"}}, "nodes": {nodes}, "scenes": [{{"nodes": {roots}}}],
+        "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0, "COLOR_0": 1}} {of_primitive}}}]}}],
+        "accessors": [{{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3}},
+            {{"bufferView": 1, "componentType": 5121, "type": "VEC4", "count": 3, "normalized": true}}],
+        "bufferViews": [{{"buffer": 0, "byteOffset": 0, "byteLength": 36}},
+            {{"buffer": 0, "byteOffset": 36, "byteLength": 12}}],
+        "buffers": [{{"byteLength": 48, "uri": "data:application/octet-stream;base64,{corners}"}}]
+        {more}}}"#
+    );
+    text("a.gltf", &file)
+}
+
+#[test]
+fn a_root_of_a_gltf_scene_may_have_a_parent() {
+    let nodes = r#"[{"children": [1], "translation": [5, 0, 0]}, {"mesh": 0}]"#;
+    for (roots, end, x) in [("[1]", "as if it had none", 0.0), ("[0, 1]", "below it, once", 5.0)] {
+        let reading = gltf(nodes, roots, "", "");
+        let said = told(&reading);
+        assert!(
+            said.contains(&format!(
+                "warning: /scenes/0/nodes/{}: node 1 has a parent; it is drawn {end}",
+                roots.len() / 4
+            )),
+            "{said}"
+        );
+        let scene = scene(reading);
+        assert_eq!((scene.objects.len(), scene.bounds().min.x), (1, x), "{roots}");
+    }
+    let round = r#"[{"children": [1]}, {"mesh": 0, "children": [0]}]"#;
+    assert!(
+        told(&gltf(round, "[1]", "", ""))
+            .contains("error: /scenes/0/nodes/0: node 1 is below itself")
+    );
+}

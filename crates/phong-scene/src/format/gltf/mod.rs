@@ -4,6 +4,7 @@
 //! |---|---|
 //! | nodes of the scene (of the first, of all, where none is named) | objects where their nodes stand; a mesh of several nodes is a group, placed by instances |
 //! | meshes without nodes at all | objects where they are |
+//! | a root of the scene that is another node's child | a warning; drawn as a root, or once, below the root that it belongs to |
 //! | primitives: triangles, strips, fans | meshes; without `NORMAL`, flat |
 //! | points; lines, strips and loops of them | spheres, as those of PLY files are; capsules of 0.2 % of their extent in radius |
 //! | `COLOR_0` | linear colours, times the material's; their alpha is not drawn |
@@ -201,7 +202,7 @@ fn assemble<'a>(
     let Input { path, source, limits, radius, .. } = *input;
     check_version(root)?;
     check_extensions(root, file, findings)?;
-    let nodes = nodes::drawn(root)?;
+    let nodes = nodes::drawn(root, (file, findings))?;
     let buffers = Buffers::read(root, path, binary, source, limits)?;
     let reader = Reader { root: root.clone(), buffers, file: Arc::clone(file), limits, radius };
     let images = Images::new(root.clone(), path, source, limits);
@@ -422,7 +423,9 @@ impl<'a> Scene<'a, '_> {
     fn pose(&self, skin: &At<'a>) -> Result<Pose> {
         let root = &self.reader.root;
         let at = root.item("skins", skin.index()?).map_err(|f| skin.fault(f.message))?;
-        let worlds: BTreeMap<usize, DAffine3> = nodes::drawn(root)?
+        // What there is to say of them has been said.
+        let said = &mut Findings::default();
+        let worlds: BTreeMap<usize, DAffine3> = nodes::drawn(root, (&self.reader.file, said))?
             .into_iter()
             .filter_map(|node| {
                 let number = node.at.pointer.rsplit('/').next()?.parse().ok()?;

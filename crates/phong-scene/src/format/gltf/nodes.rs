@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use glam::{DAffine3, DMat4, DQuat, DVec3};
 
@@ -9,6 +10,7 @@ use super::json::{At, Result};
 use crate::camera::{Camera, CameraKind};
 use crate::color::Rgb;
 use crate::diagnostic::Place;
+use crate::format::text::{Findings, whole};
 use crate::light::{Light, LightKind};
 use crate::limits::LARGEST;
 
@@ -23,18 +25,22 @@ pub(super) struct Node<'a> {
 }
 
 /// All nodes of the scene that is drawn, parents before their children; each with where it stands.
-/// A node of two parents, or below itself, is a fault.
-pub(super) fn drawn<'a>(root: &At<'a>) -> Result<Vec<Node<'a>>> {
+/// A node of two parents, or below itself, is a fault. A root that has a parent is told: it stands as
+/// if it had none, for exporters name the child of what they mean (the kits of `UniGLTF` 1.27 do).
+pub(super) fn drawn<'a>(
+    root: &At<'a>,
+    (file, findings): (&Arc<str>, &mut Findings),
+) -> Result<Vec<Node<'a>>> {
     let all = root.list("nodes")?;
     let mut children = vec![Vec::new(); all.len()];
-    let mut has_parent = vec![false; all.len()];
+    let mut parents = vec![None; all.len()];
     for (number, node) in all.iter().enumerate() {
         for child in node.list("children")? {
             let of = child.index()?;
-            match has_parent.get_mut(of) {
+            match parents.get_mut(of) {
                 None => return Err(child.fault(format!("there is no node {of}"))),
-                Some(true) => return Err(child.fault(format!("node {of} has another parent"))),
-                Some(has) => *has = true,
+                Some(Some(_)) => return Err(child.fault(format!("node {of} has another parent"))),
+                Some(parent) => *parent = Some(number),
             }
             children[number].push(of);
         }
@@ -47,18 +53,34 @@ pub(super) fn drawn<'a>(root: &At<'a>) -> Result<Vec<Node<'a>>> {
     };
     let mut open: Vec<(usize, DAffine3)> = Vec::new();
     if let Some(scene) = scene {
-        for node in scene.list("nodes")? {
+        let named = scene.list("nodes")?;
+        let numbers = named.iter().map(At::index).collect::<Result<BTreeSet<_>>>()?;
+        for node in named {
             let number = node.index()?;
-            match has_parent.get(number) {
-                None => return Err(node.fault(format!("there is no node {number}"))),
-                Some(true) => {
-                    return Err(node.fault(format!("node {number} has a parent: it is no root")));
-                }
-                Some(false) => open.push((number, DAffine3::IDENTITY)),
+            if number >= all.len() {
+                return Err(node.fault(format!("there is no node {number}")));
+            }
+            // As many steps as there are nodes lead out of every tree.
+            let above = std::iter::successors(parents[number], |parent| parents[*parent]);
+            let mut above = above.take(all.len() + 1).collect::<Vec<_>>();
+            if above.len() > all.len() {
+                return Err(node.fault(format!("node {number} is below itself")));
+            }
+            above.retain(|parent| numbers.contains(parent));
+            if parents[number].is_some() {
+                let end = if above.is_empty() { "as if it had none" } else { "below it, once" };
+                findings.warning(
+                    "roots that are none",
+                    || whole(file),
+                    || format!("{}: node {number} has a parent; it is drawn {end}", node.pointer),
+                );
+            }
+            if above.is_empty() {
+                open.push((number, DAffine3::IDENTITY));
             }
         }
     } else {
-        let roots = (0..all.len()).filter(|number| !has_parent[*number]);
+        let roots = (0..all.len()).filter(|number| parents[*number].is_none());
         open.extend(roots.map(|number| (number, DAffine3::IDENTITY)));
     }
     // The first is drawn first.
