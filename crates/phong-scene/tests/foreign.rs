@@ -428,3 +428,16 @@ fn a_root_of_a_gltf_scene_may_have_a_parent() {
             .contains("error: /scenes/0/nodes/0: node 1 is below itself")
     );
 }
+
+#[test]
+fn colours_of_vertices_are_seen_on_what_gltf_calls_metal() {
+    let colors = [Rgb::new(1.0, 0.0, 0.0), Rgb::new(0.0, 1.0, 0.0), Rgb::new(0.0, 0.0, 1.0)];
+    let nodes = r#"[{"mesh": 0}]"#;
+    // Without a material, and with one that does not say that it is no metal.
+    assert_eq!(mesh(gltf(nodes, "[0]", "", "")).colors[..], colors);
+    let reading = gltf(nodes, "[0]", r#", "materials": [{"name": "m"}]"#, r#", "material": 0"#);
+    assert_eq!(mesh(reading).colors[..], colors);
+    let half =
+        r#", "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.5, 0.5, 1]}}]"#;
+    assert_eq!(mesh(gltf(nodes, "[0]", half, r#", "material": 0"#)).colors[0].r, 0.5);
+}

@@ -34,8 +34,11 @@ pub(super) struct Surface {
 }
 
 /// The material that a primitive has which names none.
+///
+/// The format calls it metal, of which nothing but what is mirrored would be seen: colours of vertices
+/// are scattered as they are.
 pub(super) fn plain() -> Surface {
-    surface([1.0; 3], 1.0, 1.0, Rgb::grey(F0 as f32))
+    Surface { color: Rgb::WHITE, ..surface([1.0; 3], 1.0, 1.0, Rgb::grey(F0 as f32)) }
 }
 
 /// The weight of ambient light of what is metal to this share.
@@ -69,8 +72,10 @@ fn surface(base: [f64; 3], metallic: f64, roughness: f64, dielectric: Rgb) -> Su
 }
 
 /// Reads one material. What of it is not drawn is told.
+///
+/// One whose vertices are `colored` is no metal: metals mirror in one colour, and scatter nothing.
 pub(super) fn read(
-    at: &At<'_>,
+    (at, colored): (&At<'_>, bool),
     drawn: &mut Images<'_>,
     from: (&Buffers, &Arc<str>),
     findings: &mut Findings,
@@ -121,6 +126,9 @@ pub(super) fn read(
         maps.facets = None;
         lost = maps.base.is_none() && glossy.get("diffuseTexture").is_some();
         image(&glossy, "specularGlossinessTexture");
+    }
+    if colored && maps.base.is_none() {
+        metallic = 0.0;
     }
     let [r, g, b, alpha] = base.map(|c| if c < 0.0 { 0.0 } else { c });
     let white = lost && [r, g, b] == [1.0; 3];

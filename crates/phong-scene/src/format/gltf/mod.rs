@@ -7,7 +7,7 @@
 //! | a root of the scene that is another node's child | a warning; drawn as a root, or once, below the root that it belongs to |
 //! | primitives: triangles, strips, fans | meshes; without `NORMAL`, flat |
 //! | points; lines, strips and loops of them | spheres, as those of PLY files are; capsules of 0.2 % of their extent in radius |
-//! | `COLOR_0` | linear colours, times the material's; their alpha is not drawn |
+//! | `COLOR_0` | linear colours, times the material's, which is then no metal; their alpha is not drawn |
 //! | accessors: strided, sparse, normalised, without a view | numbers, as the format says |
 //! | skins | the mesh bent to where its bones stand in the file; morph targets are not applied |
 //! | cameras | the camera of the first node that has one |
@@ -380,12 +380,13 @@ impl<'a> Scene<'a, '_> {
     }
 
     fn primitive(&mut self, at: &At<'a>, pose: Option<&Pose>) -> Result<Option<Object>> {
-        let (material, surface) = match self.surface(at.get("material").as_ref()) {
+        let colored = at.get("attributes").is_some_and(|all| all.get("COLOR_0").is_some());
+        let (material, surface) = match self.surface(at.get("material").as_ref(), colored) {
             Ok(surface) => surface,
             Err(Fault { pointer, message }) => {
                 let message = format!("{pointer}: {message}; the default material is used");
                 self.warn("materials that cannot be read", message);
-                self.surface(None)?
+                self.surface(None, colored)?
             }
         };
         let shape = self.reader.shape(at, &surface, pose, self.findings)?;
@@ -393,10 +394,10 @@ impl<'a> Scene<'a, '_> {
         Ok(shape.map(object))
     }
 
-    /// The material of a primitive.
-    fn surface(&mut self, at: Option<&At<'a>>) -> Result<(MaterialId, Surface)> {
+    /// The material of a primitive, whose vertices may have colours.
+    fn surface(&mut self, at: Option<&At<'a>>, colored: bool) -> Result<(MaterialId, Surface)> {
         let number = at.map(At::index).transpose()?;
-        if let Some(known) = self.surfaces.get(&number) {
+        if let Some(known) = self.surfaces.get(&(number, colored)) {
             return Ok(known.clone());
         }
         let surface = match (at, number) {
@@ -404,7 +405,7 @@ impl<'a> Scene<'a, '_> {
                 let root = &self.reader.root;
                 let of = root.item("materials", number).map_err(|f| at.fault(f.message))?;
                 let Reader { buffers, file, .. } = &self.reader;
-                material::read(&of, &mut self.images, (buffers, file), self.findings)?
+                material::read((&of, colored), &mut self.images, (buffers, file), self.findings)?
             }
             _ => material::plain(),
         };
@@ -415,7 +416,7 @@ impl<'a> Scene<'a, '_> {
             materials.push(surface.material.clone());
         }
         let known = (MaterialId(id), surface);
-        self.surfaces.insert(number, known.clone());
+        self.surfaces.insert((number, colored), known.clone());
         Ok(known)
     }
 
