@@ -441,3 +441,28 @@ fn colours_of_vertices_are_seen_on_what_gltf_calls_metal() {
         r#", "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.5, 0.5, 1]}}]"#;
     assert_eq!(mesh(gltf(nodes, "[0]", half, r#", "material": 0"#)).colors[0].r, 0.5);
 }
+
+#[test]
+fn lights_of_a_gltf_file_in_lux_are_dimmed_and_others_are_as_they_are() {
+    let lit = |kind: &str, intensity: f64, z: f64| {
+        let nodes = format!(
+            r#"[{{"mesh": 0}}, {{"translation": [0, 0, {z}], "extensions": {{"KHR_lights_punctual": {{"light": 0}}}}}}]"#
+        );
+        let more = format!(
+            r#", "extensions": {{"KHR_lights_punctual": {{"lights": [{{"type": "{kind}", "intensity": {intensity}}}]}}}}"#
+        );
+        let reading = gltf(&nodes, "[0, 1]", &more, "");
+        let said = told(&reading);
+        (scene(reading).lights[0].color.r, said)
+    };
+    let (sun, said) = lit("directional", 6830.0, 0.0);
+    assert!((sun - 1.0).abs() < 1e-6, "{sun}");
+    assert!(said.contains("note: the lights would make all white, 2174 times over"), "{said}");
+    let pi = std::f32::consts::PI;
+    for (kind, intensity, z) in [("directional", 30.0, 0.0), ("point", 1000.0, 10.0)] {
+        let (color, said) = lit(kind, intensity, z);
+        assert!((color * pi / intensity as f32 - 1.0).abs() < 1e-5 && said.is_empty(), "{said}");
+    }
+    let (lamp, said) = lit("point", 54_351.0, 10.0);
+    assert!(lamp < 54_351.0 / pi && said.contains("dimmed"), "{lamp} {said}");
+}

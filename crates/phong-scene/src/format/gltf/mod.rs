@@ -11,7 +11,7 @@
 //! | accessors: strided, sparse, normalised, without a view | numbers, as the format says |
 //! | skins | the mesh bent to where its bones stand in the file; morph targets are not applied |
 //! | cameras | the camera of the first node that has one |
-//! | `KHR_lights_punctual` | lights of their intensity / π; point and spot lights fall off with the square, and end at their `range` |
+//! | `KHR_lights_punctual` | lights of their intensity / π; point and spot lights fall off with the square, and end at their `range`; all are dimmed alike, which is told, where white would be white ten times over |
 //! | metallic and rough materials | GGX with α = roughness², Smith, Schlick; F₀ = 0.04 and the base colour for metals, of which no diffuse colour is left |
 //! | ambient light, of which the format says nothing | `k_a` is 0.1, for metals 0.4, in place of what they would mirror; by the mean of an image of metal |
 //! | `KHR_materials_ior`, `_specular`, `_emissive_strength`, `_pbrSpecularGlossiness` | F₀, the glow, a roughness of 1 − glossiness |
@@ -30,6 +30,7 @@
 //! Own reader on `serde_json`: the crate `gltf` checks a document before it looks at it, and stops
 //! there, so that one bad mesh among many would leave nothing; it knows no limits.
 
+mod bright;
 mod buffer;
 pub(crate) mod export;
 mod images;
@@ -218,6 +219,14 @@ fn assemble<'a>(
     scene.draw(&nodes)?;
     let Scene { mut fragment, images, .. } = scene;
     fragment.textures = images.textures;
+    if let Some(times) = bright::dim(&mut fragment) {
+        let message = || {
+            format!(
+                "the lights would make all white, {times:.0} times over: they are dimmed so much"
+            )
+        };
+        findings.note("bright lights", || whole(file), message);
+    }
     Ok(fragment)
 }
 
@@ -264,8 +273,9 @@ struct Scene<'a, 'f> {
     fragment: Fragment,
     /// The images of materials.
     images: Images<'a>,
-    /// By the number of a material, `None` for what names none: its number here, and itself.
-    surfaces: BTreeMap<Option<usize>, (MaterialId, Surface)>,
+    /// By the number of a material, `None` for what names none, and whether vertices have colours:
+    /// its number here, and itself.
+    surfaces: BTreeMap<(Option<usize>, bool), (MaterialId, Surface)>,
     /// The names of groups.
     names: BTreeSet<String>,
     findings: &'f mut Findings,
