@@ -466,3 +466,15 @@ fn lights_of_a_gltf_file_in_lux_are_dimmed_and_others_are_as_they_are() {
     let (lamp, said) = lit("point", 54_351.0, 10.0);
     assert!(lamp < 54_351.0 / pi && said.contains("dimmed"), "{lamp} {said}");
 }
+
+#[test]
+fn what_knows_its_up_or_has_none_is_not_asked_whether_it_is_z() {
+    let relief = "v 0 0 0\nv 9 0 1\nv 9 7 0\nv 0 7 1\nf 1 2 3 4\n";
+    let up = Framing::default();
+    assert_eq!(scene(text("a.obj", relief)).frame(&up).len(), 1);
+    let flat = "4\n\nC 0 0 0\nC 9 0 1\nC 9 7 0\nC 0 7 1\n";
+    assert_eq!(scene(text("a.xyz", flat)).frame(&up), []);
+    let mut of_gltf = scene(text("a.obj", relief));
+    of_gltf.objects[0].place.file = "a.GLB".into();
+    assert_eq!(of_gltf.frame(&up), []);
+}

@@ -156,7 +156,7 @@ impl Scene {
             let message = "the model is flat, and would be seen from its edge: it is turned";
             said.push(self.word(message, "choose another side with `--view`"));
         }
-        if framing.up == DVec3::Y && lies_on_xy(thinnest) {
+        if framing.up == DVec3::Y && lies_on_xy(thinnest) && !self.has_no_other_up() {
             let message = "the model lies flat in X and Y: perhaps Z is up in it";
             said.push(self.word(message, "`--up z` shows it so"));
         }
@@ -185,6 +185,21 @@ impl Scene {
         let place = place.filter(|place| !place.file.is_empty());
         let span = place.map(|place| Span { place, ..Span::default() });
         Diagnostic::warning(message, span).with_help(help)
+    }
+
+    /// Whether up is known: Y is up in glTF, and molecules have no up.
+    fn has_no_other_up(&self) -> bool {
+        let is_gltf = |object: &Object| {
+            let name = object.place.file.to_ascii_lowercase();
+            let name = name.strip_suffix(".gz").unwrap_or(&name);
+            matches!(name.rsplit('.').next(), Some("gltf" | "glb"))
+        };
+        let is_molecule = |object: &Object| match &object.shape {
+            Shape::Points(points) => points.guessed.is_none(),
+            Shape::Cylinders(_) => true,
+            _ => false,
+        };
+        self.objects.first().is_some_and(is_gltf) || self.objects.iter().all(is_molecule)
     }
 
     /// The clouds whose radius was guessed.
