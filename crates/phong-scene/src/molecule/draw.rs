@@ -94,6 +94,15 @@ impl Molecule {
                 self.retain(&keep);
                 drawn.notes.push(format!("water is not drawn: {count} atoms"));
             }
+            let sites = self.sites_of_water();
+            let count = sites.iter().filter(|site| **site).count();
+            if count > 0 && count < self.len() {
+                let keep: Vec<bool> = sites.iter().map(|site| !site).collect();
+                self.retain(&keep);
+                drawn
+                    .notes
+                    .push(format!("sites of water that are no atoms are not drawn: {count}"));
+            }
         }
         let no_cell = |span: &Option<Span>| {
             let message = "the file says nothing of a cell".to_owned();
@@ -283,6 +292,19 @@ impl Molecule {
             return Vec::new();
         }
         residues.numbers.iter().map(|number| of[*number as usize]).collect()
+    }
+
+    /// Which of the atoms are sites of a model of water, and no atoms.
+    fn sites_of_water(&self) -> Vec<bool> {
+        let (Some(names), water) = (self.words(names::NAME), self.water()) else {
+            return Vec::new();
+        };
+        let of: Vec<bool> = names.names.iter().map(|name| super::residue::is_site(name)).collect();
+        if !of.contains(&true) {
+            return Vec::new();
+        }
+        let sites = names.numbers.iter().map(|number| of[*number as usize]);
+        sites.zip(water).map(|(site, water)| site && water).collect()
     }
 
     /// The file's own bonds, and those `found` by covalent radii unless the file has all.

@@ -20,6 +20,10 @@ const WATER: [&str; 15] = [
     "SPCE", "T4P",
 ];
 
+/// Names of the sites of water models which hold a charge, and are no atoms: of four sites, of five.
+const SITE: [&str; 12] =
+    ["MW", "MW1", "M", "OM", "EP", "EPW", "EP1", "EP2", "LP", "LP1", "LP2", "LPA"];
+
 /// Names of ions that stand alone.
 const ION: [&str; 30] = [
     "NA", "K", "CL", "BR", "MG", "CA", "ZN", "MN", "FE", "FE2", "CU", "CU1", "NI", "CO", "CD",
@@ -46,6 +50,11 @@ pub(super) fn is_nucleic(name: &str) -> bool {
 
 pub(super) fn is_water(name: &str) -> bool {
     among(&WATER, name)
+}
+
+/// Whether what has this name in water is no atom.
+pub(super) fn is_site(name: &str) -> bool {
+    among(&SITE, name)
 }
 
 pub(super) fn is_ion(name: &str) -> bool {
