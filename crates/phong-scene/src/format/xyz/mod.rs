@@ -8,6 +8,7 @@
 //! | `Properties=species:S:1:pos:R:3:…` | the columns of extended XYZ: `species` or `Z`, `pos`, `color` (0–1, or bytes), `radius`; others can be drawn by, those of several values as `forces.1`, … |
 //! | `Lattice="…"`, `Origin="…"` | the cell |
 //! | other columns | numbers that can be drawn by, called `column 5`, … |
+//! | a title behind the count, and rows of `number name x y z type bonds…` | atoms as Tinker writes them, whose bonds are those of their distances |
 //! | no count at all | points `x y z`, `x y z value`, `x y z r g b` or `x y z value r g b`; one line of words before them names the columns |
 //!
 //! An atom whose place is NaN or beyond 1e18 is left out and counted. A file of fewer atoms than it
@@ -24,8 +25,9 @@ use super::atoms::{Layout, Slot, Table, is_integer, read_atoms};
 use super::input::Input;
 use super::text::{Cursor, Decimal, Findings, Piece, head_of, open_text, whole};
 use crate::diagnostic::Diagnostic;
+use crate::elements::number_of_label;
 use crate::fragment::Fragment;
-use crate::molecule::{Column, Drawing, Molecule, names};
+use crate::molecule::{Column, Drawing, Molecule, Words, names};
 use crate::source::Blob;
 
 /// Bytes from the beginning in which the count, the comment and the first atom stand.
@@ -54,7 +56,8 @@ fn atoms(
     }
     let first = cursor.clone();
     let word = cursor.word();
-    if !is_integer(word) || cursor.more() {
+    let tinker = tinker_rows(&cursor);
+    if !is_integer(word) || cursor.more() && tinker.is_none() {
         return points::read(blob, file, input, first, findings);
     }
     let count = Decimal::scan(word).and_then(Decimal::to_integer).unwrap_or(-1);
@@ -70,8 +73,14 @@ fn atoms(
     }
     cursor.next_line();
     let comment_at = cursor.clone();
-    let comment = Comment::parse(cursor.rest_of_line());
-    cursor.next_line();
+    let comment = if let Some(rows) = &tinker {
+        cursor = rows.clone();
+        Comment::default()
+    } else {
+        let comment = Comment::parse(cursor.rest_of_line());
+        cursor.next_line();
+        comment
+    };
     let (start, line) = (cursor.at() as u64, cursor.line);
     let layout = match &comment.properties {
         Some(properties) => match properties.layout(drawing) {
@@ -81,6 +90,11 @@ fn atoms(
                 return Ok(None);
             }
         },
+        None if tinker.is_some() => {
+            let slots =
+                vec![Slot::Skip, Slot::Label(0), Slot::Place(0), Slot::Place(1), Slot::Place(2)];
+            Layout { slots, columns: vec![Column::of_words(names::NAME)], bytes: false }
+        }
         None => plain(&mut cursor, drawing),
     };
     let table = Table {
@@ -94,12 +108,48 @@ fn atoms(
         shares: false,
     };
     let (mut molecule, more) = table.read(findings)?;
+    if tinker.is_some() {
+        molecule.elements = molecule.words(names::NAME).map(elements_of_tinker).unwrap_or_default();
+    }
     if more {
         let message = || "the first frame is drawn; others follow it".to_owned();
         findings.note("frames", || whole(file), message);
     }
     molecule.cell = comment.cell;
     Ok(Some(molecule))
+}
+
+/// Where the rows begin that follow the line of this count, if Tinker wrote them: behind a line of the
+/// cell's three lengths and three angles, if there is one, the number 1, a name, a place and a type.
+fn tinker_rows<'a>(count: &Cursor<'a>) -> Option<Cursor<'a>> {
+    let mut row = count.clone();
+    row.next_line();
+    let mut box_of = row.clone();
+    if (0..6).all(|_| box_of.more() && box_of.decimal().is_some()) && !box_of.more() {
+        row.next_line();
+    }
+    let mut words = row.clone();
+    let is_first =
+        words.word() == b"1" && words.word().first().is_some_and(u8::is_ascii_alphabetic);
+    let has_place = (0..3).all(|_| words.more() && words.word().contains(&b'.'));
+    (is_first && has_place && words.more() && is_integer(words.word())).then_some(row)
+}
+
+/// The elements of Tinker's names: `CA` and `HN` are of carbon and hydrogen, `Na+` is of sodium.
+fn elements_of_tinker(words: &Words) -> Vec<u8> {
+    let of = |name: &String| {
+        let name = name.as_bytes();
+        let first = match name {
+            [_, second, ..] if second.is_ascii_uppercase() => {
+                let known = [b"CL", b"BR", b"MG", b"ZN", b"FE"];
+                if known.iter().any(|known| name.starts_with(*known)) { 2 } else { 1 }
+            }
+            _ => name.len(),
+        };
+        number_of_label(&name[..first]).unwrap_or(0)
+    };
+    let elements: Vec<u8> = words.names.iter().map(of).collect();
+    words.numbers.iter().map(|number| elements[*number as usize]).collect()
 }
 
 /// The layout that the first row shows: a symbol, a place, and whatever follows.
