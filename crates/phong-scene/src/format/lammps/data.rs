@@ -3,7 +3,8 @@
 //! | in the file | read as |
 //! |---|---|
 //! | `N atoms`, `xlo xhi`, `xy xz yz`, … | counts and the cell |
-//! | `Atoms # style` | atoms of the styles `atomic charge bond angle molecular full sphere dipole body ellipsoid line tri`; without the comment the style is that which fits the number of columns |
+//! | `Atoms # style` | atoms of the styles that are told below; without the comment the style is that which fits the number of columns |
+//! | lines of comment before the first atom | nothing |
 //! | `Masses` | masses in g/mol, by which the elements are known where there is one so heavy |
 //! | `Bonds` | all bonds |
 //! | other sections | not drawn |
@@ -75,14 +76,15 @@ fn atoms(
         findings.error("files without atoms", || whole(file), message);
         return Ok(None);
     };
-    let layout = match style(blob, heading)? {
+    let (first, [behind, lines]) = first_row(blob, heading)?;
+    let layout = match style(&first, heading) {
         Ok(layout) => layout,
         Err(message) => {
             findings.error("styles", || whole(file), || message);
             return Ok(None);
         }
     };
-    let Heading { start, line, .. } = *heading;
+    let (start, line) = (heading.start + behind, heading.line + lines);
     let limits = input.limits;
     let table =
         Table { blob, file, limits, start, line, count: Some(count), layout, shares: false };
@@ -183,31 +185,48 @@ impl Header {
     }
 }
 
-/// The styles of atoms that are read.
-const STYLES: [&str; 12] = [
-    "atomic",
-    "charge",
-    "dipole",
-    "bond",
-    "angle",
-    "molecular",
-    "full",
-    "sphere",
-    "body",
-    "ellipsoid",
-    "line",
-    "tri",
+/// The styles of atoms that are read, and what stands before the place: `i` the number, `m` the molecule,
+/// `t` the type, `q` the charge, `d` the diameter.
+const STYLES: [(&str, &str); 26] = [
+    ("amoeba", "imtq"),
+    ("angle", "imt"),
+    ("atomic", "it"),
+    ("body", "it--"),
+    ("bond", "imt"),
+    ("bpm/sphere", "imtd-"),
+    ("charge", "itq"),
+    ("dipole", "itq"),
+    ("dpd", "it-"),
+    ("edpd", "it--"),
+    ("electron", "itq--"),
+    ("ellipsoid", "it--"),
+    ("full", "imtq"),
+    // What its styles have stands behind the place.
+    ("hybrid", "it"),
+    ("line", "imt--"),
+    ("mdpd", "it-"),
+    ("molecular", "imt"),
+    ("peri", "it--"),
+    ("smd", "itm-------"),
+    ("sph", "it---"),
+    ("sphere", "itd-"),
+    ("spin", "it"),
+    ("tdpd", "it"),
+    ("template", "im--t"),
+    ("tri", "imt--"),
+    ("wavepacket", "itq-----"),
 ];
 
-/// The layout of atoms of the style that the heading says, or that fits the first of them.
-fn style(blob: &dyn Blob, heading: &Heading) -> io::Result<Result<Layout, String>> {
-    let first = first_row(blob, heading)?;
+/// The layout of atoms of the style that the heading says, or that fits the first of them, whose words
+/// these are.
+fn style(first: &[Vec<u8>], heading: &Heading) -> Result<Layout, String> {
     // A style is one word; several are a remark, unless the first is a style: `hybrid` names others.
     let named = heading.text.split('#').nth(1).map(str::trim).unwrap_or_default();
     let mut words = named.split_ascii_whitespace();
     let named = match (words.next(), words.next()) {
-        (Some(first), Some(_)) if first == "hybrid" || STYLES.contains(&first) => {
-            return Ok(Err(format!("atoms of the style `{named}` are not read")));
+        (Some(first @ "hybrid"), Some(_)) => first,
+        (Some(first), Some(_)) if STYLES.iter().any(|(style, _)| *style == first) => {
+            return Err(format!("atoms of the style `{named}` are not read"));
         }
         (Some(style), None) => style,
         _ => "",
@@ -216,27 +235,26 @@ fn style(blob: &dyn Blob, heading: &Heading) -> io::Result<Result<Layout, String
     let images = first.len() > 7 && first[first.len() - 3..].iter().all(|word| is_integer(word));
     let count = first.len() - if images { 3 } else { 0 };
     let fractional = |i: usize| first.get(i).is_some_and(|word| !is_integer(word));
-    // What stands before the place: `i` the number, `m` the molecule, `t` the type, `q` the charge, `d` the
-    // diameter.
-    let before = match named {
-        "atomic" => "it",
-        "charge" | "dipole" => "itq",
-        "bond" | "angle" | "molecular" => "imt",
-        "full" => "imtq",
-        "sphere" => "itd-",
-        "body" | "ellipsoid" => "it--",
-        "line" | "tri" => "imt--",
-        "" if count == 5 => "it",
-        "" if count == 6 && fractional(2) => "itq",
-        "" if count == 6 => "imt",
-        "" if count == 7 && fractional(2) => "itd-",
-        "" if count == 7 => "imtq",
-        "" => {
-            return Ok(Err(format!(
-                "the atoms have {count} columns, which fits no style; write `Atoms # full` or the like"
-            )));
+    let known = STYLES.iter().find(|(style, _)| *style == named);
+    let before = match (known, count) {
+        (Some((_, before)), _) => before,
+        (None, _) if !named.is_empty() => {
+            return Err(format!("atoms of the style `{named}` are not read"));
         }
-        other => return Ok(Err(format!("atoms of the style `{other}` are not read"))),
+        (None, 5) => "it",
+        (None, 6) if fractional(2) => "itq",
+        (None, 6) => "imt",
+        (None, 7) if fractional(2) => "itd-",
+        (None, 7) => "imtq",
+        // Density, energy and capacity; a charge, a spin and a radius; a molecule, a flag and a density.
+        (None, 8) if fractional(3) => "it---",
+        (None, 8) if fractional(4) => "itq--",
+        (None, 8) => "imt--",
+        _ => {
+            return Err(format!(
+                "the atoms have {count} columns, which fits no style; write `Atoms # full` or the like"
+            ));
+        }
     };
     let mut layout = Layout { slots: Vec::new(), columns: Vec::new(), bytes: false };
     for letter in before.chars() {
@@ -258,23 +276,29 @@ fn style(blob: &dyn Blob, heading: &Heading) -> io::Result<Result<Layout, String
         layout.columns.push(if words { Column::of_words(name) } else { Column::of_numbers(name) });
     }
     layout.slots.extend([0, 1, 2].map(Slot::Place));
-    Ok(Ok(layout))
+    Ok(layout)
 }
 
-/// The words of the first row of a section.
-fn first_row(blob: &dyn Blob, heading: &Heading) -> io::Result<Vec<Vec<u8>>> {
+/// The words of the first row of a section, and where its line begins: how far behind the heading, and how
+/// many lines.
+fn first_row(blob: &dyn Blob, heading: &Heading) -> io::Result<(Vec<Vec<u8>>, [u64; 2])> {
     let mut text = vec![0; 4 << 10];
     let read = blob.read_full(&mut text, heading.start)?;
     let piece = Piece { text: &text[..read], offset: 0, line: 1, rows: 0 };
     let mut cursor = Cursor::new(piece, false);
-    while cursor.is_blank() && !cursor.is_done() {
+    let is_remark = |cursor: &Cursor<'_>| {
+        let mut cursor = cursor.clone();
+        !cursor.more() || cursor.rest().starts_with(b"#")
+    };
+    while is_remark(&cursor) && !cursor.is_done() {
         cursor.next_line();
     }
+    let at = [cursor.at() as u64, cursor.line - 1];
     let mut words = Vec::new();
-    while cursor.more() {
+    while cursor.more() && !cursor.rest().starts_with(b"#") {
         words.push(cursor.word().to_vec());
     }
-    Ok(words)
+    Ok((words, at))
 }
 
 /// The first `N` numbers of each of so many rows of a section.
