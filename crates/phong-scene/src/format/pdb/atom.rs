@@ -15,6 +15,8 @@ use crate::molecule::Cell;
 pub(super) enum Record {
     Model,
     EndOfModel,
+    /// The end of the file, or, in files of programs of dynamics, of a frame.
+    End,
     Cell(Cell),
     Atom(Box<Atom>),
     /// The serial numbers of an atom and of those that it is bound to, as they are written.
@@ -52,7 +54,11 @@ impl Record {
         };
         if is(b"ATOM  ") || is(b"HETATM") {
             let record = if is(b"ATOM  ") { "ATOM" } else { "HETATM" };
-            return Some(Self::Atom(Box::new(Atom::parse(line, record, file, findings))));
+            let (narrow, number) = narrowed(line);
+            let line = Fixed { text: narrow.as_deref().unwrap_or(text), ..line };
+            let mut atom = Atom::parse(line, record, file, findings);
+            atom.number = number.unwrap_or(atom.number);
+            return Some(Self::Atom(Box::new(atom)));
         }
         if is(b"CONECT") {
             // Eleven columns may hold hydrogen bonds in files before 1996; the first four are bonds.
@@ -66,8 +72,32 @@ impl Record {
         if is(b"MODEL ") {
             return Some(Self::Model);
         }
+        if is(b"END") && text.len() == 3 {
+            return Some(Self::End);
+        }
         is(b"CRYST1").then(|| cell_of(line)).flatten().map(Self::Cell)
     }
+}
+
+/// The record of an atom whose numbers have a digit too many, so that all behind them stands a column too
+/// far to the right, with every value in its columns; and the number of the residue, if it is that.
+///
+/// A digit behind the residue's number may be an insertion code: then there are places in their columns.
+fn narrowed(line: Fixed<'_>) -> (Option<Vec<u8>>, Option<f32>) {
+    let digit = |at: usize| line.text.get(at).is_some_and(u8::is_ascii_digit);
+    let mut narrow = line.text.to_vec();
+    if line.number(38, 46).is_some() || !digit(11) && !digit(26) {
+        return (None, None);
+    }
+    if digit(11) {
+        narrow.remove(6);
+    }
+    let number = Fixed { text: &narrow, ..line }.number(22, 27).map(|number| number as f32);
+    let too_wide = number.is_some() && (22..27).all(|at| narrow[at].is_ascii_digit());
+    if too_wide {
+        narrow.remove(22);
+    }
+    (Some(narrow), number.filter(|_| too_wide))
 }
 
 /// The five columns of a serial number.

@@ -6,6 +6,8 @@
 //! | no element, or none that there is (files before 1996 have other things there) | that of the atom's name: ` CA ` is carbon, `CA  ` calcium |
 //! | alternate locations | those of the highest occupancy in each residue; the others are told |
 //! | `MODEL`, `ENDMDL` | the first model; how many there are is told |
+//! | `END` before an atom that is the first one again | the end of the first of several frames |
+//! | numbers of atoms and residues with a digit too many | what stands behind them, a column to the right |
 //! | `CONECT` | bonds, beside those by covalent radii; serial numbers are compared as they are written, so those past 99,999 may be in base 36, in base 16 or a column too far |
 //! | `CRYST1` | the cell, unless it is the cube of 1 Å of structures without one |
 //! | all others | not drawn |
@@ -92,6 +94,11 @@ struct Assembly {
     models: u64,
     /// Whether the first model is over.
     over: bool,
+    /// Whether an `END` was the last record.
+    ended: bool,
+    /// The first atom's number, name and residue, and how often it follows an `END`.
+    first: ([u8; 5], [Vec<u8>; 2]),
+    again: u64,
 }
 
 impl Assembly {
@@ -114,11 +121,25 @@ impl Assembly {
             serials: Serials::default(),
             models: 0,
             over: false,
+            ended: false,
+            first: Default::default(),
+            again: 0,
         }
     }
 
     fn add(&mut self, record: Record) {
+        if let (Record::Atom(atom), true) = (&record, self.molecule.len() == 0 || self.ended) {
+            let of = (atom.serial, [atom.name.clone(), atom.residue.clone()]);
+            if self.molecule.len() == 0 {
+                self.first = of;
+            } else if self.first == of {
+                self.again += 1;
+                self.over = true;
+            }
+            self.ended = false;
+        }
         match record {
+            Record::End => self.ended = true,
             Record::Model => {
                 self.models += 1;
                 self.over |= self.models > 1;
@@ -156,8 +177,9 @@ impl Assembly {
     }
 
     fn finish(self, file: &Arc<str>, findings: &mut Findings) -> Molecule {
-        let Self { mut molecule, places, alternates, serials, models, .. } = self;
+        let Self { mut molecule, places, alternates, serials, models, again, .. } = self;
         molecule.place_all(&places);
+        let models = models.max(1 + again);
         if models > 1 {
             let message = || format!("the first of {models} models is drawn");
             findings.note("models", || whole(file), message);
