@@ -8,6 +8,7 @@
 //! | `n i j k …` and perhaps a colour | a polygon; concave ones are cut by clipping ears |
 //! | colours of three or four numbers | if all are whole numbers up to 255 and one is at least 2, bytes, which are sRGB; else linear. An alpha below 1 is a warning |
 //! | colours of faces | used where vertices have none: corners of different colours become different vertices. Those of one number are of a palette that the file does not hold: not used, with a warning |
+//! | a polygon over several lines | is read, with a warning |
 //! | `#` | a comment, up to the line's end |
 //!
 //! A file without faces is a cloud of points, drawn as those of PLY files are. A vertex that is NaN is
@@ -19,6 +20,7 @@
 mod body;
 mod colors;
 mod header;
+mod loose;
 
 use std::io;
 use std::sync::Arc;
@@ -36,7 +38,7 @@ use crate::diagnostic::Diagnostic;
 use crate::fragment::Fragment;
 use crate::mesh::{Mesh, Points, collapse_faces};
 use crate::shape::Shape;
-use crate::source::trouble;
+use crate::source::{Memory, Source, trouble};
 
 pub(crate) use self::header::is_off;
 
@@ -88,7 +90,24 @@ fn shape_of(
         return Ok(None);
     }
     let body = Body { blob, file, header: &header, limits };
-    let contents = body.read(findings)?;
+    let mut said = Findings::default();
+    let mut contents = body.read(&mut said)?;
+    if said.any_error()
+        && let Some(rows) = loose::rejoined(blob, header.body, header.vertices, limits.text_bytes)?
+    {
+        let source = Memory::new().with(file.as_ref(), rows);
+        let blob = source.open(file)?;
+        let mut header = header.clone();
+        header.body = 0;
+        let mut again = Findings::default();
+        let joined = Body { blob: &*blob, file, header: &header, limits }.read(&mut again)?;
+        if !again.any_error() {
+            let message = || "faces are written over several lines".to_owned();
+            again.warning("faces over several lines", || whole(file), message);
+            (contents, said) = (joined, again);
+        }
+    }
+    findings.append(said);
     if findings.any_error() {
         return Ok(None);
     }
