@@ -8,6 +8,7 @@
 //! | `auth_` names of atom, residue, chain and number, else the `label_` ones | columns |
 //! | `label_alt_id`, `disorder_group` | alternates: those of the highest occupancy are drawn, and of disorder the first group |
 //! | `pdbx_PDB_model_num` | the first model; the others are told |
+//! | the loop `_chem_comp_atom`, in a block without `_atom_site` | a ligand or a residue by itself: its ideal places, else those of the model |
 //! | `_cell` | the cell |
 //! | symmetry | not used: the asymmetric unit is drawn, which is told |
 //!
@@ -49,6 +50,8 @@ struct Block {
     /// Values outside of loops, by their names in small letters.
     items: BTreeMap<String, Vec<u8>>,
     sites: Option<Sites>,
+    /// The atoms of a component, and what there is to say of them if they are drawn.
+    component: Option<(Sites, Findings)>,
     operations: u64,
 }
 
@@ -117,7 +120,8 @@ fn skip_block<'a>(tokens: &mut Tokens<'a>) -> Option<Token<'a>> {
 
 impl Block {
     fn has_atoms(&self) -> bool {
-        self.sites.as_ref().is_some_and(|sites| sites.count() > 0)
+        let component = self.component.as_ref().map(|(sites, _)| sites);
+        [self.sites.as_ref(), component].into_iter().flatten().any(|sites| sites.count() > 0)
     }
 
     /// Reads the names and rows of a loop; the token behind it.
@@ -136,7 +140,12 @@ impl Block {
         }
         let begins = |name: &str| names.iter().any(|own| own.starts_with(name));
         let symmetry = begins("_symmetry_equiv") || begins("_space_group_symop");
-        let mut sites = Sites::of(&names).filter(|_| self.sites.is_none());
+        let component = Sites::of(&names, sites::COMPONENT).filter(|_| self.component.is_none());
+        let is_component = component.is_some();
+        let mut sites =
+            component.or_else(|| Sites::of(&names, sites::ATOMS).filter(|_| self.sites.is_none()));
+        let mut aside = Findings::default();
+        let findings = if is_component { &mut aside } else { findings };
         let mut values = 0_u64;
         let mut last_line = 0;
         while let Some(token) = next.filter(Token::is_value) {
@@ -159,7 +168,11 @@ impl Block {
                     )
                 });
             }
-            self.sites = Some(sites);
+            if is_component {
+                self.component = Some((sites, aside));
+            } else {
+                self.sites = Some(sites);
+            }
         }
         if symmetry {
             self.operations += values / names.len().max(1) as u64;
@@ -184,11 +197,16 @@ impl Block {
         let sites = self.sites.take().or_else(|| {
             // One atom alone stands without a loop.
             let names: Vec<String> = self.items.keys().cloned().collect();
-            let mut sites = Sites::of(&names)?;
+            let mut sites = Sites::of(&names, sites::ATOMS)?;
             for (column, value) in self.items.values().enumerate() {
                 let token = Token { text: value, line: 0, quoted: true };
                 sites.value(column, &token, file, findings);
             }
+            Some(sites)
+        });
+        let sites = sites.or_else(|| {
+            let (sites, said) = self.component.take()?;
+            findings.append(said);
             Some(sites)
         });
         let Some(sites) = sites else {

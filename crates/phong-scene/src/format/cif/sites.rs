@@ -62,8 +62,8 @@ struct Row {
 
 /// Columns by the names that they may have, those that are taken first in front.
 const COLUMNS: [(&str, bool, &[&str]); 8] = [
-    (names::NAME, true, &["auth_atom_id", "label_atom_id", "label"]),
-    (names::RESIDUE, true, &["auth_comp_id", "label_comp_id"]),
+    (names::NAME, true, &["auth_atom_id", "label_atom_id", "label", "atom_id"]),
+    (names::RESIDUE, true, &["auth_comp_id", "label_comp_id", "comp_id"]),
     (names::NUMBER, false, &["auth_seq_id", "label_seq_id"]),
     (names::CHAIN, true, &["auth_asym_id", "label_asym_id"]),
     (names::OCCUPANCY, false, &["occupancy"]),
@@ -72,21 +72,31 @@ const COLUMNS: [(&str, bool, &[&str]); 8] = [
     ("record", true, &["group_pdb"]),
 ];
 
+/// What the names of the atoms of a structure begin with, and of those of a component: a ligand or a
+/// residue by itself.
+pub(super) const ATOMS: &str = "_atom_site";
+pub(super) const COMPONENT: &str = "_chem_comp_atom";
+
 impl Sites {
-    /// Of a loop of these names; `None`: it is another.
-    pub(super) fn of(names: &[String]) -> Option<Self> {
+    /// Of a loop of these names, which begin so; `None`: it is another.
+    pub(super) fn of(names: &[String], category: &str) -> Option<Self> {
         let short = |name: &String| {
-            let rest = name.strip_prefix("_atom_site")?;
+            let rest = name.strip_prefix(category)?;
             rest.strip_prefix(['.', '_']).map(str::to_owned)
         };
         let short: Vec<Option<String>> = names.iter().map(short).collect();
         let find = |wanted: &str| short.iter().position(|name| name.as_deref() == Some(wanted));
-        let axes = |kind: &str| -> Option<Vec<usize>> {
-            ["x", "y", "z"].iter().map(|axis| find(&format!("{kind}_{axis}"))).collect()
+        let axes = |before: &str, behind: &str| -> Option<Vec<usize>> {
+            ["x", "y", "z"].iter().map(|axis| find(&format!("{before}{axis}{behind}"))).collect()
         };
-        let cartesian = axes("cartn");
+        let cartesian = if category == COMPONENT {
+            let ideal = axes("pdbx_model_cartn_", "_ideal");
+            Some(ideal.or_else(|| axes("model_cartn_", "")).or_else(|| axes("", ""))?)
+        } else {
+            axes("cartn_", "")
+        };
         let fractional = cartesian.is_none();
-        let places = cartesian.or_else(|| axes("fract"))?;
+        let places = cartesian.or_else(|| axes("fract_", ""))?;
         let mut roles = vec![Role::Skip; names.len()];
         for (axis, column) in places.into_iter().enumerate() {
             roles[column] = Role::Place(axis);
