@@ -179,6 +179,9 @@ fn agrees_with_brute_force(geometry: &[Primitives], rays: &[Ray]) {
         let mut blocked8 = vec![0; eights.len()];
         bvh.intersect_eights(&eights, &mut hits8);
         bvh.occluded_eights(&eights, &mut blocked8);
+        let mut scattered = vec![0; eights.len()];
+        bvh.occluded_scattered(&eights, &mut scattered);
+        assert_eq!(scattered, blocked8, "occluded scattered: {options:?}");
         for (i, (ray, want)) in rays.iter().zip(expected).enumerate() {
             let one = bvh.intersect(ray);
             assert_eq!(bits(one), bits(*want), "{ray:?} {one:?} {want:?} {options:?}");
@@ -287,6 +290,35 @@ proptest! {
             })
             .collect();
         agrees_with_brute_force(&[Primitives::cylinders(cylinders, caps)], &rays);
+    }
+
+    #[test]
+    fn rays_that_go_everywhere_among_spheres_find_what_brute_force_finds(seed: u64) {
+        let mut numbers = Random(seed);
+        let (scale, size) = (numbers.scale(), [0.02, 0.1, 0.4][numbers.below(3)]);
+        let spheres: Vec<Sphere> = (0..=numbers.below(300))
+            .map(|_| Sphere {
+                center: scale * numbers.point(),
+                radius: scale * size * (0.01 + numbers.signed().abs()),
+            })
+            .collect();
+        // From about one point to all sides or to some, a third of them to rims.
+        let start = [0.5, 1.0, 2.0, 500.0][numbers.below(4)] * scale * numbers.point();
+        let (apart, spread) = ([0.0, 0.01, 0.3][numbers.below(3)], [0.1, 1.0, 5.0][numbers.below(3)]);
+        let ahead = if numbers.below(2) == 0 { -start } else { numbers.point() };
+        let ahead = ahead.normalize_or(Vec3::NEG_Y);
+        let t_max = [f32::INFINITY, f32::INFINITY, 0.7 * scale][numbers.below(3)];
+        let rays: Vec<Ray> = (0..600)
+            .map(|i| {
+                let origin = start + apart * scale * numbers.point();
+                let Sphere { center, radius } = spheres[i / 3 % spheres.len()];
+                let around = numbers.point().cross(center - origin).normalize_or(Vec3::X);
+                let rim = center + radius * (1.0 - 1e-3 * numbers.signed()) * around;
+                let away = if i % 3 == 0 { rim - origin } else { ahead + spread * numbers.point() };
+                Ray { t_max, ..Ray::new(origin, away.try_normalize().unwrap_or(Vec3::X)) }
+            })
+            .collect();
+        agrees_with_brute_force(&[Primitives::spheres(spheres)], &rays);
     }
 
     #[test]

@@ -67,11 +67,11 @@ pub(crate) const BLOCK: usize = 5;
 /// [`Closest`] for eight spheres at once.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Closest8<S: Simd> {
-    pub(super) origin: [f32x8<S>; 3],
-    pub(super) dir: [f32x8<S>; 3],
-    pub(super) scale: f32x8<S>,
-    pub(super) t_min: f32x8<S>,
-    pub(super) t_max: f32x8<S>,
+    pub(crate) origin: [f32x8<S>; 3],
+    pub(crate) dir: [f32x8<S>; 3],
+    pub(crate) scale: f32x8<S>,
+    pub(crate) t_min: f32x8<S>,
+    pub(crate) t_max: f32x8<S>,
 }
 
 impl<S: Simd> Closest8<S> {

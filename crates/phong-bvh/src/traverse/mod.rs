@@ -9,6 +9,7 @@ mod frustum;
 mod interleaved;
 mod leaves;
 mod query;
+mod scattered;
 mod sheared;
 mod single;
 mod slabs;
@@ -26,6 +27,7 @@ use self::{
     interleaved::{Interleaved, RAYS, Stacks},
     leaves::{Anything, Content, OnlyCylinders, OnlySpheres, OnlyTriangles},
     query::{AnyHit, ClosestHit, Query},
+    scattered::{Scattered, TOGETHER},
 };
 use crate::{
     Cost, Primitives,
@@ -90,6 +92,39 @@ impl<'a> World<'a> {
             Some(Kind::Cylinders) => self.many_in::<OnlyCylinders, _>(rays, AnyHit(blocked)),
             _ => self.many_in::<Anything, _>(rays, AnyHit(blocked)),
         }
+    }
+
+    /// [`World::any_of_eights`] of rays that start close together and go everywhere.
+    pub(crate) fn any_of_scattered(&self, rays: &[Rays8], blocked: &mut [u32]) {
+        let root = self.root.filter(|root| root.kind().is_none());
+        let (Some(Kind::Spheres), Some(root)) = (self.only, root) else {
+            return self.any_of_eights(rays, blocked);
+        };
+        let world = self;
+        LANES.with_borrow_mut(|lanes| {
+            for (rays, blocked) in rays.chunks(TOGETHER).zip(blocked.chunks_mut(TOGETHER)) {
+                lanes.clear();
+                lanes.extend(
+                    rays.iter().zip(&*blocked).map(|(rays, blocked)| rays.there & !blocked),
+                );
+                SCATTERED.with_borrow_mut(|memory| {
+                    let (lanes, blocked) = (&mut *lanes, &mut *blocked);
+                    self.token.run(Scattered { world, root, rays, lanes, blocked, memory });
+                });
+                STACKS.with_borrow_mut(|stacks| {
+                    let (query, content) = (&mut AnyHit(blocked), PhantomData::<OnlySpheres>);
+                    self.token.run(Interleaved {
+                        world,
+                        root,
+                        rays,
+                        lanes,
+                        query,
+                        stacks,
+                        content,
+                    });
+                });
+            }
+        });
     }
 
     /// Gives `visit` the number of every primitive whose box a ray may enter before its end, in no order.
@@ -171,6 +206,7 @@ thread_local! {
     /// The rays of a bundle that have to be traced, a bit each.
     static LANES: RefCell<Vec<u32>> = const { RefCell::new(Vec::new()) };
     static GROUP: RefCell<Group> = const { RefCell::new(Group::EMPTY) };
+    static SCATTERED: RefCell<scattered::Memory> = const { RefCell::new(scattered::Memory::EMPTY) };
 }
 
 /// Counts what a ray costs; `()` counts nothing.

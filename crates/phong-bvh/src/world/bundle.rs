@@ -80,15 +80,15 @@ pub(super) fn closest(world: &World, rays: &[Rays8], hits: &mut [Hits8]) {
     });
 }
 
-/// Whether each ray hits anything.
-pub(super) fn any(world: &World, rays: &[Rays8], blocked: &mut [u32]) {
+/// Whether each ray hits anything; `scattered`: the rays start close together and go everywhere.
+pub(super) fn any(world: &World, rays: &[Rays8], blocked: &mut [u32], scattered: bool) {
     blocked.fill(0);
     let World { loose, instances, upper, token, .. } = world;
     let (few, first) = few_of(world);
     let done = token.run(few::Any { few, rays, blocked });
     ROOM.with_borrow_mut(|room| {
         if loose.has_tree() && !(done && few.spheres.is_some()) {
-            any_in(*token, loose.tree(), loose.frame(), rays, blocked, room);
+            any_in(*token, (loose.tree(), loose.frame()), rays, blocked, scattered, room);
         }
         if let Some(upper) = upper {
             for (rays, blocked) in rays.iter().zip(&mut *blocked) {
@@ -109,7 +109,7 @@ pub(super) fn any(world: &World, rays: &[Rays8], blocked: &mut [u32]) {
             {
                 continue;
             }
-            any_in(*token, tree, frame, rays, blocked, room);
+            any_in(*token, (tree, frame), rays, blocked, scattered, room);
         }
     });
 }
@@ -160,17 +160,21 @@ fn closest_in(
 /// Whether rays that are not blocked hit anything in a tree.
 fn any_in(
     token: Token,
-    tree: &Tree,
-    frame: &Frame,
+    (tree, frame): (&Tree, &Frame),
     rays: &[Rays8],
     blocked: &mut [u32],
+    scattered: bool,
     room: &mut Room,
 ) {
     let Some(bounds) = tree.bounds() else { return };
     room.rays.resize(rays.len(), local::Rays8::NONE);
     let local = &mut room.rays;
     if token.run(EnterAny { frame, bounds, rays, blocked, local }) {
-        tree.rays(token).any_of_eights(local, blocked);
+        if scattered {
+            tree.rays(token).any_of_scattered(local, blocked);
+        } else {
+            tree.rays(token).any_of_eights(local, blocked);
+        }
     }
 }
 

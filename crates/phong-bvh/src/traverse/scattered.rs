@@ -1,0 +1,477 @@
+//! Rays that start close together and go everywhere, as those of ambient occlusion: whether each hits a sphere.
+//!
+//! As they come, neighbours go different ways. Put in order of their directions, they are beams of up to 64 rays.
+//! A node is tested once for a beam, by intervals; a child that the beam may enter is tested once more when its turn
+//! comes, against the rays themselves that entered its parent and are not blocked yet. So a beam enters every box that one
+//! of its rays would enter alone, and most boxes are met while many of its rays are left.
+
+use fearless_simd::{Simd, f32x8, mask32x8, prelude::*, u32x8};
+
+use super::{
+    World,
+    columns::{least, lowest},
+    sheared::packets,
+    slabs::SLACK,
+};
+use crate::{
+    lanes,
+    level::Kernel,
+    local::Rays8,
+    node8::{NODE, REFS, Ref, Row, rows},
+    primitives::{
+        sphere::{BLOCK, Closest8},
+        splat3,
+    },
+};
+
+/// Rays that are put in order together, in eights.
+pub(super) const TOGETHER: usize = 512;
+/// The most rays of a beam.
+const MOST: usize = 64;
+/// Beams of fewer rays are left to be traced one by one.
+const FEWEST: usize = 4;
+/// Up to so many rays are tested one by one in a leaf, each against eight spheres.
+const FEW: u32 = 4;
+/// Kinds of directions: eight octants, each cut in 16 triangles, of 32 numbers.
+const CELLS: usize = 256;
+/// The cell of a ray that is not to be traced.
+const NOWHERE: u16 = CELLS as u16;
+/// Numbers of each ray: origin, direction, 1 / d·d, where it begins and ends.
+const NUMBERS: usize = 9;
+
+/// Rays put in order, and memory for a beam.
+pub(super) struct Memory {
+    /// The cell of each ray as they come.
+    cells: Vec<u16>,
+    /// The number of each ray as they come, in order; and a whole eight more.
+    numbers: [Vec<f32>; NUMBERS],
+    /// Where they come from.
+    from: Vec<u16>,
+    /// The reciprocal directions of a beam.
+    reciprocal: [[[f32; 8]; MOST / 8]; 3],
+    entries: Vec<Entry>,
+}
+
+impl Memory {
+    /// No rays.
+    pub(super) const EMPTY: Self = Self {
+        cells: Vec::new(),
+        numbers: [const { Vec::new() }; NUMBERS],
+        from: Vec::new(),
+        reciprocal: [[[0.0; 8]; MOST / 8]; 3],
+        entries: Vec::new(),
+    };
+}
+
+/// A node or leaf to visit. `key`: entry distance in the upper half, [`Ref`] in the lower. `rays`: those that enter its
+/// parent. `parent`: where its box is, as the row of the node times eight plus the lane.
+#[derive(Clone, Copy)]
+struct Entry {
+    key: u64,
+    rays: u64,
+    parent: u32,
+}
+
+/// The root has no box.
+const NO_BOX: u32 = u32::MAX;
+
+/// Traces the rays `lanes`, a bit each, of a tree of spheres alone. Those that are left in them have to be traced one by one.
+pub(super) struct Scattered<'a> {
+    pub(super) world: &'a World<'a>,
+    pub(super) root: Ref,
+    /// At most [`TOGETHER`].
+    pub(super) rays: &'a [Rays8],
+    pub(super) lanes: &'a mut [u32],
+    pub(super) blocked: &'a mut [u32],
+    pub(super) memory: &'a mut Memory,
+}
+
+impl Kernel for Scattered<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let Self { world, root, rays, lanes, blocked, memory } = self;
+        let ends = put_in_order(simd, rays, lanes, memory);
+        let mut start = 0;
+        for (cell, &end) in ends.iter().enumerate() {
+            let end = usize::from(end);
+            while start < end {
+                let count = (end - start).min(MOST);
+                if count >= FEWEST {
+                    let hit = Beam::new(simd, cell, start, count, memory)
+                        .trace(simd, world, root, memory);
+                    for i in 0..count {
+                        let from = usize::from(memory.from[start + i]);
+                        let bit = 1 << (from % 8);
+                        lanes[from / 8] &= !bit;
+                        blocked[from / 8] |= ((hit >> i) as u32 & 1) << (from % 8);
+                    }
+                }
+                start += count;
+            }
+        }
+    }
+}
+
+/// Puts rays in order of their cells; where each cell ends.
+#[inline(always)]
+fn put_in_order<S: Simd>(
+    simd: S,
+    rays: &[Rays8],
+    wanted: &[u32],
+    memory: &mut Memory,
+) -> [u16; CELLS] {
+    let Memory { cells, numbers, from, entries, .. } = memory;
+    let room = 8 * TOGETHER + 8;
+    cells.resize(room, NOWHERE);
+    from.resize(room, 0);
+    entries.resize(super::STACK, Entry { key: 0, rays: 0, parent: NO_BOX });
+    for column in &mut *numbers {
+        column.resize(room, 0.0);
+    }
+    let mut counts = [0_u16; CELLS + 1];
+    for ((rays, &wanted), cells) in rays.iter().zip(wanted).zip(cells.as_chunks_mut::<8>().0) {
+        if wanted == 0 {
+            continue;
+        }
+        let all: [u32; 8] = cells_of(simd, rays).into();
+        for lane in lanes(wanted) {
+            let cell = all[lane & 7] as usize % CELLS;
+            cells[lane & 7] = cell as u16;
+            counts[cell] += 1;
+        }
+    }
+    let mut next = [0; CELLS];
+    let mut sum = 0;
+    for (next, count) in next.iter_mut().zip(counts) {
+        *next = sum;
+        sum += count;
+    }
+    let [ox, oy, oz, dx, dy, dz, scale, t_min, t_max] = numbers;
+    for (i, (rays, &wanted)) in rays.iter().zip(wanted).enumerate() {
+        if wanted == 0 {
+            continue;
+        }
+        let loaded = rays.load(simd);
+        let scales: [f32; 8] = Closest8::of_rays(simd, &loaded).scale.into();
+        for lane in lanes(wanted) {
+            let lane = lane & 7;
+            let next = &mut next[usize::from(cells[8 * i + lane]) % CELLS];
+            let to = usize::from(*next);
+            *next += 1;
+            from[to] = (8 * i + lane) as u16;
+            (ox[to], oy[to], oz[to]) =
+                (rays.origin[0][lane], rays.origin[1][lane], rays.origin[2][lane]);
+            (dx[to], dy[to], dz[to]) = (rays.dir[0][lane], rays.dir[1][lane], rays.dir[2][lane]);
+            (scale[to], t_min[to], t_max[to]) = (scales[lane], rays.t_min[lane], rays.t_max[lane]);
+        }
+    }
+    next
+}
+
+/// The cell of each direction. The signs of its coordinates are the three upper bits.
+#[inline(always)]
+fn cells_of<S: Simd>(simd: S, rays: &Rays8) -> u32x8<S> {
+    let [x, y, z] = &rays.dir;
+    let (x, y, z) = (load(simd, x), load(simd, y), load(simd, z));
+    let signs = sign(x) * 4 + sign(y) * 2 + sign(z);
+    // On the octahedron: three numbers whose sum is 4, in whole steps.
+    let scale = f32x8::splat(simd, 3.9999) / (x.abs() + y.abs() + z.abs());
+    let i: u32x8<S> = (x.abs() * scale).to_int();
+    let j: u32x8<S> = (y.abs() * scale).to_int();
+    let k: u32x8<S> = (z.abs() * scale).to_int();
+    let points_down = (i + j + k) & 1;
+    signs * 32 + ((i * 8 + j * 2 + points_down) & 31)
+}
+
+/// 1 where a number is negative.
+#[inline(always)]
+fn sign<S: Simd>(v: f32x8<S>) -> u32x8<S> {
+    v.bitcast::<u32x8<S>>() >> 31
+}
+
+/// Rays of one cell that follow one another.
+struct Beam<S: Simd> {
+    start: usize,
+    /// A bit for each.
+    all: u64,
+    negative: [bool; 3],
+    /// How far origins are moved against rounding.
+    pad: f32,
+    t_min: f32,
+    t_max: f32,
+    /// The origins that enter boxes first and leave them last, and the reciprocal directions: those of
+    /// [`Frustum`](super::frustum::Frustum).
+    near_origin: [f32; 3],
+    far_origin: [f32; 3],
+    reciprocal: [[f32; 2]; 3],
+    /// The middle of the origins, and of the directions.
+    middle: [f32x8<S>; 3],
+    along: [f32x8<S>; 3],
+    /// No ray starts farther from the middle.
+    width: f32,
+    /// The tangent of the greatest angle to the middle direction.
+    spread: f32,
+}
+
+impl<S: Simd> Beam<S> {
+    #[inline(always)]
+    fn new(simd: S, cell: usize, start: usize, count: usize, memory: &mut Memory) -> Self {
+        let all = u64::MAX >> (MOST - count);
+        let negative = [cell & 128 != 0, cell & 64 != 0, cell & 32 != 0];
+        // Minima, and maxima with their signs changed, as in `Columns`.
+        let most = f32x8::splat(simd, f32::INFINITY);
+        let one = f32x8::splat(simd, 1.0);
+        let (mut starts, mut directions, mut reciprocals) = ([most; 8], [most; 8], [most; 8]);
+        for packet in 0..count.div_ceil(8) {
+            let own = mask32x8::from_bitmask(simd, all >> (8 * packet) & 0xff);
+            for axis in 0..3 {
+                let origin = column(simd, &memory.numbers[axis], start, packet);
+                let dir = column(simd, &memory.numbers[3 + axis], start, packet);
+                let reciprocal =
+                    (one / dir).max(f32x8::splat(simd, -1e37)).min(f32x8::splat(simd, 1e37));
+                reciprocal.store_array(&mut memory.reciprocal[axis][packet & 7]);
+                starts[axis] = own.select(origin, most).min(starts[axis]);
+                starts[axis + 3] = own.select(-origin, most).min(starts[axis + 3]);
+                directions[axis] = own.select(dir, most).min(directions[axis]);
+                directions[axis + 3] = own.select(-dir, most).min(directions[axis + 3]);
+                reciprocals[axis] = own.select(reciprocal, most).min(reciprocals[axis]);
+                reciprocals[axis + 3] = own.select(-reciprocal, most).min(reciprocals[axis + 3]);
+            }
+            let t_min = column(simd, &memory.numbers[7], start, packet);
+            let t_max = column(simd, &memory.numbers[8], start, packet);
+            starts[6] = own.select(t_min, most).min(starts[6]);
+            starts[7] = own.select(-t_max, most).min(starts[7]);
+        }
+        let (starts, directions) = (least(starts), least(directions));
+        let reciprocals = least(reciprocals);
+        let middle = |of: &[f32; 8], axis: usize| 0.5 * (of[axis] - of[axis + 3]);
+        let half = |axis: usize| 0.5 * (-starts[axis + 3] - starts[axis]);
+        let [x, y, z] = [half(0), half(1), half(2)];
+        let far = |axis: usize| starts[axis].abs().max(starts[axis + 3].abs());
+        let pad = far(0).max(far(1)).max(far(2)) * SLACK + 1e-24;
+        let width = (x * x + y * y + z * z).sqrt() * 1.001 + 4.0 * pad;
+        let [x, y, z] = [middle(&directions, 0), middle(&directions, 1), middle(&directions, 2)];
+        let length = (x * x + y * y + z * z).sqrt();
+        let along = splat3(simd, [x / length, y / length, z / length]);
+        let mut cosine = one;
+        for packet in 0..count.div_ceil(8) {
+            let own = mask32x8::from_bitmask(simd, all >> (8 * packet) & 0xff);
+            let dir = |axis: usize| column(simd, &memory.numbers[3 + axis], start, packet);
+            let dot = dir(0) * along[0] + dir(1) * along[1] + dir(2) * along[2];
+            cosine = own.select(dot, one).min(cosine);
+        }
+        let cosine = lowest(cosine) - 1e-5;
+        // Of a beam this wide, which there is not where directions are unit, nothing is said.
+        let spread =
+            if cosine > 0.1 { (1.0 - cosine * cosine).sqrt() / cosine } else { f32::INFINITY };
+        let (mut near_origin, mut far_origin, mut reciprocal) = ([0.0; 3], [0.0; 3], [[0.0; 2]; 3]);
+        for axis in 0..3 {
+            let (low, high) = (starts[axis] - pad, pad - starts[axis + 3]);
+            let (near, far) = if negative[axis] { (low, high) } else { (high, low) };
+            (near_origin[axis], far_origin[axis]) = (near, far);
+            reciprocal[axis] = [reciprocals[axis], -reciprocals[axis + 3]];
+        }
+        Self {
+            start,
+            all,
+            negative,
+            pad,
+            t_min: starts[6],
+            t_max: -starts[7],
+            near_origin,
+            far_origin,
+            reciprocal,
+            middle: splat3(simd, [middle(&starts, 0), middle(&starts, 1), middle(&starts, 2)]),
+            along,
+            width,
+            spread,
+        }
+    }
+
+    /// The rays that hit something.
+    #[inline(always)]
+    fn trace(&self, simd: S, world: &World<'_>, root: Ref, memory: &mut Memory) -> u64 {
+        let mut active = self.all;
+        memory.entries[0] = Entry { key: u64::from(root.0), rays: active, parent: NO_BOX };
+        let mut depth = 1;
+        while depth > 0 {
+            depth -= 1;
+            let Entry { key, rays, parent } = memory.entries[depth];
+            let mut rays = rays & active;
+            if rays == 0 {
+                continue;
+            }
+            if parent != NO_BOX {
+                let node = rows(world.rows, parent as usize / 8);
+                rays = self.enter(simd, node, parent as usize % 8, rays, memory);
+                if rays == 0 {
+                    continue;
+                }
+            }
+            let at = Ref(key as u32);
+            if at.kind().is_none() {
+                depth = self.visit(simd, world, at, rays, &mut memory.entries, depth);
+                continue;
+            }
+            active &= !self.leaf(simd, rows(world.rows, at.row()), rays, memory);
+            if active == 0 {
+                break;
+            }
+        }
+        self.all & !active
+    }
+
+    /// Those of some rays that enter the box of a child.
+    #[inline(always)]
+    fn enter(&self, simd: S, node: &[Row; NODE], lane: usize, rays: u64, memory: &Memory) -> u64 {
+        let side = |row: usize| f32x8::splat(simd, node[row & 7].0[lane & 7]);
+        let near = |axis: usize| 2 * axis + usize::from(self.negative[axis]);
+        let nears = [side(near(0)), side(near(1)), side(near(2))];
+        let fars = [side(near(0) ^ 1), side(near(1) ^ 1), side(near(2) ^ 1)];
+        let pad = |axis: usize| if self.negative[axis] { -self.pad } else { self.pad };
+        let pads = [pad(0), pad(1), pad(2)];
+        let mut met = 0;
+        let mut left = rays;
+        while left != 0 {
+            let packet = left.trailing_zeros() as usize / 8;
+            left &= !(0xff << (8 * packet));
+            let mut first = f32x8::splat(simd, self.t_min);
+            let mut last = f32x8::splat(simd, self.t_max);
+            for axis in 0..3 {
+                let origin = column(simd, &memory.numbers[axis], self.start, packet);
+                let reciprocal = load(simd, &memory.reciprocal[axis][packet & 7]);
+                first = first.max((nears[axis] - (origin + pads[axis])) * reciprocal);
+                let reciprocal = reciprocal * (1.0 + SLACK);
+                last = last.min((fars[axis] - (origin - pads[axis])) * reciprocal);
+            }
+            met |= first.simd_le(last).to_bitmask() << (8 * packet);
+        }
+        met & rays
+    }
+
+    /// Pushes the children of a node that some ray may enter, with the nearest on top.
+    #[inline(always)]
+    fn visit(
+        &self,
+        simd: S,
+        world: &World<'_>,
+        at: Ref,
+        rays: u64,
+        entries: &mut [Entry],
+        bottom: usize,
+    ) -> usize {
+        let node: &[Row; NODE] = rows(world.rows, at.row());
+        let mut first = f32x8::splat(simd, self.t_min);
+        let mut last = f32x8::splat(simd, self.t_max);
+        // No closures: they would become calls.
+        for axis in 0..3 {
+            let near = 2 * axis + usize::from(self.negative[axis]);
+            let [low, high] = self.reciprocal[axis];
+            let way = load(simd, &node[near & 7].0) - self.near_origin[axis];
+            first = first.max((way * low).min(way * high));
+            let way = load(simd, &node[(near ^ 1) & 7].0) - self.far_origin[axis];
+            last = last.min((way * (low * (1.0 + SLACK))).max(way * (high * (1.0 + SLACK))));
+        }
+        let mut mask = first.simd_le(last).to_bitmask() as u32;
+        let enter = first.to_array();
+        let mut depth = bottom;
+        while mask != 0 {
+            let lane = mask.trailing_zeros() as usize & 7;
+            mask &= mask - 1;
+            let child = Ref(node[REFS].bits(lane)).from(at.row());
+            let key = u64::from(enter[lane].to_bits()) << 32 | u64::from(child.0);
+            let mut place = depth;
+            while place > bottom && entries[place - 1].key < key {
+                entries[place] = entries[place - 1];
+                place -= 1;
+            }
+            entries[place] = Entry { key, rays, parent: (at.row() * 8 + lane) as u32 };
+            depth += 1;
+        }
+        depth
+    }
+
+    /// Those of some rays that hit a sphere of a leaf.
+    #[inline(always)]
+    fn leaf(&self, simd: S, block: &[Row; BLOCK], rays: u64, memory: &Memory) -> u64 {
+        let count = rays.count_ones();
+        // For few rays, finding the spheres that all of them miss costs more than it saves.
+        let mut spheres = if count <= FEW { 0 } else { self.near(simd, block) };
+        let mut hit = 0;
+        if count <= FEW || count <= spheres.count_ones() * packets(rays) {
+            let mut left = rays;
+            while left != 0 {
+                let i = left.trailing_zeros() as usize & 63;
+                left &= left - 1;
+                let number = |of: usize| f32x8::splat(simd, memory.numbers[of][self.start + i]);
+                let ray = Closest8 {
+                    origin: [number(0), number(1), number(2)],
+                    dir: [number(3), number(4), number(5)],
+                    scale: number(6),
+                    t_min: number(7),
+                    t_max: number(8),
+                };
+                hit |= u64::from(ray.intersect(simd, block).0 != 0) << i;
+            }
+            return hit;
+        }
+        while spheres != 0 {
+            let lane = spheres.trailing_zeros() as usize & 7;
+            spheres &= spheres - 1;
+            let mut left = rays & !hit;
+            while left != 0 {
+                let packet = left.trailing_zeros() as usize / 8;
+                left &= !(0xff << (8 * packet));
+                let numbers = |of: usize| column(simd, &memory.numbers[of], self.start, packet);
+                let eight = Closest8 {
+                    origin: [numbers(0), numbers(1), numbers(2)],
+                    dir: [numbers(3), numbers(4), numbers(5)],
+                    scale: numbers(6),
+                    t_min: numbers(7),
+                    t_max: numbers(8),
+                };
+                if let Some((met, _)) = eight.intersect_one(simd, block, lane) {
+                    hit |= met.to_bitmask() << (8 * packet) & rays;
+                }
+            }
+        }
+        hit
+    }
+
+    /// The spheres of a leaf that some ray may hit, a bit each.
+    ///
+    /// A point that a ray comes to at `t` is off the line through the middle by no more than the ray's start is and what its
+    /// angle makes of `t`, and a little less far along it.
+    #[inline(always)]
+    fn near(&self, simd: S, block: &[Row; BLOCK]) -> u32 {
+        if self.spread == f32::INFINITY {
+            return 0xff;
+        }
+        let row = |row: usize| load(simd, &block[row].0);
+        let c = [row(0) - self.middle[0], row(1) - self.middle[1], row(2) - self.middle[2]];
+        let [ax, ay, az] = self.along;
+        let along = c[0] * ax + c[1] * ay + c[2] * az;
+        let off = [c[0] - along * ax, c[1] - along * ay, c[2] - along * az];
+        let off = off[0] * off[0] + off[1] * off[1] + off[2] * off[2];
+        // What rounding can do here and in the kernel is far less than that.
+        let rounding = (c[0].abs() + c[1].abs() + c[2].abs()) * 1e-5;
+        let reach = row(3) * 1.001 + rounding + self.width;
+        let most = reach + (along + reach) * self.spread;
+        let far = off.simd_gt(most * most) | (along + reach).simd_lt(f32x8::splat(simd, 0.0));
+        !far.to_bitmask() as u32 & 0xff
+    }
+}
+
+/// A number of eight rays of a beam.
+#[inline(always)]
+fn column<S: Simd>(simd: S, numbers: &[f32], start: usize, packet: usize) -> f32x8<S> {
+    let from = start + 8 * packet;
+    f32x8::from_slice(simd, &numbers[from..from + 8])
+}
+
+#[inline(always)]
+fn load<S: Simd>(simd: S, lanes: &[f32; 8]) -> f32x8<S> {
+    f32x8::load_array_ref(simd, lanes)
+}
