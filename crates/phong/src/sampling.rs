@@ -131,12 +131,28 @@ impl Samplers8 {
         Places8::new(self, purpose).at(self.index)
     }
 
-    /// Of `count` places for each sample the one of this number. All of a pixel's samples fill the square
-    /// evenly; those of one sample do as well, and are not its middle.
+    /// Several places for each sample. All of a pixel's samples fill the square evenly; those of one sample do as well, and
+    /// are not its middle.
     #[inline(always)]
-    pub(crate) fn several(&self, purpose: Use, number: u32, count: u32) -> [[f32; 8]; 2] {
-        let index = self.index.map(|index| index.wrapping_mul(count).wrapping_add(number));
-        Places8::new(&Self { centred: false, ..*self }, purpose).at(index)
+    pub(crate) fn several(&self, purpose: Use) -> Several8 {
+        let places = Places8::new(&Self { centred: false, ..*self }, purpose);
+        Several8 { places, index: self.index }
+    }
+}
+
+/// Several places for each of eight samples.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(32))]
+pub(crate) struct Several8 {
+    places: Places8,
+    index: [u32; 8],
+}
+
+impl Several8 {
+    /// Of `count` places for each sample the one of this number.
+    #[inline(always)]
+    pub(crate) fn at(&self, number: u32, count: u32) -> [[f32; 8]; 2] {
+        self.places.at(self.index.map(|index| index.wrapping_mul(count).wrapping_add(number)))
     }
 }
 
@@ -245,7 +261,7 @@ mod tests {
             for index in 0..samples {
                 let samplers = Samplers8::splat(Sampler::new([3, 7], index, samples, 1));
                 for number in 0..several {
-                    let [x, _] = samplers.several(Use::Around, number, several);
+                    let [x, _] = samplers.several(Use::Around).at(number, several);
                     columns[(x[5] * 64.0) as usize] += 1;
                 }
             }

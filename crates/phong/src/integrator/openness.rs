@@ -1,8 +1,10 @@
 //! Ambient occlusion: the share of rays over a surface that meet nothing nearby.
 //!
 //! The rays are spread by the cosine to the normal, so that the share is of the light that a sky of one
-//! colour sends, as a matt surface weighs it. They start where shadow rays start, and are traced eight side
-//! by side, one of each surface of a bundle at a time.
+//! colour sends, as a matt surface weighs it. They start where shadow rays start. Where there are many of each surface,
+//! all those of some neighbouring surfaces are traced together; else one of each surface of a bundle at a time.
+
+use std::ops::Range;
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 use phong_bvh::{Kernel, Rays8, lanes};
@@ -16,12 +18,21 @@ use crate::camera::concentric_disc8;
 use crate::light::across;
 use crate::math::lanes::{Lanes3, add, get, load3, normalize, scale, set, store3};
 use crate::sampling::{Samplers8, Use};
+use crate::sky::Sky;
 use crate::terms::Term;
 use crate::view::Occlusion;
+
+/// From so many rays of a surface on all those of some surfaces are traced together.
+const MANY: u32 = 16;
+/// The rays that are traced together then, in eights.
+const TOGETHER: u32 = 512;
 
 /// How open the surroundings of surfaces are.
 #[derive(Default)]
 pub(super) struct Openness {
+    /// Where the rays of each surface start.
+    starts: Vec<Rays8>,
+    /// A ray of each of some surfaces, then the next of each.
     rays: Vec<Rays8>,
     blocked: Vec<u32>,
     /// The share of rays that meet nothing, eight surfaces for eight; empty where it is not asked for.
@@ -78,7 +89,7 @@ impl Integrator<'_> {
         to: &mut Openness,
     ) -> u64 {
         let world = self.scene.world();
-        let Openness { rays, blocked, shares, light } = to;
+        let Openness { starts, rays, blocked, shares, light } = to;
         let sky = self.scene.sky();
         let len = samplers.len();
         shares.clear();
@@ -91,44 +102,43 @@ impl Integrator<'_> {
             return 0;
         }
         shares.resize(len, [0.0; 8]);
-        rays.resize(len, Rays8::NONE);
-        blocked.resize(len, 0);
-        world.run(Starts { interactions, to: &mut *rays });
+        starts.resize(len, Rays8::NONE);
+        world.run(Starts { interactions, to: &mut *starts });
+        let samples = occlusion.samples;
+        let many = samples >= MANY;
+        // Of so many eights of surfaces so many rays each.
+        let across = if many { (TOGETHER / samples).max(8) as usize } else { len.max(1) };
+        let along = if many { samples.min(TOGETHER / 8) } else { 1 };
         let mut count = 0;
-        for number in 0..occlusion.samples {
-            if self.is_stopped() {
-                return count;
-            }
-            let sent = world.run(Spread { occlusion, number, interactions, samplers, to: rays });
-            if self.shadows {
-                count += sent;
-                self.scene.occluded_eights(rays, blocked);
-            } else {
-                blocked.fill(0);
-            }
-            if let Some(sky) = sky {
-                for ((light, rays), blocked) in light.iter_mut().zip(&*rays).zip(&*blocked) {
-                    for lane in lanes(rays.there) {
-                        let ray = rays.get(lane);
-                        let left = match blocked >> lane & 1 {
-                            0 => Rgb::WHITE,
-                            _ if self.scene.has_filters() => self.left_of_light(&ray, |_| true),
-                            _ => continue,
-                        };
-                        let more = left * sky.light(ray.dir);
-                        set(light, lane, (Rgb::from(get(light, lane)) + more).to_array());
-                    }
+        for first in (0..len).step_by(across) {
+            let eights = first..(first + across).min(len);
+            for number in (0..samples).step_by(along as usize) {
+                if self.is_stopped() {
+                    return count;
                 }
-            }
-            for ((shares, rays), blocked) in shares.iter_mut().zip(&*rays).zip(&*blocked) {
-                for lane in lanes(rays.there & !blocked) {
-                    shares[lane] += 1.0;
+                let numbers = number..(number + along).min(samples);
+                let (eights, starts) = (eights.clone(), &starts[eights.clone()]);
+                rays.resize(eights.len() * numbers.len(), Rays8::NONE);
+                blocked.resize(rays.len(), 0);
+                let (samplers, to) = (&samplers[eights.clone()], &mut rays[..]);
+                let sent =
+                    Spread { occlusion, numbers, eights, interactions, samplers, starts, to };
+                let sent = world.run(sent);
+                if !self.shadows {
+                    blocked.fill(0);
+                } else if many {
+                    count += sent;
+                    self.scene.occluded_scattered(rays, blocked);
+                } else {
+                    count += sent;
+                    self.scene.occluded_eights(rays, blocked);
                 }
-                if self.scene.has_filters() {
-                    for lane in lanes(rays.there & blocked) {
-                        let Rgb { r, g, b } = self.left_of_light(&rays.get(lane), |_| true);
-                        shares[lane] += (r + g + b) / 3.0;
+                let (width, end) = (starts.len(), first + starts.len());
+                for (rays, blocked) in rays.chunks(width).zip(blocked.chunks(width)) {
+                    if let Some(sky) = sky {
+                        self.add_light(sky, rays, blocked, &mut light[first..end]);
                     }
+                    self.add_shares(rays, blocked, &mut shares[first..end]);
                 }
             }
         }
@@ -141,16 +151,52 @@ impl Integrator<'_> {
         }
         count
     }
+
+    /// Adds to the light of some surfaces what comes along a ray of each.
+    fn add_light(&self, sky: &Sky, rays: &[Rays8], blocked: &[u32], light: &mut [Lanes3]) {
+        for ((light, rays), blocked) in light.iter_mut().zip(rays).zip(blocked) {
+            for lane in lanes(rays.there) {
+                let ray = rays.get(lane);
+                let left = match blocked >> lane & 1 {
+                    0 => Rgb::WHITE,
+                    _ if self.scene.has_filters() => self.left_of_light(&ray, |_| true),
+                    _ => continue,
+                };
+                let more = left * sky.light(ray.dir);
+                set(light, lane, (Rgb::from(get(light, lane)) + more).to_array());
+            }
+        }
+    }
+
+    /// Adds to the shares of some surfaces what is left along a ray of each.
+    fn add_shares(&self, rays: &[Rays8], blocked: &[u32], shares: &mut [[f32; 8]]) {
+        for ((shares, rays), blocked) in shares.iter_mut().zip(rays).zip(blocked) {
+            for lane in lanes(rays.there & !blocked) {
+                shares[lane] += 1.0;
+            }
+            if self.scene.has_filters() {
+                for lane in lanes(rays.there & blocked) {
+                    let Rgb { r, g, b } = self.left_of_light(&rays.get(lane), |_| true);
+                    shares[lane] += (r + g + b) / 3.0;
+                }
+            }
+        }
+    }
 }
 
-/// Sends one ray from every surface, where one is above its horizon. The others count as met: as with
+/// Sends some rays from each of some surfaces, where they are above its horizon. The others count as met: as with
 /// lights, that is the horizon of N, and of faces as well that stand for no smooth surface.
 struct Spread<'a> {
     occlusion: Occlusion,
     /// Which of the rays of a surface.
-    number: u32,
+    numbers: Range<u32>,
+    /// Which of the surfaces.
+    eights: Range<usize>,
     interactions: &'a Interactions,
+    /// Those of these surfaces.
     samplers: &'a [Samplers8],
+    starts: &'a [Rays8],
+    /// One ray of each surface, then the next of each.
     to: &'a mut [Rays8],
 }
 
@@ -159,30 +205,38 @@ impl Kernel for Spread<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> u64 {
-        let Self { occlusion: Occlusion { samples, distance }, number, .. } = self;
-        let Self { interactions: Interactions { hits, shading, .. }, samplers, to, .. } = self;
+        let Self { occlusion: Occlusion { samples, distance }, numbers, eights, .. } = self;
+        let Self { interactions: Interactions { hits, shading, .. }, samplers, starts, to, .. } =
+            self;
+        let (hits, shading) = (&hits[eights.clone()], &shading[eights]);
         let one = f32x8::splat(simd, 1.0);
+        let zero = f32x8::splat(simd, 0.0);
+        let width = starts.len();
         let mut count = 0;
-        for (((to, samplers), hits), shading) in to.iter_mut().zip(samplers).zip(hits).zip(shading)
+        for (i, ((samplers, starts), (hits, shading))) in
+            samplers.iter().zip(starts).zip(hits.iter().zip(shading)).enumerate()
         {
-            to.there = 0;
+            let to = to.iter_mut().skip(i).step_by(width.max(1));
             if hits.met == 0 {
+                to.for_each(|to| to.there = 0);
                 continue;
             }
-            let [low, high] =
-                concentric_disc8(simd, &samplers.several(Use::Around, number, samples));
-            let [u, v] = [low[0].narrow(high[0]), low[1].narrow(high[1])];
-            let n = load3(simd, &shading.n);
-            let up = one - u * u - v * v;
-            let zero = f32x8::splat(simd, 0.0);
-            let up = up.simd_gt(zero).select(up, zero).sqrt();
-            let dir = normalize(add(across(one, n, [u, v]), scale(up, n)));
+            let places = samplers.several(Use::Around);
+            let (n, front) = (load3(simd, &shading.n), load3(simd, &shading.front));
             let smooth = mask32x8::from_bitmask(simd, shading.smooth.into());
-            let above = is_above(dir, n) & (is_above(dir, load3(simd, &shading.front)) | smooth);
-            to.there = hits.met & above.to_bitmask() as u32;
-            to.dir = store3(dir);
-            to.t_max = [distance; 8];
-            count += u64::from(to.there.count_ones());
+            for (number, to) in numbers.clone().zip(to) {
+                let [low, high] = concentric_disc8(simd, &places.at(number, samples));
+                let [u, v] = [low[0].narrow(high[0]), low[1].narrow(high[1])];
+                let up = one - u * u - v * v;
+                let up = up.simd_gt(zero).select(up, zero).sqrt();
+                let dir = normalize(add(across(one, n, [u, v]), scale(up, n)));
+                let above = is_above(dir, n) & (is_above(dir, front) | smooth);
+                to.there = hits.met & above.to_bitmask() as u32;
+                to.origin = starts.origin;
+                to.dir = store3(dir);
+                to.t_max = [distance; 8];
+                count += u64::from(to.there.count_ones());
+            }
         }
         count
     }

@@ -276,6 +276,17 @@ impl View {
     /// Which rays of a bundle meet anything, a bit each.
     pub(crate) fn occluded_eights(&self, rays: &[Rays8], blocked: &mut [u32]) {
         self.world().occluded_eights(rays, blocked);
+        self.clip_occluded(rays, blocked);
+    }
+
+    /// [`Scene::occluded_eights`] of rays that start close together and go everywhere.
+    pub(crate) fn occluded_scattered(&self, rays: &[Rays8], blocked: &mut [u32]) {
+        self.world().occluded_scattered(rays, blocked);
+        self.clip_occluded(rays, blocked);
+    }
+
+    /// Corrects what is said of rays that meet what is cut away, or a cap.
+    fn clip_occluded(&self, rays: &[Rays8], blocked: &mut [u32]) {
         let Some(clipping) = &self.clipping else { return };
         let mut found = Vec::new();
         for (rays, blocked) in rays.iter().zip(blocked) {
