@@ -43,8 +43,10 @@ class Client:
         self.look, self.tiles, self.bytes = {}, 0, 0
 
     def ask(self, **request):
-        data = json.dumps(request).encode()
-        head = bytes([0x81]) + (bytes([0x80 | len(data)]) if len(data) < 126 else bytes([0xFE]) + struct.pack(">H", len(data)))
+        self.say(0x81, json.dumps(request).encode())
+
+    def say(self, kind, data):
+        head = bytes([kind]) + (bytes([0x80 | len(data)]) if len(data) < 126 else bytes([0xFE]) + struct.pack(">H", len(data)))
         self.socket.sendall(head + bytes(4) + data)  # a mask of zeros is a mask
 
     def hear(self):
@@ -55,6 +57,8 @@ class Client:
             length = int.from_bytes(self.file.read(2 if length == 126 else 8), "big")
         data = self.file.read(length)
         if first & 15 == 9:
+            # Whoever does not answer for a minute is taken for gone: so long can a picture take on a busy machine.
+            self.say(0x8A, data)
             return self.hear()
         return json.loads(data) if first & 15 == 1 else data
 
