@@ -1,5 +1,7 @@
 //! Half of an image: the mean of linear values over the place of each pixel.
 
+use std::sync::OnceLock;
+
 use super::{TexelValues, Texels};
 use crate::color::srgb_encode;
 
@@ -28,33 +30,27 @@ pub(super) fn half(texels: &Texels, srgb: bool) -> Option<Texels> {
         _ => &[0, 1, 2, 3],
     };
     let columns: Vec<_> = (0..size[0]).map(|x| covered(width, size[0], x)).collect();
-    let mut means = Vec::with_capacity(size[0] as usize * size[1] as usize * channels);
-    for y in 0..size[1] {
-        let rows = covered(height, size[1], y);
-        for columns in &columns {
-            let mut sum = [0.0_f64; 4];
-            for &(y, down) in &rows {
-                for &(x, across) in columns {
-                    let pixel = texels.get([x, y], srgb);
-                    let weight = down * across;
-                    sum.iter_mut().zip(pixel).for_each(|(s, v)| *s += weight * f64::from(v));
-                }
-            }
-            let encode = |channel: usize| {
+    let count = size[0] as usize * size[1] as usize * channels;
+    if let TexelValues::Bytes(_) = texels.values() {
+        let codes = codes();
+        let mut bytes = Vec::with_capacity(count);
+        each_mean(texels, size, &columns, srgb, |sum| {
+            bytes.extend(own.iter().map(|&channel| {
                 let value = sum[channel];
-                if srgb && channel < 3 && (0.0..=1.0).contains(&value) {
-                    return srgb_encode(value);
-                }
-                value
-            };
-            means.extend(own.iter().map(|&channel| encode(channel)));
-        }
+                if srgb && channel < 3 { codes.of(value) } else { (value * 255.0 + 0.5) as u8 }
+            }));
+        });
+        return Texels::new(size, channels, TexelValues::Bytes(bytes)).ok();
     }
+    let mut means = Vec::with_capacity(count);
+    each_mean(texels, size, &columns, srgb, |sum| {
+        means.extend(own.iter().map(|&channel| {
+            let value = sum[channel];
+            if srgb && channel < 3 { encode(value) } else { value }
+        }));
+    });
     let values = match texels.values() {
-        TexelValues::Bytes(_) => {
-            TexelValues::Bytes(means.iter().map(|mean| (mean * 255.0 + 0.5) as u8).collect())
-        }
-        TexelValues::Shorts(_) => {
+        TexelValues::Bytes(_) | TexelValues::Shorts(_) => {
             TexelValues::Shorts(means.iter().map(|mean| (mean * 65535.0 + 0.5) as u16).collect())
         }
         TexelValues::Floats(_) => {
@@ -64,9 +60,95 @@ pub(super) fn half(texels: &Texels, srgb: bool) -> Option<Texels> {
     Texels::new(size, channels, values).ok()
 }
 
+/// Tells the means over the places of the pixels of an image of this size, row by row.
+fn each_mean(
+    texels: &Texels,
+    size: [u32; 2],
+    columns: &[Vec<(u32, f64)>],
+    srgb: bool,
+    mut tell: impl FnMut([f64; 4]),
+) {
+    let [width, height] = texels.size();
+    let mut pixels: Vec<[f32; 4]> = Vec::new();
+    for y in 0..size[1] {
+        let rows = covered(height, size[1], y);
+        pixels.clear();
+        for &(y, _) in &rows {
+            pixels.extend((0..width).map(|x| texels.get([x, y], srgb)));
+        }
+        for columns in columns {
+            let mut sum = [0.0_f64; 4];
+            for (&(_, down), pixels) in rows.iter().zip(pixels.chunks_exact(width as usize)) {
+                for &(x, across) in columns {
+                    let weight = down * across;
+                    let pixel = pixels[x as usize];
+                    sum.iter_mut().zip(pixel).for_each(|(s, v)| *s += weight * f64::from(v));
+                }
+            }
+            tell(sum);
+        }
+    }
+}
+
+/// The sRGB code of a value; of what is beyond 0 to 1 itself.
+fn encode(value: f64) -> f64 {
+    if (0.0..=1.0).contains(&value) { srgb_encode(value) } else { value }
+}
+
+/// The bytes that are the sRGB codes of values, told without a power where there is no doubt.
+struct Codes {
+    /// That of all values between a number of [`STEPS`] and the next; `None`: they have more than one, or nearly so.
+    steps: Vec<Option<u8>>,
+}
+
+/// So many steps from 0 to 1.
+const STEPS: u16 = 1 << 12;
+
+impl Codes {
+    fn new() -> Self {
+        let ends = (0..=STEPS).map(|step| encode(f64::from(step) / f64::from(STEPS)) * 255.0 + 0.5);
+        let ends: Vec<f64> = ends.collect();
+        let code = |ends: &[f64]| {
+            // The power is off by far less.
+            let [low, high] = [ends[0] - 1e-6, ends[1] + 1e-6].map(|end| end as u8);
+            (low == high).then_some(low)
+        };
+        Self { steps: ends.windows(2).map(code).collect() }
+    }
+
+    fn of(&self, value: f64) -> u8 {
+        if (0.0..1.0).contains(&value)
+            && let Some(code) = self.steps[(value * f64::from(STEPS)) as usize]
+        {
+            return code;
+        }
+        (encode(value) * 255.0 + 0.5) as u8
+    }
+}
+
+fn codes() -> &'static Codes {
+    static CODES: OnceLock<Codes> = OnceLock::new();
+    CODES.get_or_init(Codes::new)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn codes_told_without_a_power_are_those_that_it_gives() {
+        let codes = codes();
+        assert!(codes.steps.iter().flatten().count() > codes.steps.len() * 9 / 10);
+        // Every step's own values, and those about the places where one code becomes the next.
+        let even = (0..=1_000_000).map(|i| f64::from(i) / 1e6);
+        let edges = (0..255).flat_map(|code| {
+            let edge = crate::color::srgb_decode((f64::from(code) + 0.5) / 255.0);
+            [-1e-9, -1e-15, 0.0, 1e-15, 1e-9].map(|off| edge + off)
+        });
+        for value in even.chain(edges).chain([-0.1, 1.0 + 1e-15, 2.0]) {
+            assert_eq!(codes.of(value), (encode(value) * 255.0 + 0.5) as u8, "{value}");
+        }
+    }
 
     #[test]
     fn the_pixels_of_half_an_image_share_all_of_it_evenly() {
