@@ -37,7 +37,7 @@ use relief::{Relief, Turned};
 use shading::Shading;
 pub(crate) use shading::Shading8;
 pub(crate) use varied::MadeMaterial;
-use varied::Varied;
+use varied::{Asked, Varied};
 
 /// A geometry and its look together. Made in no time, immutable, and shared freely between threads.
 #[derive(Clone, Debug)]
@@ -62,6 +62,8 @@ pub struct View {
     has_footprints: bool,
     /// Whether those of any depend on the normal.
     has_normal_maps: bool,
+    /// What they ask for of points of surfaces.
+    asked: Asked,
     /// Of each part the properties of its points that maps show; empty: they show none.
     properties: Vec<Properties>,
     /// Where rays need more than the closest hit; `None`: nowhere.
@@ -218,6 +220,7 @@ impl View {
             has_ends: lights.iter().any(Light::has_end),
             has_ambient_per_light: materials.iter().any(Material::takes_ambient_per_light),
             has_footprints: !varied.is_empty() && textures.iter().any(Texture::has_footprint),
+            asked: Asked::by(&textures),
             has_normal_maps: !varied.is_empty() && textures.iter().any(Texture::has_normals),
             properties,
             textures,
@@ -414,14 +417,14 @@ impl View {
         let surface = self.surface(ray, hit);
         let Surface { p, p_error, ng } = surface;
         let (ng, e) = (Dir3::from_unit(ng), -Dir3::from_unit(ray.dir));
-        let Shading { n, material, color } = self.shading(hit, ng, e);
+        let Shading { n, is_turned, material, color } = self.shading(hit, ng, e);
         let color = color.unwrap_or_else(|| self.color_at(material, ray, hit, &surface));
         let n = match self.relief(material) {
             Some(relief) => {
                 let (point, front) =
                     (self.texture_point(ray, hit, p, ng.to_vec(), 0.0), ng.facing(e));
-                let (n, front, ng) = (n.to_vec(), front.to_vec(), ng.to_vec());
-                let at = Turned { ray, hit, point: &point, n, front, ng };
+                let (n, front) = (n.to_vec(), front.to_vec());
+                let at = Turned { ray, hit, point: &point, n, front, is_flipped: is_turned };
                 Dir3::from_unit(self.turned_normal(relief, &at))
             }
             None => n,

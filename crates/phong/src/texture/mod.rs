@@ -39,6 +39,8 @@ pub struct Texture {
     space: TextureSpace,
     /// From the space it lies in to where it is described.
     from_space: DAffine3,
+    /// Whether these are the same.
+    is_in_place: bool,
     pattern: Pattern,
 }
 
@@ -95,28 +97,35 @@ pub struct Footprint {
 impl Texture {
     /// The texture as it was written.
     pub fn new(texture: &phong_scene::Texture, context: MapContext<'_>) -> Self {
+        let from_space = texture.transform.inverse();
         Self {
             space: texture.space,
-            from_space: texture.transform.inverse(),
+            from_space,
+            is_in_place: from_space == DAffine3::IDENTITY,
             pattern: Pattern::new(texture, context),
         }
     }
 
+    /// The space that it lies in.
+    pub(crate) fn space(&self) -> TextureSpace {
+        self.space
+    }
+
     /// Its value at a point of a surface. Linear.
     pub fn value(&self, at: &TexturePoint, asked: TextureUse) -> Rgb {
+        if let (Pattern::Image(image), true, TextureSpace::Uv) =
+            (&self.pattern, self.is_in_place, self.space)
+        {
+            let uv = DVec2::new(at.uv[0].into(), at.uv[1].into());
+            return of_image(image.value(uv, at.footprint.uv, asked.is_color), asked);
+        }
         let p = self.from_space.transform_point3(self.place(at));
         let value = match &self.pattern {
             Pattern::Checker(checker) => checker.value(p),
             Pattern::Gradient(gradient) => gradient.value(p),
             Pattern::Image(image) => {
-                let [r, g, b, opacity] = {
-                    let sides = self.sides(at).map(DVec3::truncate);
-                    image.value(p.truncate(), sides, asked.is_color)
-                };
-                if asked.channel == Some(Channel::Alpha) {
-                    return Rgb::grey(opacity);
-                }
-                return Rgb::new(r, g, b);
+                let sides = self.sides(at).map(DVec3::truncate);
+                return of_image(image.value(p.truncate(), sides, asked.is_color), asked);
             }
             Pattern::Map(map) => map.value(at, p),
             Pattern::Grid(grid) => grid.value(p, self.sides(at)),
@@ -175,6 +184,12 @@ impl Texture {
             TextureSpace::Uv => DVec3::new(at.uv[0].into(), at.uv[1].into(), 0.0),
         }
     }
+}
+
+/// What is asked of a value of an image.
+#[inline]
+fn of_image([r, g, b, opacity]: [f32; 4], asked: TextureUse) -> Rgb {
+    if asked.channel == Some(Channel::Alpha) { Rgb::grey(opacity) } else { Rgb::new(r, g, b) }
 }
 
 impl Pattern {

@@ -38,8 +38,8 @@ pub(super) struct Turned<'a> {
     pub(super) n: Vec3,
     /// The geometric normal on the side that is seen.
     pub(super) front: Vec3,
-    /// The geometric normal as the surface has it.
-    pub(super) ng: Vec3,
+    /// Whether the shading normal is not as the surface has it, but turned to the side that is seen.
+    pub(super) is_flipped: bool,
 }
 
 impl View {
@@ -53,9 +53,7 @@ impl View {
     pub(super) fn turned_normal(&self, relief: Relief, at: &Turned<'_>) -> Vec3 {
         let facing = at.n.as_dvec3();
         // The texture lies about the normal as the surface has it, whichever side is seen.
-        let outer = self.outer_normal(at);
-        let own = if outer.dot(facing) < 0.0 { -facing } else { facing };
-        let side = if own.dot(facing) < 0.0 { -1.0 } else { 1.0 };
+        let (own, side) = if at.is_flipped { (-facing, -1.0) } else { (facing, 1.0) };
         let Some([t, b]) = self.tangents_at(at, own) else { return at.n };
         let mut n = own;
         if let Some((by, format)) = relief.normal {
@@ -126,14 +124,6 @@ impl View {
             if change.y < 0.0 { -1.0 } else { 1.0 }
         });
         Some([t, hand * b])
-    }
-
-    /// The normal on the surface's own outer side: of a mesh that of its normals.
-    fn outer_normal(&self, at: &Turned<'_>) -> DVec3 {
-        if self.cap(at.hit).is_some() {
-            return at.front.as_dvec3();
-        }
-        self.own_normal(at.hit).map_or(at.ng, crate::math::Dir3::to_vec).as_dvec3()
     }
 }
 

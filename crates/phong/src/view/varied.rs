@@ -1,8 +1,8 @@
 //! Surfaces whose materials vary: what their parameters are at a point.
 
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec2, Vec3};
 use phong_bvh::{Hit, Hits8, Ray, Rays8, Surface, Surfaces8, lanes};
-use phong_scene::{ConstantMaterial, Field, Param, Rgb, TextureRef, TextureUse};
+use phong_scene::{ConstantMaterial, Field, Param, Rgb, TextureRef, TextureSpace, TextureUse};
 
 use super::View;
 use super::relief::Turned;
@@ -10,7 +10,7 @@ use super::shading::Shading8;
 use crate::interaction::SurfaceInteraction;
 use crate::material::Material;
 use crate::math::lanes::{get, set};
-use crate::texture::{Footprint, TexturePoint, footprint};
+use crate::texture::{Texture, TexturePoint, footprint};
 
 /// How far back a material that was made is looked for before another one is made.
 const REMEMBERED: usize = 4;
@@ -23,6 +23,17 @@ pub(super) enum Varied {
     Color(TextureRef),
     /// Other parameters, and perhaps its colour.
     More(Option<TextureRef>),
+}
+
+/// What of a point of a surface textures ask for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Asked {
+    /// Where it is in the object's own space.
+    object: bool,
+    /// How texture coordinates change along its footprint.
+    uv_changes: bool,
+    /// The tangent, where it is not the texture coordinates' own.
+    tangent: bool,
 }
 
 /// A material as it is at some surfaces that textures vary.
@@ -55,6 +66,22 @@ impl Varied {
     }
 }
 
+impl Asked {
+    /// Everything that a point has.
+    const ALL: Self = Self { object: true, uv_changes: true, tangent: true };
+
+    /// What these textures look at.
+    pub(super) fn by(textures: &[Texture]) -> Self {
+        Self {
+            object: textures.iter().any(|texture| texture.space() == TextureSpace::Object),
+            uv_changes: textures
+                .iter()
+                .any(|texture| texture.space() == TextureSpace::Uv && texture.has_footprint()),
+            tangent: false,
+        }
+    }
+}
+
 impl View {
     /// Gives those of eight surfaces whose materials vary their own colours and materials. A
     /// material that was made for some is added to `made`, and numbered behind those of the view.
@@ -79,11 +106,15 @@ impl View {
             let p = DVec3::from(surfaces.p.map(|all| all[lane]));
             let ng = Vec3::from(get(&surfaces.ng, lane));
             let width = widths.map_or(0.0, |widths| widths[lane]);
-            let point = self.texture_point(&ray, &hit, p, ng, width);
+            let has_tangents = || self.tangents.get(hit.part as usize).is_some_and(Option::is_some);
+            let tangent = relief.is_some() && !has_tangents();
+            let asked = Asked { tangent, ..self.asked };
+            let point = self.point_asked_for(asked, (&ray, &hit), (p, ng), width);
             if let Some(relief) = relief {
                 let n = Vec3::from(get(&shading.n, lane));
                 let front = Vec3::from(get(&shading.front, lane));
-                let at = Turned { ray: &ray, hit: &hit, point: &point, n, front, ng };
+                let is_flipped = shading.turned >> lane & 1 != 0;
+                let at = Turned { ray: &ray, hit: &hit, point: &point, n, front, is_flipped };
                 let n = self.turned_normal(relief, &at);
                 set(&mut shading.n, lane, n.to_array());
             }
@@ -156,26 +187,53 @@ impl View {
         ng: Vec3,
         width: f32,
     ) -> TexturePoint {
-        let footprint = if width > 0.0 && self.has_footprints {
-            let sides = footprint(width, ray.dir.as_dvec3(), ng.as_dvec3());
-            Footprint {
-                object: sides.map(|side| self.geometry.own_vector(hit, side)),
-                world: sides,
-                uv: self.uv_changes(ray, hit, sides),
-            }
-        } else {
-            Footprint::default()
-        };
-        let here = self.coordinates(ray, hit);
-        TexturePoint {
-            object: self.geometry.own_point(hit, world),
+        self.point_asked_for(Asked::ALL, (ray, hit), (world, ng), width)
+    }
+
+    /// [`View::texture_point`], with 0 for what is not asked for.
+    fn point_asked_for(
+        &self,
+        asked: Asked,
+        (ray, hit): (&Ray, &Hit),
+        (world, ng): (DVec3, Vec3),
+        width: f32,
+    ) -> TexturePoint {
+        let mut point = TexturePoint {
             world,
-            uv: here.uv.to_array(),
-            tangent: here.tangent.to_array(),
             normal: if self.has_normal_maps { self.outwards(hit, ng) } else { [0.0; 3] },
             properties: self.properties_at(hit),
-            footprint,
+            ..TexturePoint::default()
+        };
+        if asked.object {
+            point.object = self.geometry.own_point(hit, world);
         }
+        if width > 0.0 && self.has_footprints {
+            let sides = footprint(width, ray.dir.as_dvec3(), ng.as_dvec3());
+            point.footprint.world = sides;
+            if asked.object {
+                point.footprint.object = sides.map(|side| self.geometry.own_vector(hit, side));
+            }
+            if asked.uv_changes {
+                point.footprint.uv = self.uv_changes(ray, hit, sides);
+            }
+        }
+        let own = if asked.tangent { None } else { self.own_uv(hit) };
+        if let Some(uv) = own {
+            point.uv = uv.to_array();
+        } else {
+            let here = self.coordinates(ray, hit);
+            (point.uv, point.tangent) = (here.uv.to_array(), here.tangent.to_array());
+        }
+        point
+    }
+
+    /// The texture coordinates that the geometry itself brings.
+    fn own_uv(&self, hit: &Hit) -> Option<Vec2> {
+        if self.cap(hit).is_some() {
+            return None;
+        }
+        let corners = self.geometry.corners(hit.part, hit.prim)?;
+        self.geometry.batch(hit.part).uv(hit.prim, corners, hit)
     }
 
     /// The shading normal on the outer side of a surface, before textures turn it.
