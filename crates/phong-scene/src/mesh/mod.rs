@@ -5,6 +5,7 @@
 
 mod blocks;
 mod closed;
+mod colored;
 mod cylinders;
 mod few;
 mod fields;

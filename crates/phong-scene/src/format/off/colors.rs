@@ -1,14 +1,10 @@
 //! Colours that are not said to be bytes or not: all of them together show it.
 
-use std::collections::HashMap;
 use std::sync::Arc;
-
-use glam::Vec3;
 
 use crate::color::{Rgb, are_bytes, srgb_decode};
 use crate::format::text::{Findings, whole};
 use crate::material::ConstantMaterial;
-use crate::mesh::Mesh;
 
 /// What stands for a colour that a line does not have.
 const NO_COLOR: Rgb = Rgb::grey(f32::NAN);
@@ -108,29 +104,6 @@ impl Colors {
         }
         stored
     }
-}
-
-/// Gives every triangle its colour: vertices whose triangles have several become several.
-pub(super) fn color_faces(mesh: &mut Mesh, colors: &[Rgb]) {
-    let mut numbers: HashMap<(u32, [u32; 3]), u32> = HashMap::new();
-    let mut vertices = Vec::new();
-    let mut linear = Vec::new();
-    for (triangle, color) in mesh.indices.iter_mut().zip(colors) {
-        for corner in triangle {
-            let old = *corner;
-            let key = (old, color.to_array().map(f32::to_bits));
-            *corner = *numbers.entry(key).or_insert_with(|| {
-                vertices.push(old as usize);
-                linear.push(*color);
-                vertices.len() as u32 - 1
-            });
-        }
-    }
-    let all = |values: &[Vec3]| vertices.iter().filter_map(|&i| values.get(i).copied()).collect();
-    mesh.positions = all(&mesh.positions);
-    mesh.normals = all(&mesh.normals);
-    mesh.uvs = vertices.iter().filter_map(|&i| mesh.uvs.get(i).copied()).collect();
-    mesh.colors = linear.into();
 }
 
 #[cfg(test)]

@@ -195,7 +195,7 @@ fn mesh(contents: Contents, file: &Arc<str>, findings: &mut Findings) -> Option<
     if !face_colors.is_empty() {
         if mesh.colors.is_empty() {
             let colors = face_colors.finish(mesh.indices.len(), "faces", file, findings);
-            colors::color_faces(&mut mesh, &colors);
+            mesh.color_faces(&colors);
         } else {
             let message = || "colours of faces are not used where vertices have some".to_owned();
             findings.warning("colours of faces", || whole(file), message);
