@@ -7,7 +7,7 @@ use glam::{DAffine3, DVec3};
 
 use super::texture::{Map, MapOf};
 use crate::color::Rgb;
-use crate::diagnostic::Span;
+use crate::diagnostic::{Place, Span};
 use crate::format::text::Findings;
 use crate::limits::Limits;
 use crate::source::{Source, byte_letter};
@@ -32,6 +32,35 @@ impl<'a> Images<'a> {
     /// No textures yet.
     pub(crate) fn new(source: &'a dyn Source, limits: &'a Limits) -> Self {
         Self { source, limits, read: BTreeMap::new(), textures: Vec::new() }
+    }
+
+    /// A texture of the colours of the image of that name beside the file at `file`; else why there is
+    /// none.
+    pub(crate) fn color(
+        &mut self,
+        name: &str,
+        file: &str,
+        place: &Place,
+    ) -> Result<TextureId, String> {
+        let texels = load(name, file, self)?;
+        let texture = TextureId(self.textures.len() as u32);
+        self.textures.push(Texture {
+            name: name.to_owned(),
+            kind: TextureKind::Image {
+                file: name.to_owned(),
+                texels,
+                wrap: Wrap::Repeat,
+                wrap_v: None,
+                border: Rgb::BLACK,
+                tint: Rgb::WHITE,
+                filter: TexelFilter::Auto,
+                encoding: Encoding::Auto,
+            },
+            space: TextureSpace::Uv,
+            transform: DAffine3::IDENTITY,
+            place: place.clone(),
+        });
+        Ok(texture)
     }
 }
 

@@ -7,6 +7,7 @@ use glam::DVec3;
 
 use super::body::{Body, Contents, FaceList, ORIGIN_SAMPLES};
 use super::edges::EdgePlan;
+use super::extras::{ExtrasPlan, ExtrasRow, Use};
 use super::header::Element;
 use super::names::{FIELD, Row, WIDTH};
 use super::vertices::{Plan, tell};
@@ -36,6 +37,15 @@ struct Layout<'a> {
     /// For every property of a vertex its place in a [`Row`].
     places: Vec<Option<usize>>,
     edges: Option<&'a EdgePlan>,
+    extras: Option<&'a ExtrasPlan>,
+}
+
+/// What is used again for every face.
+#[derive(Default)]
+struct Scratch {
+    numbers: Vec<i64>,
+    fan: Vec<u32>,
+    extras: ExtrasRow,
 }
 
 impl Body<'_> {
@@ -55,24 +65,21 @@ impl Body<'_> {
             Lines { blob: self.blob, start, line: header.line, joined: false, rows: Rows::All };
         self.plan.origin = origin_of(self.sample(&elements)?);
 
-        let (plan, edges) = (self.plan.clone(), self.edges.clone());
+        let (plan, edges, extras) = (self.plan.clone(), self.edges.clone(), self.extras.clone());
         let vertex = header.elements.iter().find(|e| e.name == "vertex");
         let place = |property| plan.columns.iter().position(|c| *c == Some(property));
         let places = (0..vertex.map_or(0, |e| e.properties.len())).map(place).collect();
         let (file, vertex_count) = (self.file, self.vertex_count);
-        let edges = edges.as_ref();
-        let layout = Layout { file, plan: &plan, vertex_count, elements, places, edges };
+        let (edges, extras) = (edges.as_ref(), extras.as_ref());
+        let layout = Layout { file, plan: &plan, vertex_count, elements, places, edges, extras };
         let mut rows = 0;
         lines.each(
             |piece| layout.parse(piece),
             |block| {
                 rows = block.rows;
                 self.findings.append(block.findings);
-                contents.vertices.append(block.contents.vertices);
-                contents.faces.append(block.contents.faces);
-                contents.edges.append(block.contents.edges);
-                let faces = &contents.faces;
-                self.has_room(faces.indices.len() as u64, faces.bytes())
+                contents.append(block.contents);
+                self.has_room(contents.faces.indices.len() as u64, contents.face_bytes())
             },
         )?;
         if let Some((first, element, _)) = layout
@@ -123,7 +130,7 @@ impl Layout<'_> {
         let mut block = Block::default();
         let mut cursor = Cursor::new(piece, false);
         let mut row = piece.rows;
-        let mut scratch = (Vec::new(), Vec::new());
+        let mut scratch = Scratch::default();
         while !cursor.is_done() {
             if cursor.is_blank() {
                 cursor.next_line();
@@ -259,16 +266,20 @@ impl Layout<'_> {
         list: FaceList,
         number: u64,
         block: &mut Block,
-        (numbers, scratch): &mut (Vec<i64>, Vec<u32>),
+        Scratch { numbers, fan, extras: row }: &mut Scratch,
     ) {
         let start = cursor.clone();
+        let extras = self.extras.filter(|_| element.name == "face");
         for (i, property) in element.properties.iter().enumerate() {
-            let read = if i == list.property {
-                read_list(cursor, numbers)
-            } else if property.list.is_some() {
-                skip_list(cursor)
-            } else {
-                skip(cursor)
+            let used = extras.and_then(|extras| extras.of(i));
+            let read = match (property.list.is_some(), used) {
+                _ if i == list.property => read_list(cursor, numbers),
+                (true, Some(Use::Uvs)) => read_floats(cursor, &mut row.uvs),
+                (true, _) => skip_list(cursor),
+                (false, Some(used)) => double(cursor)
+                    .or_else(|| cursor.take_no_number().then_some(f64::NAN))
+                    .map(|number| row.set(used, number)),
+                (false, None) => skip(cursor),
             };
             if read.is_none() {
                 let (span, fault) = self.blame(cursor, i, element);
@@ -278,10 +289,14 @@ impl Layout<'_> {
             }
         }
         let faces = &mut block.contents.faces;
-        if let Err(fault) = faces.add(list.kind, numbers, self.vertex_count, scratch) {
+        let before = faces.indices.len();
+        if let Err(fault) = faces.add(list.kind, numbers, self.vertex_count, fan) {
             let span = || start.here(self.file);
             let severity = self.plan.damage();
             tell(&mut block.findings, severity, span, "face", number, &fault);
+        } else if let Some(plan) = extras {
+            let triangles = [before, faces.indices.len()];
+            block.contents.extras.add(plan, row, numbers.len(), triangles);
         }
     }
 
@@ -332,6 +347,16 @@ fn read_list(cursor: &mut Cursor<'_>, numbers: &mut Vec<i64>) -> Option<()> {
     numbers.clear();
     for _ in 0..integer(cursor)? {
         numbers.push(integer(cursor)?);
+    }
+    Some(())
+}
+
+/// Numbers, of which some may be none.
+fn read_floats(cursor: &mut Cursor<'_>, numbers: &mut Vec<f32>) -> Option<()> {
+    numbers.clear();
+    for _ in 0..integer(cursor)? {
+        let number = cursor.float(0.0).or_else(|| cursor.take_no_number().then_some(f32::NAN));
+        numbers.push(number?);
     }
     Some(())
 }

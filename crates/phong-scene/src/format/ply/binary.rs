@@ -11,6 +11,7 @@ use rayon::prelude::*;
 
 use super::body::{Body, Contents, FaceList, ORIGIN_SAMPLES};
 use super::edges::{EdgePlan, Edges};
+use super::extras::{ExtrasRow, Use};
 use super::header::{Element, Encoding, Type};
 use super::names::{Row, WIDTH};
 use super::vertices::{Columns, Vertices, tell};
@@ -62,14 +63,16 @@ impl Body<'_> {
                     self.walk_vertices(element, offset, &mut contents.vertices)?
                 }
                 None => {
-                    let faces = &mut contents.faces;
-                    let uniform = match list {
-                        Some(list) => self.uniform_faces(element, list, offset, faces)?,
+                    let bare = self.extras.is_none() || element.name != "face";
+                    let uniform = match list.filter(|_| bare) {
+                        Some(list) => {
+                            self.uniform_faces(element, list, offset, &mut contents.faces)?
+                        }
                         None => None,
                     };
                     match uniform {
                         None if !self.findings.any_error() => {
-                            self.walk_faces(element, list, offset, faces)?
+                            self.walk_faces(element, list, offset, contents)?
                         }
                         end => end,
                     }
@@ -273,18 +276,31 @@ impl Body<'_> {
         element: &Element,
         list: Option<FaceList>,
         offset: u64,
-        faces: &mut Faces,
+        contents: &mut Contents,
     ) -> io::Result<Option<u64>> {
+        let Contents { faces, extras, .. } = contents;
+        let plan = self.extras.clone().filter(|_| element.name == "face");
+        let mut own = ExtrasRow::default();
         let mut walk = Walk::new(self, offset);
         let mut findings = Findings::default();
         let (mut numbers, mut scratch) = (Vec::new(), Vec::new());
         let most = self.limits.bytes / 8;
         for number in 0..element.count {
             for (i, property) in element.properties.iter().enumerate() {
+                let used = plan.as_ref().and_then(|plan| plan.of(i));
                 let whole = match (property.list, list) {
-                    (None, _) => walk.number(property.kind)?.is_some(),
+                    (None, _) => {
+                        let number = walk.number(property.kind)?;
+                        if let (Some(used), Some(number)) = (used, number) {
+                            own.set(used, number);
+                        }
+                        number.is_some()
+                    }
                     (Some(count), Some(list)) if list.property == i => {
-                        walk.list(count, property.kind, most, &mut numbers)?
+                        walk.list(count, property.kind, most, &mut numbers, |n| n as i64)?
+                    }
+                    (Some(count), _) if used == Some(Use::Uvs) => {
+                        walk.list(count, property.kind, most, &mut own.uvs, |n| n as f32)?
                     }
                     (Some(count), _) => walk.skip_list(count, property.kind)?,
                 };
@@ -294,17 +310,21 @@ impl Body<'_> {
                 }
             }
             let Some(FaceList { kind, .. }) = list else { continue };
+            let before = faces.indices.len();
             if let Err(fault) = faces.add(kind, &numbers, self.vertex_count, &mut scratch) {
                 let span = || self.whole();
                 tell(&mut findings, self.plan.damage(), span, "face", number, &fault);
+            } else if let Some(plan) = &plan {
+                extras.add(plan, &own, numbers.len(), [before, faces.indices.len()]);
             }
             // Asked now and then: a row adds little.
-            if number % 1024 == 0 && !self.has_room(faces.indices.len() as u64, faces.bytes()) {
+            let bytes = faces.bytes() + extras.bytes();
+            if number % 1024 == 0 && !self.has_room(faces.indices.len() as u64, bytes) {
                 return Ok(None);
             }
         }
         self.findings.append(findings);
-        let room = self.has_room(faces.indices.len() as u64, faces.bytes());
+        let room = self.has_room(faces.indices.len() as u64, faces.bytes() + extras.bytes());
         Ok(room.then_some(walk.offset()))
     }
 
@@ -563,12 +583,13 @@ impl<'a> Walk<'a> {
     }
 
     /// Reads a list of at most `most` numbers; whether it is there as a whole.
-    fn list(
+    fn list<T>(
         &mut self,
         count: Type,
         kind: Type,
         most: u64,
-        numbers: &mut Vec<i64>,
+        numbers: &mut Vec<T>,
+        of: impl Fn(f64) -> T,
     ) -> io::Result<bool> {
         numbers.clear();
         let Some(count) = self.number(count)? else { return Ok(false) };
@@ -579,7 +600,7 @@ impl<'a> Walk<'a> {
         for _ in 0..count.max(0.0) as u64 {
             // What a count promises is not reserved: the file may be shorter.
             let Some(number) = self.number(kind)? else { return Ok(false) };
-            numbers.push(number as i64);
+            numbers.push(of(number));
         }
         Ok(true)
     }

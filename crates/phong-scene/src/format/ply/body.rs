@@ -3,10 +3,14 @@
 use std::sync::Arc;
 
 use super::edges::{EdgePlan, Edges};
+use super::extras::{Extras, ExtrasPlan, Use};
 use super::header::{Element, Header};
+use super::names::{COLOR, UV};
+use super::textures::Skins;
 use super::vertices::{Plan, Vertices};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::format::faces::{Faces, Kind};
+use crate::format::input::Input;
 use crate::format::text::{Findings, whole};
 use crate::limits::Limits;
 use crate::source::Blob;
@@ -23,6 +27,10 @@ pub(super) struct Body<'a> {
     pub(super) plan: Plan,
     /// How edges are read; `None`: they are not.
     pub(super) edges: Option<EdgePlan>,
+    /// What of faces is read besides their vertices; `None`: nothing.
+    pub(super) extras: Option<ExtrasPlan>,
+    /// The images that the mesh shows.
+    pub(super) skins: Skins,
     pub(super) vertex_count: u64,
     pub(super) findings: Findings,
 }
@@ -32,6 +40,7 @@ pub(super) struct Body<'a> {
 pub(super) struct Contents {
     pub(super) vertices: Vertices,
     pub(super) faces: Faces,
+    pub(super) extras: Extras,
     pub(super) edges: Edges,
 }
 
@@ -40,6 +49,21 @@ pub(super) struct Contents {
 pub(super) struct FaceList {
     pub(super) property: usize,
     pub(super) kind: Kind,
+}
+
+impl Contents {
+    /// Appends those of a later piece.
+    pub(super) fn append(&mut self, later: Self) {
+        self.vertices.append(later.vertices);
+        self.extras.append(self.faces.indices.len(), later.extras);
+        self.faces.append(later.faces);
+        self.edges.append(later.edges);
+    }
+
+    /// Bytes that the faces take in memory.
+    pub(super) fn face_bytes(&self) -> u64 {
+        self.faces.bytes() + self.extras.bytes()
+    }
 }
 
 /// What kind of faces an element holds, if any.
@@ -120,18 +144,56 @@ impl Body<'_> {
                 Some(_) => {}
             }
             for property in &element.properties {
-                let what = match property.name.as_str() {
-                    "red" | "diffuse_red" => "colours of faces are",
-                    "texcoord" => "texture coordinates of faces are",
-                    "nx" => "normals of faces are",
+                let read = self.extras.as_ref().filter(|_| element.name == "face");
+                let message = match property.name.as_str() {
+                    "red" | "diffuse_red" if read.is_none_or(|e| !e.has(Use::Color(0))) => {
+                        if self.skins.any() {
+                            "colours of faces are not used where they have a texture"
+                        } else {
+                            "colours of faces are not used, only those of vertices"
+                        }
+                    }
+                    "texcoord" if read.is_none_or(|e| !e.has(Use::Uvs)) => {
+                        "texture coordinates of faces are not used, only those of vertices"
+                    }
+                    "nx" => "normals of faces are not used, only those of vertices",
                     _ => continue,
                 };
                 self.findings.warning(
                     "things of faces that are not used",
                     || property.span.clone(),
-                    || format!("{what} not used, only those of vertices"),
+                    || message.to_owned(),
                 );
             }
+        }
+    }
+
+    /// Finds out what of faces is read besides their vertices, and reads the images that it is for.
+    pub(super) fn dress(&mut self, input: &Input<'_>) {
+        let header = self.header;
+        let face = header.elements.iter().find(|e| e.name == "face" && e.count > 0);
+        let face = face.filter(|_| !self.plan.spheres);
+        let plan = |colors| face.and_then(|element| ExtrasPlan::new(element, colors));
+        let colors = self.plan.columns[COLOR].is_none();
+        self.extras = plan(colors);
+        let of_faces = self.extras.as_ref().is_some_and(|extras| extras.has(Use::Uvs));
+        if of_faces || self.plan.columns[UV].is_some() {
+            self.skins = Skins::read(header, input, &mut self.findings);
+            if self.skins.any() && colors {
+                self.extras = plan(false);
+            }
+            return;
+        }
+        for (name, span) in &header.textures {
+            self.findings.warning(
+                "textures",
+                || span.clone(),
+                || {
+                    format!(
+                        "the file names a texture, `{name}`, but no place for it: it is left out"
+                    )
+                },
+            );
         }
     }
 

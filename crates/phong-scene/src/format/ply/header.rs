@@ -108,6 +108,8 @@ impl Element {
 pub(super) struct Header {
     pub(super) encoding: Encoding,
     pub(super) elements: Vec<Element>,
+    /// The names of images, and where they stand.
+    pub(super) textures: Vec<(String, Span)>,
     /// Where the body begins: bytes into the file, and its first line.
     pub(super) body: u64,
     pub(super) line: u64,
@@ -174,13 +176,14 @@ fn header_end(text: &[u8], line_end: u8) -> Option<usize> {
 fn parse(text: &[u8], file: &Arc<str>, findings: &mut Findings) -> Option<Header> {
     let piece = Piece { text, offset: 0, line: 1, rows: 0 };
     let mut cursor = Cursor::new(piece, false);
-    let mut parser = Parser { file, findings, encoding: None, elements: Vec::new() };
+    let mut parser =
+        Parser { file, findings, encoding: None, elements: Vec::new(), textures: Vec::new() };
     cursor.next_line();
     while !cursor.is_done() {
         parser.line(&mut cursor);
         cursor.next_line();
     }
-    let Parser { findings, encoding, elements, .. } = parser;
+    let Parser { findings, encoding, elements, textures, .. } = parser;
     if encoding.is_none() {
         findings.error(
             "headers without a format",
@@ -190,7 +193,7 @@ fn parse(text: &[u8], file: &Arc<str>, findings: &mut Findings) -> Option<Header
     }
     let (body, line) = (text.len() as u64, cursor.line);
     let encoding = encoding.filter(|_| !findings.any_error())?;
-    Some(Header { encoding, elements, body, line })
+    Some(Header { encoding, elements, textures, body, line })
 }
 
 struct Parser<'a> {
@@ -198,6 +201,7 @@ struct Parser<'a> {
     findings: &'a mut Findings,
     encoding: Option<Encoding>,
     elements: Vec<Element>,
+    textures: Vec<(String, Span)>,
 }
 
 impl Parser<'_> {
@@ -209,11 +213,7 @@ impl Parser<'_> {
                 if cursor.more() && cursor.rest().starts_with(b"TextureFile") {
                     cursor.word();
                     let name = name_of(cursor.rest_of_line());
-                    self.findings.warning(
-                        "textures",
-                        || here.here(self.file),
-                        || format!("the file names a texture, `{name}`, but no place for it: it is left out"),
-                    );
+                    self.textures.push((name, here.here(self.file)));
                 }
             }
             b"format" => self.format(cursor),

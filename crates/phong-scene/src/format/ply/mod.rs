@@ -12,6 +12,9 @@
 //! | `radius` | the radius of a point's sphere |
 //! | any other that a texture of kind `map` shows | a number of each point, in `fields` |
 //! | `face` `vertex_indices` (or `vertex_index`) | polygons; concave ones are cut by clipping ears |
+//! | `texcoord` of a face, a list of two numbers for each corner | texture coordinates, in place of those of vertices |
+//! | `texnumber` of a face | which of the images that comments name (`comment TextureFile NAME`) it shows, from 0 on; without, the first |
+//! | `red green blue` of a face | its colour, where vertices have none: corners of different colours become different vertices |
 //! | `tristrips` `vertex_indices` | strips of triangles, ended by −1 |
 //! | `edge` `vertex1 vertex2` | cylinders, where they are asked for or have a radius and there are no faces |
 //! | `radius`, or `radius1 radius2` | the radii of an edge's cylinder |
@@ -20,6 +23,9 @@
 //! A file without faces is a cloud of points, each drawn as a sphere: of its own `radius`, else of
 //! the radius that the scene gives, else of half the median distance between a point and its
 //! nearest neighbour, so that neighbours just touch.
+//!
+//! Images are found beside the file if they are not where it says, and repeat; `<this>` is the file's own
+//! name without its ending. They take the place of colours. What cannot be read is a warning, and grey.
 //!
 //! A vertex without a place or radius is left out with the faces that use it, one without a colour
 //! is grey, one without a normal has the geometric one: each is counted in a warning.
@@ -36,8 +42,10 @@ mod body;
 mod cylinders;
 mod edges;
 pub(crate) mod export;
+mod extras;
 mod header;
 mod names;
+mod textures;
 mod vertices;
 mod write;
 
@@ -50,8 +58,10 @@ use std::sync::atomic::Ordering;
 
 use self::body::{Body, Contents, face_kind};
 use self::edges::{EdgePlan, have_radius};
+use self::extras::Extras;
 use self::header::{Encoding, Header};
 use self::names::RADIUS;
+use self::textures::Skins;
 use self::vertices::{Plan, Vertices};
 use super::faces::Faces;
 use super::input::{Input, Wanted};
@@ -59,7 +69,8 @@ use super::text::{Findings, whole};
 use super::triangles::{any_left, cut, tell_small, tidy};
 use crate::diagnostic::Diagnostic;
 use crate::fragment::Fragment;
-use crate::mesh::collapse_faces;
+use crate::material::{ConstantMaterial, MaterialId};
+use crate::mesh::{Shared, collapse_faces};
 use crate::shape::Shape;
 use crate::source::trouble;
 
@@ -77,7 +88,7 @@ pub(crate) fn read(input: &Input<'_>, out: &mut Vec<Diagnostic>) -> Option<Fragm
     let sound = !findings.any_error();
     findings.tell(&file, out);
     match part {
-        Ok(part) => part.filter(|_| sound).map(|shape| Fragment::of(shape, Vec::new())),
+        Ok(part) => part.filter(|_| sound),
         Err(error) => {
             out.push(Diagnostic::error(
                 format!("cannot be read: {}", trouble(&error)),
@@ -88,12 +99,12 @@ pub(crate) fn read(input: &Input<'_>, out: &mut Vec<Diagnostic>) -> Option<Fragm
     }
 }
 
-/// The mesh, the points or the cylinders of the file.
+/// The mesh, the points or the cylinders of the file, with its materials.
 fn shape_of(
     file: &Arc<str>,
     input: &Input<'_>,
     findings: &mut Findings,
-) -> io::Result<Option<Shape>> {
+) -> io::Result<Option<Fragment>> {
     let Input { source, limits, radius, wanted, .. } = *input;
     let blob = source.open(file)?;
     let blob = blob.as_ref();
@@ -145,9 +156,12 @@ fn shape_of(
         limits,
         plan,
         edges,
+        extras: None,
+        skins: Skins::default(),
         vertex_count,
         findings: findings_so_far,
     };
+    body.dress(input);
     body.check_faces();
     if !limits.lenient {
         body.check_counts();
@@ -160,6 +174,7 @@ fn shape_of(
         }
     }
     let part = if body.findings.any_error() { None } else { body.finish(contents) };
+    let part = part.map(|shape| body.dressed(shape));
     *findings = body.findings;
     Ok(part)
 }
@@ -185,7 +200,7 @@ impl Body<'_> {
     }
 
     fn finish(&mut self, contents: Contents) -> Option<Shape> {
-        let Contents { vertices, faces, edges } = contents;
+        let Contents { vertices, faces, extras, edges } = contents;
         if self.plan.transparent.load(Ordering::Relaxed) {
             self.warn("alphas", || {
                 "vertices are less than opaque (`alpha`), which is not drawn".to_owned()
@@ -197,7 +212,7 @@ impl Body<'_> {
         if self.plan.spheres {
             return self.finish_points(vertices);
         }
-        self.finish_mesh(vertices, faces)
+        self.finish_mesh(vertices, faces, extras)
     }
 
     fn finish_points(&mut self, vertices: Vertices) -> Option<Shape> {
@@ -217,10 +232,21 @@ impl Body<'_> {
         Some(points.into())
     }
 
-    fn finish_mesh(&mut self, vertices: Vertices, faces: Faces) -> Option<Shape> {
+    fn finish_mesh(
+        &mut self,
+        vertices: Vertices,
+        faces: Faces,
+        mut extras: Extras,
+    ) -> Option<Shape> {
         let mut mesh = vertices.into_mesh(&self.plan);
         let mut polygons = faces.polygons;
         mesh.indices = faces.indices.into();
+        extras.place(&mut mesh);
+        let images = self.skins.materials.len();
+        if images > 1 {
+            mesh.face_materials = extras.materials(mesh.indices.len(), images).into();
+        }
+        self.tell_extras(&extras);
         // What is out of range has been said, as has what is no number.
         let unplaced = mesh.take_unplaced();
         let count = mesh.positions.len();
@@ -235,11 +261,56 @@ impl Body<'_> {
             });
         }
         cut(&mut mesh, &polygons, &mut self.findings, self.file);
+        if self.skins.any() && !mesh.colors.is_empty() {
+            if mesh.colors.windows(2).any(|pair| pair[0] != pair[1]) {
+                self.warn("colours under a texture", || {
+                    "colours of vertices are not drawn where there is a texture".to_owned()
+                });
+            }
+            mesh.colors = Shared::default();
+        }
+        if !extras.colors.is_empty() {
+            extras.colors.resize(mesh.indices.len(), ConstantMaterial::default().color);
+            mesh.color_faces(&extras.colors);
+        }
         tell_small(faces.dropped, &mut self.findings, self.file);
         tidy(&mut mesh, triangles, &mut self.findings, self.file);
         if !any_left(&mesh, &mut self.findings, self.file) {
             return None;
         }
         Some(mesh.into())
+    }
+
+    /// Says what of faces is not as it should be.
+    fn tell_extras(&mut self, extras: &Extras) {
+        let Extras { unfitting, wrong, transparent, .. } = *extras;
+        if unfitting > 0 {
+            self.warn("texture coordinates that do not fit", || {
+                format!("faces whose texture coordinates are not two for each corner: {unfitting}; they are left out")
+            });
+        }
+        if wrong > 0 {
+            self.warn("colours that are none", || {
+                format!("faces whose colours are none: {wrong}; they are grey")
+            });
+        }
+        if transparent {
+            self.warn("alphas of faces", || {
+                "faces are less than opaque (`alpha`), which is not drawn".to_owned()
+            });
+        }
+    }
+
+    /// The shape with the materials that it is made of.
+    fn dressed(&mut self, shape: Shape) -> Fragment {
+        let Skins { materials, textures } = std::mem::take(&mut self.skins);
+        let one = matches!(&shape, Shape::Mesh(mesh) if mesh.face_materials.is_empty());
+        let first = MaterialId(u32::from(one && !materials.is_empty()));
+        let mut fragment = Fragment::of(shape, materials);
+        fragment.textures = textures;
+        for object in &mut fragment.objects {
+            object.material = first;
+        }
+        fragment
     }
 }
