@@ -160,7 +160,8 @@ impl Block {
             last_line = token.line;
             next = tokens.next();
         }
-        if let Some(sites) = sites {
+        if let Some(mut sites) = sites {
+            sites.settle(file, findings);
             if !values.is_multiple_of(names.len() as u64) {
                 findings.error("truncated files", || whole(file), || {
                     format!(

@@ -18,6 +18,8 @@ use crate::molecule::{Alternates, Cell, Column, Molecule, Values, names};
 enum Role {
     Skip,
     Place(usize),
+    /// A coordinate of the place that counts where the others are not there.
+    Spare(usize),
     Symbol,
     /// Its value is kept in the column of this number.
     Column(usize),
@@ -37,6 +39,11 @@ pub(super) struct Sites {
     pub(super) fractional: bool,
     molecule: Molecule,
     places: Vec<DVec3>,
+    /// Where the atoms are if the other places are not there, what was said of these, and whether there
+    /// are such.
+    spares: Vec<DVec3>,
+    said_of_spares: Findings,
+    has_spares: bool,
     alternates: Alternates,
     row: Row,
     symbols: bool,
@@ -50,6 +57,7 @@ pub(super) struct Sites {
 #[derive(Clone, Debug, Default)]
 struct Row {
     place: DVec3,
+    spare: DVec3,
     element: u8,
     alternate: u8,
     insertion: u8,
@@ -89,17 +97,22 @@ impl Sites {
         let axes = |before: &str, behind: &str| -> Option<Vec<usize>> {
             ["x", "y", "z"].iter().map(|axis| find(&format!("{before}{axis}{behind}"))).collect()
         };
-        let cartesian = if category == COMPONENT {
-            let ideal = axes("pdbx_model_cartn_", "_ideal");
-            Some(ideal.or_else(|| axes("model_cartn_", "")).or_else(|| axes("", ""))?)
+        let (cartesian, spare) = if category == COMPONENT {
+            let all = [("pdbx_model_cartn_", "_ideal"), ("model_cartn_", ""), ("", "")];
+            let mut there = all.into_iter().filter_map(|(before, behind)| axes(before, behind));
+            (Some(there.next()?), there.next())
         } else {
-            axes("cartn_", "")
+            (axes("cartn_", ""), None)
         };
         let fractional = cartesian.is_none();
         let places = cartesian.or_else(|| axes("fract_", ""))?;
         let mut roles = vec![Role::Skip; names.len()];
         for (axis, column) in places.into_iter().enumerate() {
             roles[column] = Role::Place(axis);
+        }
+        let has_spares = spare.is_some();
+        for (axis, column) in spare.into_iter().flatten().enumerate() {
+            roles[column] = Role::Spare(axis);
         }
         let mut molecule = Molecule::default();
         for (name, words, known) in COLUMNS {
@@ -127,6 +140,9 @@ impl Sites {
             fractional,
             molecule,
             places: Vec::new(),
+            spares: Vec::new(),
+            said_of_spares: Findings::default(),
+            has_spares,
             alternates: Alternates::default(),
             row: Row { first: true, ..Row::default() },
             symbols: symbol.is_some(),
@@ -166,6 +182,9 @@ impl Sites {
             Role::Place(axis) => {
                 self.row.place[axis] = coordinate(token, none, file, findings);
                 self.row.line = token.line;
+            }
+            Role::Spare(axis) => {
+                self.row.spare[axis] = coordinate(token, none, file, &mut self.said_of_spares);
             }
             Role::Symbol => {
                 self.row.element = number_of(given).or_else(|| number_of_label(given)).unwrap_or(0);
@@ -225,8 +244,26 @@ impl Sites {
             | u64::from(row.insertion);
         self.alternates.letters.push((row.alternate, residue));
         self.places.push(row.place);
+        if self.has_spares {
+            self.spares.push(row.spare);
+        }
         molecule.spheres.push([0.0; 4]);
         molecule.elements.push(row.element);
+    }
+
+    /// Takes the other places where more of them are there, and what was said of them in place of
+    /// `findings`.
+    pub(super) fn settle(&mut self, file: &Arc<str>, findings: &mut Findings) {
+        let there = |places: &[DVec3]| places.iter().filter(|place| place.is_finite()).count();
+        if there(&self.spares) > there(&self.places) {
+            self.places = std::mem::take(&mut self.spares);
+            *findings = std::mem::take(&mut self.said_of_spares);
+            let message = || {
+                "the file says no ideal places of these atoms: they are where its model has them"
+                    .to_owned()
+            };
+            findings.note("places", || whole(file), message);
+        }
     }
 
     /// The atoms, put where they are in the cell.
