@@ -10,7 +10,7 @@ use crate::format::text::{Fault, Parsed, Words};
 use crate::limits::LARGEST;
 
 /// The names of all statements, in small letters.
-const NAMES: [&str; 33] = [
+const NAMES: [&str; 34] = [
     "sphere",
     "tri",
     "stri",
@@ -40,6 +40,7 @@ const NAMES: [&str; 33] = [
     "scape",
     "tpolyfile",
     "mgffile",
+    "imagedef",
     "begin_scene",
     "end_scene",
     "outfile",
@@ -236,6 +237,23 @@ impl Things {
             b"mgffile" => {
                 words.some("the name of a file")?;
                 Statement::Ignored("files of the Materials and Geometry Format (`MGFFILE`)")
+            }
+            b"imagedef" => {
+                words.some("a name")?;
+                words.key("FORMAT")?;
+                words.some("`RGB24`")?;
+                words.key("RESOLUTION")?;
+                let mut size = [0; 3];
+                for side in &mut size {
+                    *side = words.whole()?;
+                }
+                words.key("ENCODING")?;
+                words.some("`HEX`")?;
+                // A word for each pixel.
+                for _ in 0..size.into_iter().fold(1, u64::saturating_mul) {
+                    words.some("a colour")?;
+                }
+                Statement::Ignored("images in the text (`IMAGEDEF`)")
             }
             _ => return Ok(None),
         }))

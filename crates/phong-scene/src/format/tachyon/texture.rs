@@ -68,7 +68,7 @@ impl Texture {
         texture.color = words.three()?;
         words.key("TEXFUNC")?;
         let function = words.whole()?;
-        if function == 0 || function > 9 {
+        if function == 0 || function > 10 {
             return Ok(texture);
         }
         if function >= 7 {
@@ -83,9 +83,12 @@ impl Texture {
         } else {
             texture.more = true;
         }
-        if function == 9 {
+        if function >= 9 {
             words.keyed("UAXIS")?;
             words.keyed("VAXIS")?;
+        }
+        if function == 10 {
+            words.keyed("WAXIS")?;
         }
         Ok(texture)
     }
