@@ -156,7 +156,14 @@ impl Assembly {
         if self.mesh.indices.is_empty() && self.points.is_empty() && !self.findings.any_error() {
             let count = self.mesh.positions.len();
             self.findings.error("empty models", at_file, || {
-                format!("there is nothing to draw: no face and no point among {count} vertices")
+                if self.has_lines {
+                    format!(
+                        "there is nothing to draw: lines (`l`) alone among {count} vertices, which \
+                         are not drawn"
+                    )
+                } else {
+                    format!("there is nothing to draw: no face and no point among {count} vertices")
+                }
             });
         }
         if self.findings.any_error() {
