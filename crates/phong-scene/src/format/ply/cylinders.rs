@@ -4,12 +4,12 @@ use std::io;
 
 use rayon::prelude::*;
 
-use super::binary::Walk;
 use super::body::Body;
 use super::edges::{EdgePlan, Edges};
 use super::header::Element;
 use super::names::RADIUS;
 use super::vertices::{Vertices, tell};
+use super::walk::Walk;
 use crate::color::Rgb;
 use crate::format::text::Findings;
 use crate::mesh::{Cylinders, Field};

@@ -47,6 +47,7 @@ mod header;
 mod names;
 mod textures;
 mod vertices;
+mod walk;
 mod write;
 
 #[cfg(test)]
