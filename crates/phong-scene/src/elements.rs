@@ -170,6 +170,13 @@ pub(crate) fn number_of(symbol: &[u8]) -> Option<u8> {
     }
 }
 
+/// The element of a united atom that is named after its group, `Me` or `ME1`; `None`: it is none. Names
+/// like `CH3` begin with a symbol.
+pub(crate) fn number_of_group(name: &[u8]) -> Option<u8> {
+    let letters = name.iter().take_while(|b| b.is_ascii_alphabetic()).count();
+    name[..letters].eq_ignore_ascii_case(b"Me").then(|| number_of(b"C")).flatten()
+}
+
 /// The element of a label that begins with its symbol, like `C12`, `Fe3+` or `OW`: two letters if they
 /// are a symbol written as one (`Cl`, and `CL` before a digit or the end), else the first.
 pub(crate) fn number_of_label(label: &[u8]) -> Option<u8> {

@@ -8,7 +8,7 @@
 //! | the last line | the cell: three lengths, or nine numbers |
 //! | later frames | not drawn, which is told |
 //!
-//! Elements are those that the atoms' names begin with. A file of fewer atoms than it says is an error,
+//! Elements are those that the atoms' names begin with; `Me` is a methyl group in one, drawn as carbon. A file of fewer atoms than it says is an error,
 //! unless it is read leniently.
 
 use std::io;
@@ -20,7 +20,7 @@ use super::atoms::{Fixed, fixed_lines, has_room, read_atoms, tell_truncated};
 use super::input::Input;
 use super::text::{Decimal, Findings, Lines, Piece, Rows, head_of, open_text, whole};
 use crate::diagnostic::Diagnostic;
-use crate::elements::number_of;
+use crate::elements::{number_of, number_of_group};
 use crate::fragment::Fragment;
 use crate::molecule::{Cell, Column, Drawing, Molecule, names};
 use crate::source::Blob;
@@ -176,6 +176,7 @@ impl Block {
 /// The element of an atom's name: the whole of it where the residue is an ion of that name, else the
 /// first letter that is a symbol.
 fn element_of(name: &[u8], residue: &[u8]) -> u8 {
+    let group = number_of_group(name);
     let letters =
         |text: &[u8]| -> Vec<u8> { text.iter().copied().filter(u8::is_ascii_alphabetic).collect() };
     let (name, residue) = (letters(name), letters(residue));
@@ -184,7 +185,7 @@ fn element_of(name: &[u8], residue: &[u8]) -> u8 {
     {
         return number;
     }
-    name.iter().find_map(|letter| number_of(&[*letter])).unwrap_or(0)
+    name.iter().find_map(|letter| number_of(&[*letter])).or(group).unwrap_or(0)
 }
 
 /// The cell: the lengths, then, if they are there, what the edges have along the other axes.
