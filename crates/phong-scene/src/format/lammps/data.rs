@@ -187,7 +187,7 @@ impl Header {
 
 /// The styles of atoms that are read, and what stands before the place: `i` the number, `m` the molecule,
 /// `t` the type, `q` the charge, `d` the diameter.
-const STYLES: [(&str, &str); 26] = [
+const STYLES: [(&str, &str); 28] = [
     ("amoeba", "imtq"),
     ("angle", "imt"),
     ("atomic", "it"),
@@ -195,6 +195,7 @@ const STYLES: [(&str, &str); 26] = [
     ("bond", "imt"),
     ("bpm/sphere", "imtd-"),
     ("charge", "itq"),
+    ("dielectric", "imtq"),
     ("dipole", "itq"),
     ("dpd", "it-"),
     ("edpd", "it--"),
@@ -205,6 +206,7 @@ const STYLES: [(&str, &str); 26] = [
     ("hybrid", "it"),
     ("line", "imt--"),
     ("mdpd", "it-"),
+    ("mesont", "imt------"),
     ("molecular", "imt"),
     ("peri", "it--"),
     ("smd", "itm-------"),
@@ -229,6 +231,8 @@ fn style(first: &[Vec<u8>], heading: &Heading) -> Result<Layout, String> {
             return Err(format!("atoms of the style `{named}` are not read"));
         }
         (Some(style), None) => style,
+        // What its columns are may stand behind a colon.
+        (Some(first), Some(_)) if first.ends_with(':') => first.trim_end_matches(':'),
         _ => "",
     };
     // Three whole numbers at the end say in which image of the box an atom is.
@@ -250,6 +254,12 @@ fn style(first: &[Vec<u8>], heading: &Heading) -> Result<Layout, String> {
         (None, 8) if fractional(3) => "it---",
         (None, 8) if fractional(4) => "itq--",
         (None, 8) => "imt--",
+        // A charge, a spin, a radius, a number and two shares; whole numbers up to a mass, and between
+        // three of them and a flag.
+        (None, 11) if !fractional(3) && !fractional(5) && fractional(4) => "itq-----",
+        (None, 12) if !(0..5).any(fractional) && !fractional(8) => "imt------",
+        // A volume, a mass and two radii, and where it was at first.
+        (None, 13) if !fractional(2) && (3..7).any(fractional) => "itm-------",
         _ => {
             return Err(format!(
                 "the atoms have {count} columns, which fits no style; write `Atoms # full` or the like"
