@@ -40,7 +40,7 @@ fn off_files_give_what_lies_beside_them() -> io::Result<()> {
 
 #[test]
 fn files_of_atoms_give_what_lies_beside_them() -> io::Result<()> {
-    for ending in ["xyz", "pdb", "gro", "lammpstrj", "data", "cif"] {
+    for ending in ["xyz", "pdb", "pdbqt", "gro", "lammpstrj", "data", "cif"] {
         for_each_of("atoms", ending, |name, source| {
             Ok(read(name, None, source, &Limits::default()))
         })?;

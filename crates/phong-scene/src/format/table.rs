@@ -147,7 +147,7 @@ static TABLE: [Entry; 15] = [
     Entry {
         format: Format::Pdb,
         name: "PDB",
-        endings: &["pdb", "ent"],
+        endings: &["pdb", "ent", "pdbqt"],
         tells: Some(pdb::is_pdb),
         bare: true,
         read: Some(Read::Model(pdb::read)),

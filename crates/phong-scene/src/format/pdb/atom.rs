@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::cell_of;
-use crate::elements::{HYDROGEN, number_of};
+use crate::elements::{HYDROGEN, number_of, number_of_group};
 use crate::format::atoms::Fixed;
 use crate::format::text::Findings;
 use crate::molecule::Cell;
@@ -47,7 +47,12 @@ pub(super) struct Atom {
 
 impl Record {
     /// The record of a line; `None`: it is not used.
-    pub(super) fn parse(line: Fixed<'_>, file: &Arc<str>, findings: &mut Findings) -> Option<Self> {
+    pub(super) fn parse(
+        line: Fixed<'_>,
+        docked: bool,
+        file: &Arc<str>,
+        findings: &mut Findings,
+    ) -> Option<Self> {
         let text = line.text;
         let is = |record: &[u8]| {
             text.len() >= record.len() && text[..record.len()].eq_ignore_ascii_case(record)
@@ -58,6 +63,9 @@ impl Record {
             let line = Fixed { text: narrow.as_deref().unwrap_or(text), ..line };
             let mut atom = Atom::parse(line, record, file, findings);
             atom.number = number.unwrap_or(atom.number);
+            if docked {
+                atom.dock(line);
+            }
             return Some(Self::Atom(Box::new(atom)));
         }
         if is(b"CONECT") {
@@ -156,6 +164,26 @@ impl Atom {
     }
 }
 
+impl Atom {
+    /// Takes what files of `AutoDock` have in their last columns: the charge and the type.
+    fn dock(&mut self, line: Fixed<'_>) {
+        self.segment.clear();
+        self.charge = line.number(66, 76).unwrap_or(f64::NAN) as f32;
+        if let Some(element) = of_type(line.field(77, 79)) {
+            self.element = element;
+        }
+    }
+}
+
+/// The element of one of `AutoDock`'s types: a symbol, or its first letter with what it does behind it.
+fn of_type(name: &[u8]) -> Option<u8> {
+    match name {
+        b"A" | b"G" | b"GA" | b"J" => number_of(b"C"),
+        b"HD" | b"HS" | b"NA" | b"NS" | b"OA" | b"OS" | b"SA" => number_of(&name[..1]),
+        _ => number_of(name),
+    }
+}
+
 /// A number that is the same for the atoms of a residue.
 fn key_of(chain: &[u8], number: &[u8], code: u8) -> u64 {
     let bytes = chain.iter().rev().take(2).chain(number).chain([&code]);
@@ -202,7 +230,10 @@ fn element_of(line: Fixed<'_>, name: &[u8], record: &str) -> u8 {
         return number;
     }
     let columns = line.text.get(12..14.min(line.text.len())).unwrap_or_default();
-    let first = || letters().next().and_then(|letter| number_of(&[*letter])).unwrap_or(0);
+    let first = || {
+        let symbol = letters().next().and_then(|letter| number_of(&[*letter]));
+        symbol.or_else(|| number_of_group(name)).unwrap_or(0)
+    };
     match columns {
         // The symbol ends in the second column.
         [b' ' | b'0'..=b'9' | b'*' | b'\'', ..] => first(),
@@ -276,6 +307,23 @@ mod tests {
         ] {
             assert_eq!(element(record, name, written), of(symbol), "{record} {name} {written}");
         }
+    }
+
+    #[test]
+    fn the_types_of_docked_atoms_are_elements() {
+        for (name, symbol) in [
+            ("A", "C"),
+            ("OA", "O"),
+            ("HD", "H"),
+            ("NA", "N"),
+            ("SA", "S"),
+            ("Cl", "Cl"),
+            ("ZN", "Zn"),
+        ] {
+            assert_eq!(of_type(name.as_bytes()), number_of(symbol.as_bytes()), "{name}");
+        }
+        assert_eq!(of_type(b"W"), number_of(b"W"));
+        assert_eq!(of_type(b""), None);
     }
 
     #[test]

@@ -9,6 +9,7 @@
 //! | `END` before an atom that is the first one again | the end of the first of several frames |
 //! | numbers of atoms and residues with a digit too many | what stands behind them, a column to the right |
 //! | `CONECT` | bonds, beside those by covalent radii; serial numbers are compared as they are written, so those past 99,999 may be in base 36, in base 16 or a column too far |
+//! | files that end in `.pdbqt` | `AutoDock`'s: behind the B-factor the charge, then the atom's type, `A` for carbon in rings, `OA` for oxygen, … |
 //! | `CRYST1` | the cell, unless it is the cube of 1 Å of structures without one |
 //! | all others | not drawn |
 //!
@@ -63,8 +64,9 @@ fn atoms(
 ) -> io::Result<Option<Molecule>> {
     let lines = Lines { blob, start: 0, line: 1, joined: false, rows: Rows::Uncounted };
     let mut assembly = Assembly::new();
+    let docked = is_docked(file);
     lines.each(
-        |piece| parse(piece, file),
+        |piece| parse(piece, docked, file),
         |block| {
             findings.append(block.findings);
             for record in block.records {
@@ -76,10 +78,16 @@ fn atoms(
     Ok(Some(assembly.finish(file, findings)))
 }
 
-fn parse(piece: Piece<'_>, file: &Arc<str>) -> Block {
+/// Whether it is a file of `AutoDock`'s, by its name, packed or not.
+fn is_docked(file: &str) -> bool {
+    let name = file.to_ascii_lowercase();
+    name.strip_suffix(".gz").unwrap_or(&name).rsplit('.').next() == Some("pdbqt")
+}
+
+fn parse(piece: Piece<'_>, docked: bool, file: &Arc<str>) -> Block {
     let mut block = Block::default();
     for line in fixed_lines(piece) {
-        let record = Record::parse(line, file, &mut block.findings);
+        let record = Record::parse(line, docked, file, &mut block.findings);
         block.records.extend(record);
     }
     block
