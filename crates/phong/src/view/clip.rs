@@ -279,7 +279,7 @@ impl View {
         self.clip_occluded(rays, blocked);
     }
 
-    /// [`Scene::occluded_eights`] of rays that start close together and go everywhere.
+    /// [`View::occluded_eights`] of rays that start close together and go everywhere.
     pub(crate) fn occluded_scattered(&self, rays: &[Rays8], blocked: &mut [u32]) {
         self.world().occluded_scattered(rays, blocked);
         self.clip_occluded(rays, blocked);
