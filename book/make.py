@@ -8,7 +8,8 @@ What follows `<!-- file: NAME -->` is first written to that file. Files that the
 under `made/CHAPTER/` for the chapter to show.
 
 `--bless` writes what the commands say into the chapters, except where there is a `…`; a line of `?`
-is a place for it. `--built` takes the release build that is there, as the gate has made it.
+is a place for it. `--built` takes the release build that is there, and the example that the tests
+have built, as the gate has made them: to build it anew would take most of the book's time.
 The book is then in `book/book`; every picture and link in it has to exist, and every picture to have
 a text that says what it shows. Its figures are live if `bash .ci/wasm` was run before: then the
 renderer as WebAssembly lies in it, with the scenes of `book/live`, and any web server serves it.
@@ -49,6 +50,9 @@ PROMISE = re.compile(
 
 def run(command, folder=ROOT):
     """What a command says; it has to succeed."""
+    example = ROOT / "target/debug/examples/embed"
+    if IS_BUILT and example.is_file():
+        command = command.replace("cargo run --quiet --release --package phong --example embed", str(example))
     done = subprocess.run(
         ["bash", "-c", command], cwd=folder, env=SHELL, text=True,
         stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
