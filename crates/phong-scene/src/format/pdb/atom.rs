@@ -93,15 +93,15 @@ impl Record {
 /// A digit behind the residue's number may be an insertion code: then there are places in their columns.
 fn narrowed(line: Fixed<'_>) -> (Option<Vec<u8>>, Option<f32>) {
     let digit = |at: usize| line.text.get(at).is_some_and(u8::is_ascii_digit);
-    let mut narrow = line.text.to_vec();
-    if line.number(38, 46).is_some() || !digit(11) && !digit(26) {
+    if !digit(11) && !digit(26) || line.number(38, 46).is_some() {
         return (None, None);
     }
+    let mut narrow = line.text.to_vec();
     if digit(11) {
         narrow.remove(6);
     }
     let number = Fixed { text: &narrow, ..line }.number(22, 27).map(|number| number as f32);
-    let too_wide = number.is_some() && (22..27).all(|at| narrow[at].is_ascii_digit());
+    let too_wide = narrow.get(22..27).is_some_and(|field| field.iter().all(u8::is_ascii_digit));
     if too_wide {
         narrow.remove(22);
     }
@@ -306,6 +306,22 @@ mod tests {
             ("HETATM", " D1 ", "D", "H"),
         ] {
             assert_eq!(element(record, name, written), of(symbol), "{record} {name} {written}");
+        }
+    }
+
+    #[test]
+    fn records_with_numbers_too_wide_may_end_anywhere() {
+        let file: Arc<str> = "cut.pdb".into();
+        for text in [
+            "ATOM  123456 CA  ALA A123456      11.104   6.134  -6.504  1.00",
+            "ATOM      1  CA  ALA A123456      11.104   6.134  -6.504  1.00",
+            "ATOM  123456 CA  ALA A12345678901234567890",
+        ] {
+            for end in 6..=text.len() {
+                let line = Fixed { line: 1, text: text[..end].as_bytes() };
+                let record = Record::parse(line, false, &file, &mut Findings::default());
+                assert!(matches!(record, Some(Record::Atom(_))), "{text:?} up to {end}");
+            }
         }
     }
 
