@@ -55,27 +55,24 @@ pub(super) fn drawn<'a>(
     if let Some(scene) = scene {
         let named = scene.list("nodes")?;
         let numbers = named.iter().map(At::index).collect::<Result<BTreeSet<_>>>()?;
+        let within = within(&parents, &numbers);
         for node in named {
             let number = node.index()?;
             if number >= all.len() {
                 return Err(node.fault(format!("there is no node {number}")));
             }
-            // As many steps as there are nodes lead out of every tree.
-            let above = std::iter::successors(parents[number], |parent| parents[*parent]);
-            let mut above = above.take(all.len() + 1).collect::<Vec<_>>();
-            if above.len() > all.len() {
+            let Some(is_within) = within[number] else {
                 return Err(node.fault(format!("node {number} is below itself")));
-            }
-            above.retain(|parent| numbers.contains(parent));
+            };
             if parents[number].is_some() {
-                let end = if above.is_empty() { "as if it had none" } else { "below it, once" };
+                let end = if is_within { "below it, once" } else { "as if it had none" };
                 findings.warning(
                     "roots that are none",
                     || whole(file),
                     || format!("{}: node {number} has a parent; it is drawn {end}", node.pointer),
                 );
             }
-            if above.is_empty() {
+            if !is_within {
                 open.push((number, DAffine3::IDENTITY));
             }
         }
@@ -97,6 +94,28 @@ pub(super) fn drawn<'a>(
         nodes.push(Node { at, to_world });
     }
     Ok(nodes)
+}
+
+/// Whether a node above each node is among those of these numbers; `None`: it is below itself.
+fn within(parents: &[Option<usize>], numbers: &BTreeSet<usize>) -> Vec<Option<bool>> {
+    let mut known: Vec<Option<bool>> = vec![None; parents.len()];
+    let mut seen = vec![false; parents.len()];
+    let mut path = Vec::new();
+    for node in 0..parents.len() {
+        // Every node is gone through once: up to one that is known, or that has no parent.
+        let mut next = Some(node);
+        while let Some(node) = next.filter(|&node| !seen[node]) {
+            seen[node] = true;
+            path.push(node);
+            next = parents[node];
+        }
+        let mut above = next.map_or(Some(false), |top| Some(known[top]? || numbers.contains(&top)));
+        while let Some(node) = path.pop() {
+            known[node] = above;
+            above = above.map(|above| above || numbers.contains(&node));
+        }
+    }
+    known
 }
 
 /// Where a node stands, seen from its parent.
