@@ -62,6 +62,12 @@ pub fn path_of(text: &str) -> PathBuf {
     PathBuf::from(text)
 }
 
+/// What stands behind the last dot of a file's name, without that of a packed file (`.ply.gz`).
+pub(crate) fn ending(path: &str) -> Option<&str> {
+    let (stem, ending) = path.rsplit(['/', '\\']).next()?.rsplit_once('.')?;
+    if ending.eq_ignore_ascii_case("gz") { Some(stem.rsplit_once('.')?.1) } else { Some(ending) }
+}
+
 /// The letter that stands for a byte which is no UTF-8.
 pub(crate) fn byte_letter(byte: u8) -> char {
     char::from_u32(BYTES + u32::from(byte)).unwrap_or(char::REPLACEMENT_CHARACTER)

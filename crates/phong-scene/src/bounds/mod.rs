@@ -8,7 +8,7 @@ use glam::{DAffine3, DVec3, Vec3};
 use rayon::prelude::*;
 
 use crate::mesh::{Mesh, Points};
-use crate::scene::{Object, Scene};
+use crate::scene::{Group, Object, Scene};
 use crate::shape::Shape;
 
 /// Along the axes, and against them.
@@ -165,19 +165,7 @@ impl Scene {
     /// The smallest box that holds every object but the planes, which have no end; empty if there
     /// is none. Of an instance it holds the box around its group's.
     pub fn bounds(&self) -> Bounds {
-        let groups = self.group_bounds();
-        bounds_of(&self.objects, &groups)
-    }
-
-    /// The box of every group.
-    fn group_bounds(&self) -> Vec<Bounds> {
-        let mut bounds = Vec::with_capacity(self.groups.len());
-        for group in &self.groups {
-            // A group holds instances of earlier groups only.
-            let next = bounds_of(&group.objects, &bounds);
-            bounds.push(next);
-        }
-        bounds
+        bounds_with(&self.objects, &self.groups)
     }
 }
 
@@ -196,6 +184,22 @@ impl Object {
             max: DVec3::new(a, b, c),
         })
     }
+}
+
+/// The smallest box that holds every object, with these groups; [`Scene::bounds`] of what is no scene yet.
+pub(crate) fn bounds_with(objects: &[Object], groups: &[Group]) -> Bounds {
+    bounds_of(objects, &bounds_of_groups(groups))
+}
+
+/// The box of every group.
+fn bounds_of_groups(groups: &[Group]) -> Vec<Bounds> {
+    let mut bounds = Vec::with_capacity(groups.len());
+    for group in groups {
+        // A group holds instances of earlier groups only.
+        let next = bounds_of(&group.objects, &bounds);
+        bounds.push(next);
+    }
+    bounds
 }
 
 fn bounds_of(objects: &[Object], groups: &[Bounds]) -> Bounds {
@@ -291,7 +295,7 @@ mod tests {
             object(ball.clone(), DAffine3::from_scale(DVec3::splat(2.0))),
         ]);
         let inner = object(Shape::Instance(GroupId(0)), up);
-        let group = |objects| crate::scene::Group { name: String::new(), objects };
+        let group = |objects| Group { name: String::new(), objects };
         all.groups = vec![group(vec![object(ball, DAffine3::IDENTITY)]), group(vec![inner])];
         close(all.bounds(), [0.0, -2.0, -2.0], [4.0, 21.0, 2.0]);
         assert!(scene(Vec::new()).bounds().is_empty());

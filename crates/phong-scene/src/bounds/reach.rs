@@ -8,7 +8,7 @@ use std::array::from_fn;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use super::Bounds;
+use super::{Bounds, bounds_of_groups};
 use crate::mesh::{Caps, Cylinders, Mesh, Points};
 use crate::scene::{Object, Scene};
 use crate::shape::{Shape, disc, farther, farthest};
@@ -17,7 +17,7 @@ impl Scene {
     /// The largest `p · n` of all points p of all objects but planes, for each n of `along`;
     /// −∞ if there are none. Of an instance, its group's box counts.
     pub(crate) fn reach<const N: usize>(&self, along: [DVec3; N]) -> [f64; N] {
-        let groups = self.group_bounds();
+        let groups = bounds_of_groups(&self.groups);
         let reaches = self.objects.iter().filter_map(|object| object.reach(along, &groups));
         reaches.fold([f64::NEG_INFINITY; N], farther)
     }

@@ -8,7 +8,7 @@ use super::export::WriteScene;
 use super::input::{Models, Named, ReadModel, ReadScene};
 use super::text::decode;
 use super::{cif, gltf, gro, lammps, nff, obj, off, pdb, ply, stl, tachyon, toml, trajectory, xyz};
-use crate::source::Source;
+use crate::source::{Source, ending};
 use crate::unpack::head_of;
 
 /// Bytes from the beginning of a file that are looked at to tell its format.
@@ -277,11 +277,7 @@ impl Format {
     /// (`.ply.gz`) makes no difference.
     #[must_use]
     pub fn of_path(path: &str) -> Option<Self> {
-        let (stem, ending) = path.rsplit(['/', '\\']).next()?.rsplit_once('.')?;
-        if ending.eq_ignore_ascii_case("gz") {
-            return Self::of_ending(stem.rsplit_once('.')?.1);
-        }
-        Self::of_ending(ending)
+        Self::of_ending(ending(path)?)
     }
 
     /// The format that an ending without its dot stands for, in capitals or not.

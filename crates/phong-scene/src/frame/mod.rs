@@ -17,6 +17,7 @@ use crate::light::{Light, LightKind};
 use crate::mesh::Points;
 use crate::scene::{Background, Group, Object, Scene};
 use crate::shape::Shape;
+use crate::source::ending;
 use crate::texture::Param;
 
 /// Share of the picture that the model's box may fill, along the tighter direction.
@@ -190,9 +191,9 @@ impl Scene {
     /// Whether up is known: Y is up in glTF, and molecules have no up.
     fn has_no_other_up(&self) -> bool {
         let is_gltf = |object: &Object| {
-            let name = object.place.file.to_ascii_lowercase();
-            let name = name.strip_suffix(".gz").unwrap_or(&name);
-            matches!(name.rsplit('.').next(), Some("gltf" | "glb"))
+            ending(&object.place.file).is_some_and(|ending| {
+                ["gltf", "glb"].iter().any(|known| ending.eq_ignore_ascii_case(known))
+            })
         };
         let is_molecule = |object: &Object| match &object.shape {
             Shape::Points(points) => points.guessed.is_none(),

@@ -49,13 +49,10 @@ pub(super) fn half(texels: &Texels, srgb: bool) -> Option<Texels> {
             if srgb && channel < 3 { encode(value) } else { value }
         }));
     });
-    let values = match texels.values() {
-        TexelValues::Bytes(_) | TexelValues::Shorts(_) => {
-            TexelValues::Shorts(means.iter().map(|mean| (mean * 65535.0 + 0.5) as u16).collect())
-        }
-        TexelValues::Floats(_) => {
-            TexelValues::Floats(means.iter().map(|&mean| mean as f32).collect())
-        }
+    let values = if let TexelValues::Floats(_) = texels.values() {
+        TexelValues::Floats(means.iter().map(|&mean| mean as f32).collect())
+    } else {
+        TexelValues::Shorts(means.iter().map(|mean| (mean * 65535.0 + 0.5) as u16).collect())
     };
     Texels::new(size, channels, values).ok()
 }

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::{Channel, MapRange, Texture, TextureSpace};
 use crate::color::Rgb;
 use crate::texels::Texels;
-use crate::wording::words;
+use crate::wording::{Word as _, words};
 
 /// What a texture is.
 #[derive(Clone, Debug, PartialEq)]
@@ -159,6 +159,17 @@ pub enum TextureKind {
 impl TextureKind {
     /// The most noises that are added up.
     pub const MOST_OCTAVES: u32 = 16;
+}
+
+impl TextureKind {
+    /// An image of this name, repeated, in its own colours.
+    pub(crate) fn image(name: &str, pixels: Arc<Texels>) -> Self {
+        let mut kind = Self::of_word("image").unwrap_or_default();
+        if let Self::Image { file, texels, .. } = &mut kind {
+            (*file, *texels) = (name.to_owned(), pixels);
+        }
+        kind
+    }
 }
 
 impl Default for TextureKind {

@@ -1,6 +1,6 @@
 //! Lights in lumens and lux: the format says how bright they are, but not how long a camera looks.
 
-use crate::bounds::Bounds;
+use crate::bounds::{Bounds, bounds_with};
 use crate::fragment::Fragment;
 use crate::light::{Light, LightKind};
 
@@ -12,14 +12,7 @@ const MOST: f64 = 10.0;
 ///
 /// Blender writes a sun as 683 times what it shows, and a lamp of 1000 watts as 54,351 candela.
 pub(super) fn dim(fragment: &mut Fragment) -> Option<f64> {
-    let mut groups: Vec<Bounds> = Vec::new();
-    for group in &fragment.groups {
-        // A group holds instances of earlier groups only.
-        let bounds = group.objects.iter().map(|object| object.bounds(&groups));
-        groups.push(bounds.fold(Bounds::EMPTY, Bounds::union));
-    }
-    let bounds = fragment.objects.iter().map(|object| object.bounds(&groups));
-    let bounds = bounds.fold(Bounds::EMPTY, Bounds::union);
+    let bounds = bounds_with(&fragment.objects, &fragment.groups);
     if bounds.is_empty() {
         return None;
     }

@@ -46,19 +46,10 @@ impl<'a> Images<'a> {
         let texture = TextureId(self.textures.len() as u32);
         self.textures.push(Texture {
             name: name.to_owned(),
-            kind: TextureKind::Image {
-                file: name.to_owned(),
-                texels,
-                wrap: Wrap::Repeat,
-                wrap_v: None,
-                border: Rgb::BLACK,
-                tint: Rgb::WHITE,
-                filter: TexelFilter::Auto,
-                encoding: Encoding::Auto,
-            },
+            kind: TextureKind::image(name, texels),
             space: TextureSpace::Uv,
-            transform: DAffine3::IDENTITY,
             place: place.clone(),
+            ..Texture::default()
         });
         Ok(texture)
     }

@@ -33,7 +33,7 @@ use super::text::{Findings, Lines, Piece, Rows, open_text, whole};
 use crate::diagnostic::Diagnostic;
 use crate::fragment::Fragment;
 use crate::molecule::{Alternates, Cell, Column, Molecule, names};
-use crate::source::Blob;
+use crate::source::{Blob, ending};
 
 /// Whether a file begins like one.
 pub(crate) fn is_pdb(head: &[u8]) -> bool {
@@ -80,8 +80,7 @@ fn atoms(
 
 /// Whether it is a file of `AutoDock`'s, by its name, packed or not.
 fn is_docked(file: &str) -> bool {
-    let name = file.to_ascii_lowercase();
-    name.strip_suffix(".gz").unwrap_or(&name).rsplit('.').next() == Some("pdbqt")
+    ending(file).is_some_and(|ending| ending.eq_ignore_ascii_case("pdbqt"))
 }
 
 fn parse(piece: Piece<'_>, docked: bool, file: &Arc<str>) -> Block {
