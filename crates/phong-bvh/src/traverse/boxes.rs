@@ -2,12 +2,15 @@
 
 use fearless_simd::{Simd, f32x8, prelude::*};
 
-use super::slabs::Slabs;
+use super::{
+    slabs::Slabs,
+    waiting::{key_of_child, push},
+};
 use crate::{
     build::Nodes,
     level::Kernel,
     local::Ray,
-    node8::{NODE, REFS, Ref, Row, rows},
+    node8::{NODE, Ref, Row, rows},
 };
 
 /// Boxes and nodes to visit: entry distance in the upper half, [`Ref`] in the lower.
@@ -52,15 +55,8 @@ impl<F: FnMut(u32) -> f32> Kernel for Boxes<'_, F> {
             while mask != 0 {
                 let lane = mask.trailing_zeros() as usize & 7;
                 mask &= mask - 1;
-                let child = Ref(node[REFS].bits(lane)).from(at.row());
-                let key = u64::from(enter[lane].to_bits()) << 32 | u64::from(child.0);
-                let mut place = depth;
-                while place > bottom && stack[place - 1] < key {
-                    stack[place] = stack[place - 1];
-                    place -= 1;
-                }
-                stack[place] = key;
-                depth += 1;
+                let key = key_of_child(node, at.row(), lane, &enter);
+                push(stack, bottom, &mut depth, key);
             }
         }
     }

@@ -17,11 +17,12 @@ use super::{
     leaves::{Content, Leaves},
     query::Query,
     sheared::Sheared,
+    waiting::{Waiting, key_of_child, push},
 };
 use crate::{
     level::Kernel,
     local::Rays8,
-    node8::{Kind, NODE, REFS, Ref, Row, rows},
+    node8::{Kind, NODE, Ref, Row, rows},
 };
 
 /// A group gives up after so many nodes and leaves per ray.
@@ -33,6 +34,13 @@ const PATIENCE: usize = 2;
 struct Entry {
     key: u64,
     parent: u32,
+}
+
+impl Waiting for Entry {
+    #[inline(always)]
+    fn key(self) -> u64 {
+        self.key
+    }
 }
 
 impl Entry {
@@ -290,15 +298,9 @@ fn visit<S: Simd>(
     while mask != 0 {
         let lane = mask.trailing_zeros() as usize & 7;
         mask &= mask - 1;
-        let child = Ref(node[REFS].bits(lane)).from(at.row());
-        let key = u64::from(enter[lane].to_bits()) << 32 | u64::from(child.0);
-        let mut place = depth;
-        while place > bottom && entries[place - 1].key < key {
-            entries[place] = entries[place - 1];
-            place -= 1;
-        }
-        entries[place] = Entry { key, parent: (at.row() * 8 + lane) as u32 };
-        depth += 1;
+        let key = key_of_child(node, at.row(), lane, &enter);
+        let parent = (at.row() * 8 + lane) as u32;
+        push(entries, bottom, &mut depth, Entry { key, parent });
     }
     depth
 }

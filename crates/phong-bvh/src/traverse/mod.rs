@@ -13,6 +13,7 @@ mod scattered;
 mod sheared;
 mod single;
 mod slabs;
+mod waiting;
 mod walk;
 
 pub(crate) use self::boxes::{Boxes, Stack as BoxStack};

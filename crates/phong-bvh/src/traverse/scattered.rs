@@ -12,12 +12,13 @@ use super::{
     columns::{least, lowest},
     sheared::packets,
     slabs::SLACK,
+    waiting::{Waiting, key_of_child, push},
 };
 use crate::{
     lanes,
     level::Kernel,
     local::Rays8,
-    node8::{NODE, REFS, Ref, Row, rows},
+    node8::{NODE, Ref, Row, rows},
     primitives::{
         sphere::{BLOCK, Closest8},
         splat3,
@@ -34,14 +35,12 @@ const FEWEST: usize = 4;
 const FEW: u32 = 4;
 /// Kinds of directions: eight octants, each cut in 16 triangles, of 32 numbers.
 const CELLS: usize = 256;
-/// The cell of a ray that is not to be traced.
-const NOWHERE: u16 = CELLS as u16;
 /// Numbers of each ray: origin, direction, 1 / d·d, where it begins and ends.
 const NUMBERS: usize = 9;
 
 /// Rays put in order, and memory for a beam.
 pub(super) struct Memory {
-    /// The cell of each ray as they come.
+    /// The cell of each ray as they come, if it is to be traced.
     cells: Vec<u16>,
     /// The number of each ray as they come, in order; and a whole eight more.
     numbers: [Vec<f32>; NUMBERS],
@@ -70,6 +69,13 @@ struct Entry {
     key: u64,
     rays: u64,
     parent: u32,
+}
+
+impl Waiting for Entry {
+    #[inline(always)]
+    fn key(self) -> u64 {
+        self.key
+    }
 }
 
 /// The root has no box.
@@ -124,13 +130,13 @@ fn put_in_order<S: Simd>(
 ) -> [u16; CELLS] {
     let Memory { cells, numbers, from, entries, .. } = memory;
     let room = 8 * TOGETHER + 8;
-    cells.resize(room, NOWHERE);
+    cells.resize(room, 0);
     from.resize(room, 0);
     entries.resize(super::STACK, Entry { key: 0, rays: 0, parent: NO_BOX });
     for column in &mut *numbers {
         column.resize(room, 0.0);
     }
-    let mut counts = [0_u16; CELLS + 1];
+    let mut counts = [0_u16; CELLS];
     for ((rays, &wanted), cells) in rays.iter().zip(wanted).zip(cells.as_chunks_mut::<8>().0) {
         if wanted == 0 {
             continue;
@@ -380,15 +386,9 @@ impl<S: Simd> Beam<S> {
         while mask != 0 {
             let lane = mask.trailing_zeros() as usize & 7;
             mask &= mask - 1;
-            let child = Ref(node[REFS].bits(lane)).from(at.row());
-            let key = u64::from(enter[lane].to_bits()) << 32 | u64::from(child.0);
-            let mut place = depth;
-            while place > bottom && entries[place - 1].key < key {
-                entries[place] = entries[place - 1];
-                place -= 1;
-            }
-            entries[place] = Entry { key, rays, parent: (at.row() * 8 + lane) as u32 };
-            depth += 1;
+            let key = key_of_child(node, at.row(), lane, &enter);
+            let parent = (at.row() * 8 + lane) as u32;
+            push(entries, bottom, &mut depth, Entry { key, rays, parent });
         }
         depth
     }
