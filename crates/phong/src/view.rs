@@ -417,14 +417,14 @@ impl View {
         let surface = self.surface(ray, hit);
         let Surface { p, p_error, ng } = surface;
         let (ng, e) = (Dir3::from_unit(ng), -Dir3::from_unit(ray.dir));
-        let Shading { n, is_turned, material, color } = self.shading(hit, ng, e);
+        let Shading { n, is_flipped, material, color } = self.shading(hit, ng, e);
         let color = color.unwrap_or_else(|| self.color_at(material, ray, hit, &surface));
         let n = match self.relief(material) {
             Some(relief) => {
                 let (point, front) =
                     (self.texture_point(ray, hit, p, ng.to_vec(), 0.0), ng.facing(e));
                 let (n, front) = (n.to_vec(), front.to_vec());
-                let at = Turned { ray, hit, point: &point, n, front, is_flipped: is_turned };
+                let at = Turned { ray, hit, point: &point, n, front, is_flipped };
                 Dir3::from_unit(self.turned_normal(relief, &at))
             }
             None => n,

@@ -15,7 +15,7 @@ pub(super) struct Shading {
     /// Shading normal, on the side of the geometric normal that faces the eye.
     pub(super) n: Dir3,
     /// Whether it is turned to that side.
-    pub(super) is_turned: bool,
+    pub(super) is_flipped: bool,
     /// Number of the material.
     pub(super) material: u32,
     /// The diffuse colour, if the geometry brings one.
@@ -35,7 +35,7 @@ pub(crate) struct Shading8 {
     /// Numbers of the materials.
     pub(crate) material: [u32; 8],
     /// Surfaces whose shading normals are turned to that side, one bit each.
-    pub(crate) turned: u32,
+    pub(crate) flipped: u32,
     /// Surfaces of meshes with smooth normals, one bit each, where they are asked for: shadow rays start
     /// above the face.
     pub(crate) smooth: u32,
@@ -49,7 +49,7 @@ impl Shading8 {
         front: [[0.0; 8]; 3],
         color: [[0.0; 8]; 3],
         material: [0; 8],
-        turned: 0,
+        flipped: 0,
         smooth: 0,
         lift: [[0.0; 8]; 3],
     };
@@ -64,12 +64,12 @@ impl View {
             let own = self.cap_material(hit).is_none();
             let color = self.own_color(batch, hit).filter(|_| own);
             let material = self.material_of(hit);
-            return Shading { n: ng.facing(e), is_turned: false, material, color };
+            return Shading { n: ng.facing(e), is_flipped: false, material, color };
         }
         let own = self.own_normal(hit).unwrap_or(ng);
         let n = own.facing(ng.facing(e));
         let (material, color) = (batch.material(hit.prim), self.own_color(batch, hit));
-        Shading { n, is_turned: n != own, material, color }
+        Shading { n, is_flipped: n != own, material, color }
     }
 
     /// The shading normal, where the geometry brings one.
@@ -166,7 +166,7 @@ impl View {
         // the shading normal may well look away from the eye.
         let up = load3(simd, &shading.n);
         let away = dot(up, front).simd_lt(zero);
-        shading.turned = away.to_bitmask() as u32;
+        shading.flipped = away.to_bitmask() as u32;
         shading.n = store3(select3(away, [-up[0], -up[1], -up[2]], up));
     }
 
@@ -187,7 +187,7 @@ impl View {
             set(&mut shading.color, lane, color.to_array());
             shading.material[lane] = number;
             shading.smooth &= !(1 << lane);
-            shading.turned &= !(1 << lane);
+            shading.flipped &= !(1 << lane);
         }
     }
 
@@ -296,7 +296,7 @@ mod tests {
                 let (ng, e) = (direction(&surface.ng, lane), -direction(&rays.dir, lane));
                 let one = view.shading(&hits.get(lane), ng, e);
                 assert_eq!(get(&eight.n, lane), one.n.to_array());
-                assert_eq!(eight.turned >> lane & 1 != 0, one.is_turned);
+                assert_eq!(eight.flipped >> lane & 1 != 0, one.is_flipped);
                 let own = one.color.unwrap_or(view.materials()[one.material as usize].color);
                 assert_eq!(get(&eight.color, lane), own.to_array());
                 assert_eq!(eight.material[lane], one.material);

@@ -113,7 +113,7 @@ impl View {
             if let Some(relief) = relief {
                 let n = Vec3::from(get(&shading.n, lane));
                 let front = Vec3::from(get(&shading.front, lane));
-                let is_flipped = shading.turned >> lane & 1 != 0;
+                let is_flipped = shading.flipped >> lane & 1 != 0;
                 let at = Turned { ray: &ray, hit: &hit, point: &point, n, front, is_flipped };
                 let n = self.turned_normal(relief, &at);
                 set(&mut shading.n, lane, n.to_array());
