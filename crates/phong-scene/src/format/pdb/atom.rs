@@ -318,7 +318,7 @@ mod tests {
             "ATOM  123456 CA  ALA A12345678901234567890",
         ] {
             for end in 6..=text.len() {
-                let line = Fixed { line: 1, text: text[..end].as_bytes() };
+                let line = Fixed { line: 1, text: &text.as_bytes()[..end] };
                 let record = Record::parse(line, false, &file, &mut Findings::default());
                 assert!(matches!(record, Some(Record::Atom(_))), "{text:?} up to {end}");
             }
