@@ -4,6 +4,7 @@
 //! [`Engine::advance`], so that whoever runs it may hear the next request in between. A request that
 //! changes the picture takes the place of the one under way.
 
+mod asking;
 mod dressing;
 mod exporting;
 mod finishing;
@@ -21,19 +22,13 @@ mod sharing;
 mod teaching;
 mod writing;
 
-use phong::explain::Explanation;
 use phong::render::Cancel;
 use phong::scene::{Format, Limits, NamedLook, Source, closest, schema_json};
 use phong::terms::{Term, TermSet};
-use phong::view::View;
-use phong_lab::figures::{self, Facets, Falloff};
 use phong_lab::grade::Planted;
 use serde_json::{Map, Value};
 
-use crate::protocol::{
-    FileKind, MOST_EXPLAINED, MOST_EXPONENT, MOST_FACETS, Message, PixelKind, Reply, Request,
-    VERSION,
-};
+use crate::protocol::{Message, PixelKind, Reply, Request, VERSION};
 use opened::{Files, Opened, Shown};
 use painting::Painting;
 pub use saving::Keep;
@@ -214,8 +209,8 @@ impl Engine {
                 say(emit, &Reply::Keys { schema });
                 Ok(())
             }
-            Request::Facets { id, theta, count } => facets(id, theta, count, emit),
-            Request::CosinePower { id, exponent } => cosine_power(id, exponent, emit),
+            Request::Facets { id, theta, count } => asking::facets(id, theta, count, emit),
+            Request::CosinePower { id, exponent } => asking::cosine_power(id, exponent, emit),
         };
         if let Err(message) = done {
             say(emit, &error_reply(message));
@@ -486,99 +481,6 @@ impl Engine {
         );
         Ok(())
     }
-
-    fn explain(
-        &self,
-        id: u64,
-        pixel: [u32; 2],
-        samples: u32,
-        set: &Map<String, Value>,
-        emit: Emit<'_>,
-    ) -> Result<(), String> {
-        let (told, view, picture) = self.told(pixel, samples, set)?;
-        let lines = lines::of(&told, &view);
-        let told = phong_lab::tell::json(&told);
-        let planted = self.planted.as_ref();
-        let drawn = planted.and_then(|planted| teaching::drawn(planted, pixel));
-        say(emit, &Reply::Explanation { id, picture, told, drawn, lines });
-        Ok(())
-    }
-
-    fn lobe(
-        &self,
-        id: u64,
-        pixel: [u32; 2],
-        light: usize,
-        set: &Map<String, Value>,
-        emit: Emit<'_>,
-    ) -> Result<(), String> {
-        let (told, view, _) = self.told(pixel, 1, set)?;
-        say(emit, &lobe::of(id, &told, light, &view)?);
-        Ok(())
-    }
-
-    /// A pixel of the picture under way explained, with values laid over the scene for it alone.
-    fn told(
-        &self,
-        pixel: [u32; 2],
-        samples: u32,
-        set: &Map<String, Value>,
-    ) -> Result<(Explanation, View, u32), String> {
-        let painting = self.painting.as_ref().ok_or("there is no picture")?;
-        if !(1..=MOST_EXPLAINED).contains(&samples) {
-            return Err(format!("{samples} samples: 1 to {MOST_EXPLAINED} are told"));
-        }
-        let options = painting.options().clone().with_samples(samples);
-        let options = options.map_err(|error| error.to_string())?;
-        let view = if set.is_empty() {
-            painting.view().clone()
-        } else {
-            self.drawn().ok_or(NOTHING)?.view_with(set)?
-        };
-        let told = phong::explain::explain(&view, &options, pixel);
-        let mut told = told.map_err(|outside| outside.to_string())?;
-        let finished = painting.finish_told(&mut told, &view, &options);
-        finished.map_err(|error| error.to_string())?;
-        Ok((told, view, painting.number()))
-    }
-
-    fn finish(&self, picture: u32, emit: Emit<'_>) {
-        let asked = self.painting.as_ref().filter(|painting| painting.number() == picture);
-        if let Some(painting) = asked {
-            painting.say_finished(self.pixels, emit);
-        }
-    }
-
-    fn export(&self, format: FileKind, emit: Emit<'_>) -> Result<(), String> {
-        // The text is as it is, whatever look is tried on.
-        let is_text = format == FileKind::Toml;
-        let opened = if is_text { self.opened.as_ref() } else { self.drawn() };
-        let opened = opened.ok_or(NOTHING)?;
-        let file = exporting::file(format, opened, self.painting.as_ref())?;
-        say(emit, &Reply::File { name: file.name, bytes: file.bytes.len() });
-        emit(Message::Frame(crate::protocol::file_frame(&file.bytes)));
-        Ok(())
-    }
-}
-
-/// Draws tiny mirrors, and says what they send out.
-fn facets(id: u64, theta: f64, count: u32, emit: Emit<'_>) -> Result<(), String> {
-    if !(1..=MOST_FACETS).contains(&count) || !(5.0..=80.0).contains(&theta) {
-        return Err(format!("1 to {MOST_FACETS} facets are drawn, under 5 to 80 degrees"));
-    }
-    let Facets { range, counted, alike, lobe, error } = figures::facets(theta, count);
-    say(emit, &Reply::Facets { id, count, range, counted, alike, lobe, error });
-    Ok(())
-}
-
-/// Says how a highlight falls off with this exponent.
-fn cosine_power(id: u64, exponent: f64, emit: Emit<'_>) -> Result<(), String> {
-    if !(0.0..=MOST_EXPONENT).contains(&exponent) {
-        return Err(format!("an exponent is from 0 to {MOST_EXPONENT}"));
-    }
-    let Falloff { range, curve, half_width } = figures::cosine_power(exponent);
-    say(emit, &Reply::CosinePower { id, exponent, range, curve, half_width });
-    Ok(())
 }
 
 fn error_reply(message: String) -> Reply {
