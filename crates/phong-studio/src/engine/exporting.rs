@@ -96,7 +96,11 @@ pub(super) fn file(
         }
     };
     let (film, settings) = whole(opened, painting)?;
-    let finishing = furniture::finishing(film, &settings);
+    let mut finishing = furniture::finishing(film, &settings);
+    if opened.frame.number > 0 {
+        // As a frame is written by `phong render --frames`, which knows by it what is there already.
+        finishing = finishing.of_picture(settings.checksum());
+    }
     let mut out = Cursor::new(Vec::new());
     write(&finish(film, &finishing), content, format, &settings.encoding, &mut out)
         .map_err(|error| error.to_string())?;

@@ -4,7 +4,8 @@ use std::io;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use phong::scene::{
-    Blob, Change, Format, FrameRange, Frames, Limits, Reading, Scene, Source, read_changed,
+    Blob, Change, Format, FrameRange, Frames, Limits, Object, Reading, Scene, Shape, Source,
+    read_changed,
 };
 
 /// How many bytes of a text file are looked through for frames, and how many frames are found of a file. It is done
@@ -77,6 +78,15 @@ impl Frame {
     /// Another frame of the same.
     pub(super) fn other(&self, number: u64) -> Self {
         Self { number, ..self.clone() }
+    }
+
+    /// Whether sizes were guessed for the first frame of a bare model that the others have as well.
+    pub(super) fn guesses(&self) -> bool {
+        let is_guessed = |object: &Object| match &object.shape {
+            Shape::Points(points) => points.guessed.is_some(),
+            _ => false,
+        };
+        self.first.as_ref().is_some_and(|first| first.objects.iter().any(is_guessed))
     }
 
     /// The range of frames that this is; `None`: it is the first, for which nothing need be known of the others.

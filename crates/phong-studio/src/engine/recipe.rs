@@ -33,13 +33,9 @@ impl Opened {
     /// A program in Python that draws what is shown: from the file if it is the file that is shown,
     /// else from the text with what is laid over it written in.
     pub(super) fn python(&self) -> Result<String, String> {
-        let frame = match (self.frame.number, &self.text) {
-            (0, _) => String::new(),
-            (number, Some(_)) => format!(", frame={number}"),
-            (_, None) => {
-                let why = "a program in Python sees no frame of a bare model as another frame is";
-                return Err(format!("{why}: copy the first"));
-            }
+        let frame = match self.frame.number {
+            0 => String::new(),
+            number => format!(", frame={number}"),
         };
         // Text of JSON is text of Python.
         let read = match (&self.text, self.set.is_empty()) {
@@ -54,10 +50,27 @@ impl Opened {
                 format!("phong.Scene.parse(\"\"\"\\\n{text}\"\"\"{frame})")
             }
         };
+        let camera = self.camera_of_first()?;
         let look = self.dressed.map(|look| format!("scene.look(\"{}\")\n", look.name()));
         let look = look.unwrap_or_default();
         Ok(format!(
-            "import phong\n\nscene = {read}\n{look}phong.render(scene).save(\"picture.png\")\n"
+            "import phong\n\nscene = {read}\n{camera}{look}phong.render(scene).save(\"picture.png\")\n"
+        ))
+    }
+
+    /// The line of Python after which a later frame of a bare model is seen as the first is; its lights follow the
+    /// camera. Nothing where that is so without it.
+    fn camera_of_first(&self) -> Result<String, String> {
+        if self.text.is_some() || self.frame.number == 0 {
+            return Ok(String::new());
+        }
+        if self.frame.guesses() {
+            let why = "the balls of this frame are as large as was guessed for the first, and Python guesses anew";
+            return Err(format!("{why}: copy the first, and read another with `frame=` in it"));
+        }
+        let path = Value::from(self.path.as_str());
+        Ok(format!(
+            "# Seen as the first frame is.\nscene.camera = phong.Scene.read({path}).camera\n"
         ))
     }
 }

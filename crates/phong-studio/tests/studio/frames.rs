@@ -1,5 +1,12 @@
 //! The frames of trajectories.
 
+use std::io::Cursor;
+
+use phong::film::LayerKind;
+use phong::finish::finish;
+use phong::image::{Content, Encoding, Format, write};
+use phong::part::Settings;
+use phong::render::RenderOptions;
 use phong::scene::{FrameRange, Frames, Limits, Memory};
 use phong_studio::engine::{Bounds, Engine};
 use serde_json::{Value, json};
@@ -87,8 +94,6 @@ fn frames_of_a_bare_model_are_seen_as_the_first_one_is() {
     talk.ask(&json!({ "do": "frame", "number": 2 }));
     let look = talk.page.last("look");
     assert_eq!((&look["values"], &look["command"]), (&first["values"], &json!(null)));
-    talk.ask(&json!({ "do": "export", "format": "python" }));
-    assert!(talk.page.last("error")["message"].as_str().unwrap().contains("copy the first"));
     // So they are with a look on, and without it again.
     talk.ask(&json!({ "do": "put-on", "look": "clay" }));
     let clay = talk.page.last("look")["values"].clone();
@@ -125,4 +130,72 @@ fn a_frame_that_is_not_there_or_cannot_be_read_is_refused_and_all_is_as_it_was()
     assert!(said.contains("frame 3: "), "{said}");
     talk.ask(&json!({ "do": "turn", "by": [0.1, 0] }));
     assert_eq!(told(&talk), (json!(0), json!(4)));
+}
+
+/// What is copied as Python, or why nothing is.
+fn python(talk: &mut Talk) -> Result<String, String> {
+    let errors = talk.page.all("error").len();
+    talk.ask(&json!({ "do": "export", "format": "python" }));
+    match talk.page.all("error").get(errors) {
+        Some(error) => Err(error["message"].as_str().unwrap().to_owned()),
+        None => Ok(String::from_utf8_lossy(&talk.page.file).into_owned()),
+    }
+}
+
+#[test]
+fn a_later_frame_of_a_bare_model_is_copied_as_python_with_the_camera_of_the_first() {
+    let mut talk = talk("run.xyz");
+    let first = python(&mut talk).unwrap();
+    assert!(
+        first.contains("phong.Scene.read(\"run.xyz\")\n") && !first.contains("camera"),
+        "{first}"
+    );
+    talk.ask(&json!({ "do": "put-on", "look": "clay" }));
+    talk.ask(&json!({ "do": "frame", "number": 2 }));
+    let lines = [
+        "scene = phong.Scene.read(\"run.xyz\", frame=2)",
+        "# Seen as the first frame is.",
+        "scene.camera = phong.Scene.read(\"run.xyz\").camera",
+        "scene.look(\"clay\")",
+        "phong.render(scene).save(\"picture.png\")",
+    ];
+    assert!(python(&mut talk).unwrap().ends_with(&(lines.join("\n") + "\n")));
+    // Where sizes are guessed for each frame, it would not be the same.
+    let frame = |time: u32, x: f32| {
+        format!(
+            "ITEM: TIMESTEP\n{time}\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp pp\n0 9\n0 9\n0 9\n\
+             ITEM: ATOMS id type x y z\n1 1 1 1 1\n2 1 {x} 1 1\n"
+        )
+    };
+    let files = Memory::new().with("run.lammpstrj", frame(0, 2.0) + &frame(1, 3.0));
+    talk.engine = Engine::new(files, Bounds::default());
+    talk.ask(&json!({ "do": "open", "path": "run.lammpstrj" }));
+    assert_eq!(told(&talk), (json!(0), json!(2)));
+    assert!(python(&mut talk).is_ok());
+    talk.ask(&json!({ "do": "frame", "number": 1 }));
+    assert!(python(&mut talk).unwrap_err().contains("copy the first"));
+}
+
+#[test]
+fn the_file_of_a_later_frame_says_which_picture_it_is_as_the_program_s_does() {
+    let files = Memory::new().with("run.xyz", RUN).with("a.toml", SCENE);
+    let (limits, range) = (Limits::default(), FrameRange { start: 1, end: None, step: 1 });
+    let scene = Frames::new(&files, &limits, range).read(1, "a.toml", None, &[]).scene.unwrap();
+    let options = RenderOptions::of(&scene.image).unwrap();
+    let settings = Settings::of(&scene, &options, Encoding::default());
+    let finishing = settings.finishing().of_picture(settings.checksum());
+    let mut expected = Cursor::new(Vec::new());
+    let film = film(&scene);
+    let picture = Content::Layer(LayerKind::Picture);
+    let finished = finish(&film, &finishing);
+    write(&finished, picture, Format::Png, &settings.encoding, &mut expected).unwrap();
+    let mut talk = talk("a.toml");
+    talk.ask(&json!({ "do": "frame", "number": 1 }));
+    talk.draw();
+    talk.ask(&json!({ "do": "export", "format": "png" }));
+    assert!(talk.page.file == expected.into_inner());
+    talk.ask(&json!({ "do": "frame", "number": 0 }));
+    talk.draw();
+    talk.ask(&json!({ "do": "export", "format": "png" }));
+    assert!(!String::from_utf8_lossy(&talk.page.file).contains("Picture"));
 }
