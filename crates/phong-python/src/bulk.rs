@@ -237,7 +237,7 @@ pub(crate) fn cylinders(
         Some(colors) => cylinder_colors(colors, count)?,
     };
     let fields = self::fields(fields, count, 2)?;
-    Ok(Cylinders { origin, segments: segments.into(), colors, caps, fields })
+    Ok(Cylinders { origin, segments: segments.into(), colors, caps, guessed: None, fields })
 }
 
 /// Centres, with no radius yet.

@@ -123,7 +123,7 @@ impl Arrays {
                 })
             }
             Shape::Cylinders(cylinders) => {
-                let Cylinders { origin, segments, colors, caps, fields } = &**cylinders;
+                let Cylinders { origin, segments, colors, caps, guessed, fields } = &**cylinders;
                 let caps = match caps {
                     Caps::Round => "round",
                     Caps::Flat => "flat",
@@ -134,6 +134,7 @@ impl Arrays {
                     "origin": origin.to_array().map(f64::to_bits),
                     "arrays": [self.put(segments), self.put(colors)],
                     "caps": caps,
+                    "guessed": guessed.map(f32::to_bits),
                     "fields": self.fields(fields),
                 })
             }
@@ -324,6 +325,14 @@ fn number(value: &Value) -> PyResult<u32> {
     value.as_u64().and_then(|number| u32::try_from(number).ok()).ok_or_else(broken)
 }
 
+/// The radius that was guessed, of packed points or cylinders.
+fn guessed(packed: &Value) -> PyResult<Option<f32>> {
+    match &packed["guessed"] {
+        Value::Null => Ok(None),
+        bits => Ok(Some(f32::from_bits(number(bits)?))),
+    }
+}
+
 fn vector(value: &Value) -> PyResult<DVec3> {
     let bits: Vec<u64> = value
         .as_array()
@@ -450,10 +459,7 @@ impl Taken<'_> {
             }
             .into(),
             Some("points") => {
-                let guessed = match &packed["guessed"] {
-                    Value::Null => None,
-                    bits => Some(f32::from_bits(number(bits)?)),
-                };
+                let guessed = guessed(packed)?;
                 let (spheres, colors) = (self.get(&array(0))?, self.get(&array(1))?);
                 let fields = self.fields(&packed["fields"])?;
                 Points { origin, spheres, colors, guessed, fields }.into()
@@ -467,7 +473,8 @@ impl Taken<'_> {
                 };
                 let (segments, colors) = (self.get(&array(0))?, self.get(&array(1))?);
                 let fields = self.fields(&packed["fields"])?;
-                Cylinders { origin, segments, colors, caps, fields }.into()
+                let guessed = guessed(packed)?;
+                Cylinders { origin, segments, colors, caps, guessed, fields }.into()
             }
             _ => return Err(broken()),
         })

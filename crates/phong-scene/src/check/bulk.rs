@@ -71,7 +71,7 @@ pub(super) fn points(points: &Points, faults: &mut Faults) {
 
 /// Judges cylinders.
 pub(super) fn cylinders(cylinders: &Cylinders, faults: &mut Faults) {
-    let Cylinders { origin, segments, colors: pairs, caps, fields: numbers } = cylinders;
+    let Cylinders { origin, segments, colors: pairs, caps, fields: numbers, .. } = cylinders;
     faults.vector("origin", *origin);
     if segments.is_empty() {
         faults.say("segments", "`segments` is empty");

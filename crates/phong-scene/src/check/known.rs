@@ -80,7 +80,7 @@ fn key(shape: &Shape) -> Option<Key> {
             ([at(spheres), at(colors), 0, 0, 0, 0, 0, 0], *origin, fields)
         }
         Shape::Cylinders(cylinders) => {
-            let Cylinders { origin, segments, colors, fields, caps } = &**cylinders;
+            let Cylinders { origin, segments, colors, fields, caps, .. } = &**cylinders;
             ([at(segments), at(colors), *caps as usize, 0, 0, 0, 0, 0], *origin, fields)
         }
         _ => return None,

@@ -32,6 +32,13 @@ fn follow(mine: &mut Shape, first: &Shape) {
         mine.guessed = first.guessed;
         mine.set_radius(first.spheres.first().map(|sphere| sphere[3]));
     }
+    if let (Shape::Cylinders(mine), Shape::Cylinders(first)) = (&mut *mine, first)
+        && mine.guessed.is_some()
+        && first.guessed.is_some()
+    {
+        mine.guessed = first.guessed;
+        mine.set_radius(first.segments.first().map(|ends| ends[0][3]));
+    }
     mine.share(first);
 }
 
@@ -80,6 +87,7 @@ fn are_same_cylinders(a: &Cylinders, b: &Cylinders) -> bool {
         && a.segments == b.segments
         && a.colors == b.colors
         && a.caps == b.caps
+        && a.guessed == b.guessed
         && a.fields == b.fields
 }
 

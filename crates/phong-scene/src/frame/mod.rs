@@ -3,6 +3,7 @@
 mod around;
 mod flat;
 mod follow;
+mod guessed;
 
 use std::collections::BTreeMap;
 
@@ -14,7 +15,6 @@ use crate::color::Rgb;
 use crate::diagnostic::{Diagnostic, Place, Span};
 use crate::fragment::Fragment;
 use crate::light::{Light, LightKind};
-use crate::mesh::Points;
 use crate::scene::{Background, Group, Object, Scene};
 use crate::shape::Shape;
 use crate::source::ending;
@@ -22,9 +22,6 @@ use crate::texture::Param;
 
 /// Share of the picture that the model's box may fill, along the tighter direction.
 const FILL: f64 = 0.9;
-
-/// Pixels of the radius of a sphere, at least, where it was guessed.
-const LEAST_RADIUS: f64 = 1.5;
 
 /// From where a bare model is looked at.
 ///
@@ -126,7 +123,11 @@ pub(crate) fn frame(fragment: Fragment, framing: &Framing, place: &Place) -> Sce
     };
     // What is to be said of the view is said when it is chosen.
     let _ = scene.frame(framing);
-    scene.camera = fragment.camera.unwrap_or(scene.camera);
+    if let Some(camera) = fragment.camera {
+        scene.camera = camera;
+        scene.restore_guessed();
+        scene.enlarge_guessed();
+    }
     if !fragment.lights.is_empty() {
         scene.lights = fragment.lights;
     }
@@ -140,14 +141,11 @@ impl Scene {
     /// The camera is a perspective one; two distant lights stand behind it, a key light over its
     /// left shoulder and a weaker one low on its right, which throws no shadows.
     ///
-    /// Spheres whose radius was guessed are at least 1½ pixels in radius; a flat model that would
+    /// Spheres whose radius was guessed are at least 1½ pixels in radius, lines ¾; a flat model that would
     /// be seen from its edge is turned. What there is to say about the view is returned: warnings.
     pub fn frame(&mut self, framing: &Framing) -> Vec<Diagnostic> {
         let mut said = Vec::new();
-        for points in self.guessed_points() {
-            // As it was guessed, whatever an earlier picture needed.
-            points.set_radius(points.guessed);
-        }
+        self.restore_guessed();
         let (mut to_eye, up) = directions(framing.side, framing.up);
         let thinnest = flat::thinnest(self);
         if framing.eye.is_none()
@@ -201,32 +199,6 @@ impl Scene {
             _ => false,
         };
         self.objects.first().is_some_and(is_gltf) || self.objects.iter().all(is_molecule)
-    }
-
-    /// The clouds whose radius was guessed.
-    fn guessed_points(&mut self) -> impl Iterator<Item = &mut Points> {
-        self.objects.iter_mut().filter_map(|object| match &mut object.shape {
-            Shape::Points(points) if points.guessed.is_some() => Some(&mut **points),
-            _ => None,
-        })
-    }
-
-    /// Makes spheres whose radius was guessed large enough to be seen.
-    fn enlarge_guessed(&mut self) {
-        let Camera { kind: CameraKind::Perspective { fov }, eye, .. } = self.camera else { return };
-        let height = f64::from(self.image.size[1].max(1));
-        let bounds = self.bounds();
-        // The farthest of them must be seen, too.
-        let distance =
-            bounds.corners().into_iter().map(|corner| corner.distance(eye)).fold(0.0, f64::max);
-        let pixel = 2.0 * distance * libm::tan(0.5 * fov.to_radians()) / height;
-        let least = (LEAST_RADIUS * pixel) as f32;
-        if !least.is_finite() {
-            return;
-        }
-        for points in self.guessed_points() {
-            points.set_radius(points.guessed.map(|guess| guess.max(least)));
-        }
     }
 
     /// The camera that looks from a side and has everything in the picture, with a margin.

@@ -19,6 +19,9 @@ pub struct Cylinders {
     pub colors: Shared<[Rgb; 2]>,
     /// What the ends look like.
     pub caps: Caps,
+    /// The radius of all, if nobody gave one and the reader guessed it: a picture that cannot show lines so thin
+    /// may draw thicker ones. `None`: the radii are as they were meant.
+    pub guessed: Option<f32>,
     /// Numbers that the ends have, two a segment, which maps show; most have none.
     pub fields: Vec<Field>,
 }
@@ -42,6 +45,14 @@ impl Cylinders {
     /// Bytes that the arrays take in memory.
     pub fn bytes(&self) -> u64 {
         (32 * self.segments.len() + 24 * self.colors.len()) as u64 + Field::bytes(&self.fields)
+    }
+
+    /// Gives all ends this radius, if it is one.
+    pub(crate) fn set_radius(&mut self, radius: Option<f32>) {
+        if let Some(radius) = radius.filter(|r| self.segments.iter().flatten().any(|e| e[3] != *r))
+        {
+            self.segments.iter_mut().flatten().for_each(|end| end[3] = radius);
+        }
     }
 
     /// Whether both ends of a segment are at one place.

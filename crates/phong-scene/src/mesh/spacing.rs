@@ -18,7 +18,7 @@ impl Points {
 
     /// Gives all points this radius, if it is one.
     pub(crate) fn set_radius(&mut self, radius: Option<f32>) {
-        if let Some(radius) = radius {
+        if let Some(radius) = radius.filter(|r| self.spheres.iter().any(|s| s[3] != *r)) {
             self.spheres.iter_mut().for_each(|sphere| sphere[3] = radius);
         }
     }

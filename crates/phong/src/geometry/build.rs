@@ -104,7 +104,7 @@ pub(super) fn build(
             }
             Shape::Cylinders(cylinders) => {
                 let batch = Batch::new(Objects::One(number), material);
-                let Cylinders { origin, segments, colors, caps, fields } = &**cylinders;
+                let Cylinders { origin, segments, colors, caps, fields, .. } = &**cylinders;
                 let (end_colors, fields) = (colors.clone(), fields.clone());
                 let batch = Batch { end_colors, fields, is_ends: true, ..batch };
                 (Arrays::Cylinders(segments.clone(), *caps), *origin, batch)

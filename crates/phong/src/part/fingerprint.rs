@@ -154,7 +154,7 @@ impl Sum {
     }
 
     fn cylinders(&mut self, cylinders: &Cylinders) {
-        let Cylinders { origin, segments, colors, caps, fields } = cylinders;
+        let Cylinders { origin, segments, colors, caps, fields, .. } = cylinders;
         self.fields(fields);
         self.debug(&(origin, caps));
         self.words(segments.as_flattened(), |end| end.map(f32::to_bits));

@@ -6,7 +6,7 @@
 //! | meshes without nodes at all | objects where they are |
 //! | a root of the scene that is another node's child | a warning; drawn as a root, or once, below the root that it belongs to |
 //! | primitives: triangles, strips, fans | meshes; without `NORMAL`, flat |
-//! | points; lines, strips and loops of them | spheres, as those of PLY files are; capsules of 0.2 % of their extent in radius |
+//! | points; lines, strips and loops of them | spheres, as those of PLY files are; capsules of 0.2 % of their extent in radius, of a bare model thick enough to be seen |
 //! | `COLOR_0` | linear colours, times the material's, which is then no metal; their alpha is not drawn |
 //! | accessors: strided, sparse, normalised, without a view | numbers, as the format says |
 //! | skins | the mesh bent to where its bones stand in the file; morph targets are not applied |

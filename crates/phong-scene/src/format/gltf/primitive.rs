@@ -222,7 +222,7 @@ fn lines(mesh: &Mesh, kept: &[Element]) -> Cylinders {
     let segments = ends().map(|e| [end(e[0]), end(e[e.len() - 1])]).collect();
     let color = |i: u32| mesh.colors.get(i as usize).copied();
     let colors = ends().filter_map(|e| Some([color(e[0])?, color(e[e.len() - 1])?])).collect();
-    Cylinders { segments, colors, ..Cylinders::default() }
+    Cylinders { segments, colors, guessed: Some(radius), ..Cylinders::default() }
 }
 
 /// The vertices of one thing that is drawn.
