@@ -3,7 +3,7 @@
 //! | in the file | read as |
 //! |---|---|
 //! | `N atoms`, `xlo xhi`, `xy xz yz`, … | counts and the cell |
-//! | `Atoms # style` | atoms of the styles that are told below; without the comment the style is that which fits the number of columns |
+//! | `Atoms # style` | atoms of the styles that are told below; without the comment the style is that which fits what the first of them hold; where others fit, too, a warning |
 //! | lines of comment before the first atom | nothing |
 //! | `Masses` | masses in g/mol, by which the elements are known where there is one so heavy |
 //! | `Bonds` | all bonds |
@@ -15,9 +15,10 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::boxes::cell_of;
+use super::guess::{Guess, Sample};
 use crate::diagnostic::Diagnostic;
 use crate::elements::number_of_mass;
-use crate::format::atoms::{Layout, Slot, Table, is_integer, read_atoms};
+use crate::format::atoms::{Layout, Slot, Table, read_atoms};
 use crate::format::input::Input;
 use crate::format::text::{Cursor, Decimal, Findings, Lines, Piece, Rows, open_text, whole};
 use crate::fragment::Fragment;
@@ -76,9 +77,17 @@ fn atoms(
         findings.error("files without atoms", || whole(file), message);
         return Ok(None);
     };
-    let (first, [behind, lines]) = first_row(blob, heading)?;
-    let layout = match style(&first, heading) {
-        Ok(layout) => layout,
+    let (first, [behind, lines]) = first_rows(blob, heading)?;
+    let cell = header.cell();
+    let is_whole = heading.start + behind + first.len() as u64 >= blob.len();
+    let sample = Sample::new(&first, is_whole, header.types, cell.as_ref());
+    let layout = match style(&sample, heading) {
+        Ok((layout, doubt)) => {
+            if let Some(doubt) = doubt {
+                findings.warning("styles", || whole(file), || doubt);
+            }
+            layout
+        }
         Err(message) => {
             findings.error("styles", || whole(file), || message);
             return Ok(None);
@@ -89,7 +98,7 @@ fn atoms(
     let table =
         Table { blob, file, limits, start, line, count: Some(count), layout, shares: false };
     let (mut molecule, _) = table.read(findings)?;
-    molecule.cell = header.cell();
+    molecule.cell = cell;
     if input.drawing.is_some_and(|drawing| drawing.trajectory.is_some()) {
         // A trajectory has the atoms in the order of their numbers.
         molecule.sort_by_column("id");
@@ -219,9 +228,9 @@ const STYLES: [(&str, &str); 28] = [
     ("wavepacket", "itq-----"),
 ];
 
-/// The layout of atoms of the style that the heading says, or that fits the first of them, whose words
-/// these are.
-fn style(first: &[Vec<u8>], heading: &Heading) -> Result<Layout, String> {
+/// The layout of atoms of the style that the heading says, or that fits the first of them; and what is to be
+/// said of that.
+fn style(first: &Sample<'_>, heading: &Heading) -> Result<(Layout, Option<String>), String> {
     // A style is one word; several are a remark, unless the first is a style: `hybrid` names others.
     let named = heading.text.split('#').nth(1).map(str::trim).unwrap_or_default();
     let mut words = named.split_ascii_whitespace();
@@ -235,37 +244,17 @@ fn style(first: &[Vec<u8>], heading: &Heading) -> Result<Layout, String> {
         (Some(first), Some(_)) if first.ends_with(':') => first.trim_end_matches(':'),
         _ => "",
     };
-    // Three whole numbers at the end say in which image of the box an atom is.
-    let images = first.len() > 7 && first[first.len() - 3..].iter().all(|word| is_integer(word));
-    let count = first.len() - if images { 3 } else { 0 };
-    let fractional = |i: usize| first.get(i).is_some_and(|word| !is_integer(word));
+    if named.is_empty() {
+        let Guess { before, doubt } = first.guess()?;
+        return Ok((layout(before), doubt));
+    }
     let known = STYLES.iter().find(|(style, _)| *style == named);
-    let before = match (known, count) {
-        (Some((_, before)), _) => before,
-        (None, _) if !named.is_empty() => {
-            return Err(format!("atoms of the style `{named}` are not read"));
-        }
-        (None, 5) => "it",
-        (None, 6) if fractional(2) => "itq",
-        (None, 6) => "imt",
-        (None, 7) if fractional(2) => "itd-",
-        (None, 7) => "imtq",
-        // Density, energy and capacity; a charge, a spin and a radius; a molecule, a flag and a density.
-        (None, 8) if fractional(3) => "it---",
-        (None, 8) if fractional(4) => "itq--",
-        (None, 8) => "imt--",
-        // A charge, a spin, a radius, a number and two shares; whole numbers up to a mass, and between
-        // three of them and a flag.
-        (None, 11) if !fractional(3) && !fractional(5) && fractional(4) => "itq-----",
-        (None, 12) if !(0..5).any(fractional) && !fractional(8) => "imt------",
-        // A volume, a mass and two radii, and where it was at first.
-        (None, 13) if !fractional(2) && (3..7).any(fractional) => "itm-------",
-        _ => {
-            return Err(format!(
-                "the atoms have {count} columns, which fits no style; write `Atoms # full` or the like"
-            ));
-        }
-    };
+    let unread = || format!("atoms of the style `{named}` are not read");
+    known.map(|(_, before)| (layout(before), None)).ok_or_else(unread)
+}
+
+/// The layout of rows with this before the place, as in [`STYLES`].
+fn layout(before: &str) -> Layout {
     let mut layout = Layout { slots: Vec::new(), columns: Vec::new(), bytes: false };
     for letter in before.chars() {
         let (name, words) = match letter {
@@ -286,13 +275,13 @@ fn style(first: &[Vec<u8>], heading: &Heading) -> Result<Layout, String> {
         layout.columns.push(if words { Column::of_words(name) } else { Column::of_numbers(name) });
     }
     layout.slots.extend([0, 1, 2].map(Slot::Place));
-    Ok(layout)
+    layout
 }
 
-/// The words of the first row of a section, and where its line begins: how far behind the heading, and how
-/// many lines.
-fn first_row(blob: &dyn Blob, heading: &Heading) -> io::Result<(Vec<Vec<u8>>, [u64; 2])> {
-    let mut text = vec![0; 4 << 10];
+/// Where the line of the first row of a section begins: how far behind the heading, and how many lines; and
+/// the text from there on.
+fn first_rows(blob: &dyn Blob, heading: &Heading) -> io::Result<(Vec<u8>, [u64; 2])> {
+    let mut text = vec![0; 16 << 10];
     let read = blob.read_full(&mut text, heading.start)?;
     let piece = Piece { text: &text[..read], offset: 0, line: 1, rows: 0 };
     let mut cursor = Cursor::new(piece, false);
@@ -304,11 +293,7 @@ fn first_row(blob: &dyn Blob, heading: &Heading) -> io::Result<(Vec<Vec<u8>>, [u
         cursor.next_line();
     }
     let at = [cursor.at() as u64, cursor.line - 1];
-    let mut words = Vec::new();
-    while cursor.more() && !cursor.rest().starts_with(b"#") {
-        words.push(cursor.word().to_vec());
-    }
-    Ok((words, at))
+    Ok((text[cursor.at()..read].to_vec(), at))
 }
 
 /// The first `N` numbers of each of so many rows of a section.

@@ -4,6 +4,7 @@ mod boxes;
 mod columns;
 mod data;
 mod dump;
+mod guess;
 
 use crate::diagnostic::Diagnostic;
 use crate::fragment::Fragment;
