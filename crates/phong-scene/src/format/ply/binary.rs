@@ -1,6 +1,6 @@
 //! Binary bodies, converted in parallel from positioned reads straight into the final arrays.
 //!
-//! Rows of one length (vertices without lists; faces that all have as many corners as the first)
+//! Rows of one length (vertices without lists; faces all of whose lists are as long as those of the first)
 //! are read by all threads. Rows of varying length are walked by one.
 
 use std::io;
@@ -14,6 +14,7 @@ use super::edges::{EdgePlan, Edges};
 use super::extras::{ExtrasRow, Use};
 use super::header::{Element, Encoding, Type};
 use super::names::{Row, WIDTH};
+use super::regular::Read;
 use super::vertices::{Columns, Vertices, tell};
 use super::walk::{BLOCK, Walk, load};
 use crate::diagnostic::Severity;
@@ -69,7 +70,13 @@ impl Body<'_> {
                     };
                     match uniform {
                         None if !self.findings.any_error() => {
-                            self.walk_faces(element, list, offset, contents)?
+                            let read = match list {
+                                Some(list) => {
+                                    self.regular_faces(element, list, offset, contents)?
+                                }
+                                None => Read::default(),
+                            };
+                            self.walk_faces(element, list, (offset, read), contents)?
                         }
                         end => end,
                     }
@@ -266,23 +273,26 @@ impl Body<'_> {
         Ok(Some(walk.offset()))
     }
 
-    /// Reads or skips rows with lists, those of `list` as faces; where they end, or `None` after
-    /// an error.
+    /// Reads or skips rows with lists behind those that were read before, those of `list` as faces; where
+    /// they end, or `None` after an error.
     fn walk_faces(
         &mut self,
         element: &Element,
         list: Option<FaceList>,
-        offset: u64,
+        (offset, read): (u64, Read),
         contents: &mut Contents,
     ) -> io::Result<Option<u64>> {
+        if self.findings.any_error() {
+            return Ok(None);
+        }
         let Contents { faces, extras, .. } = contents;
         let plan = self.extras.clone().filter(|_| element.name == "face");
         let mut own = ExtrasRow::default();
-        let mut walk = Walk::new(self, offset);
-        let mut findings = Findings::default();
+        let mut walk = Walk::new(self, offset + read.bytes);
+        let mut findings = read.findings;
         let (mut numbers, mut scratch) = (Vec::new(), Vec::new());
         let most = self.limits.bytes / 8;
-        for number in 0..element.count {
+        for number in read.rows..element.count {
             for (i, property) in element.properties.iter().enumerate() {
                 let used = plan.as_ref().and_then(|plan| plan.of(i));
                 let whole = match (property.list, list) {
@@ -325,7 +335,13 @@ impl Body<'_> {
         Ok(room.then_some(walk.offset()))
     }
 
-    fn block<'b>(&self, buffer: &'b mut Vec<u8>, offset: u64, size: usize) -> io::Result<&'b [u8]> {
+    /// So many bytes from there on, all of which are there.
+    pub(super) fn block<'b>(
+        &self,
+        buffer: &'b mut Vec<u8>,
+        offset: u64,
+        size: usize,
+    ) -> io::Result<&'b [u8]> {
         buffer.resize(size, 0);
         if self.blob.read_full(buffer, offset)? < size {
             return Err(io::Error::new(

@@ -45,6 +45,7 @@ pub(crate) mod export;
 mod extras;
 mod header;
 mod names;
+mod regular;
 mod textures;
 mod vertices;
 mod walk;

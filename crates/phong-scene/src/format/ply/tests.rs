@@ -103,6 +103,73 @@ fn faces_of_one_length_and_of_many_give_the_same_triangles() {
     assert_eq!(mixed.indices.len(), 10_001);
 }
 
+/// Triangles with texture coordinates and a colour each, with quads at these places among them, and what `bad`
+/// says of a row's first vertex.
+fn dressed(count: usize, quads: &[usize], bad: impl Fn(usize) -> Option<u32>) -> Vec<u8> {
+    let elements = format!(
+        "element vertex 30000\nproperty float x\nproperty float y\nproperty float z\nelement face {}\n\
+         property uchar flags\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\n\
+         property uchar red\nproperty uchar green\nproperty uchar blue",
+        count + quads.len()
+    );
+    let mut body =
+        floats((0..30_000).flat_map(|i| [(i / 3) as f32, (i % 3) as f32, (i * i % 7) as f32]));
+    let mut row = |corners: &[u32], i: usize| {
+        body.extend([9, corners.len() as u8]);
+        body.extend(corners.iter().flat_map(|i| i.to_le_bytes()));
+        body.push(2 * corners.len() as u8);
+        body.extend(floats((0..2 * corners.len()).map(|k| (i + k) as f32)));
+        body.extend([i as u8, (i / 256) as u8, 7]);
+    };
+    for i in 0..count {
+        if quads.contains(&i) {
+            row(&[0, 3, 4, 1], 0);
+        }
+        let first = 3 * i as u32;
+        row(&[bad(i).unwrap_or(first), first + 1, first + 2], i);
+    }
+    if quads.contains(&count) {
+        row(&[0, 3, 4, 1], 0);
+    }
+    file(LITTLE, &elements, &body)
+}
+
+#[test]
+fn faces_with_more_than_corners_are_the_same_whether_their_rows_are_regular_or_not() {
+    let corners = |mesh: &Mesh, triangles: std::ops::Range<usize>| -> Vec<_> {
+        let corner = |t: usize, k: usize| {
+            let [at, uv] = [mesh.indices[t][k], mesh.uv_indices[t][k]].map(|i| i as usize);
+            (mesh.positions[at], mesh.uvs[uv], mesh.colors[at])
+        };
+        triangles.flat_map(|t| [0, 1, 2].map(|k| corner(t, k))).collect()
+    };
+    let count = 9_999;
+    let regular = mesh(&dressed(count, &[], |_| None));
+    let expected = corners(&regular, 0..count);
+    assert_eq!(expected[3 * 9_000 + 1].1, glam::Vec2::new(9_002.0, 9_003.0));
+    // A quad in front: all are walked. One later: those behind it.
+    let walked = mesh(&dressed(count, &[0], |_| None));
+    assert!(corners(&walked, 2..count + 2) == expected);
+    for at in [7_000, count] {
+        let mixed = mesh(&dressed(count, &[at], |_| None));
+        assert!(corners(&mixed, 0..at) == expected[..3 * at]);
+        assert!(corners(&mixed, at + 2..count + 2) == expected[3 * at..]);
+    }
+    let bad = |i: usize| (i == 8_000).then_some(70_000);
+    let said = told(&dressed(count, &[], bad));
+    assert!(said.contains("face 8000") && said.contains("70000"), "{said}");
+    assert_eq!(said.replace("8000", "8001"), told(&dressed(count, &[0], bad)));
+    let lenient = Limits { lenient: true, ..Limits::default() };
+    let whole = dressed(count, &[], bad);
+    for bytes in [&whole[..], &whole[..whole.len() - 5]] {
+        let (regular, said) = model(bytes, &lenient, None);
+        let Some(Shape::Mesh(regular)) = regular else { panic!("{said}") };
+        let (left, behind) = (regular.indices.len(), usize::from(bytes.len() == whole.len()));
+        assert_eq!(left, count - 2 + behind);
+        assert!(corners(&regular, 8_000..left)[..] == expected[3 * 8_001..3 * (left + 1)]);
+    }
+}
+
 #[test]
 fn going_over_a_limit_is_an_error_before_anything_is_allocated() {
     let elements = "element vertex 1000\nproperty float x\nproperty float y\nproperty float z";
