@@ -369,7 +369,8 @@ impl<'a> Assembly<'a> {
         let patterned = self.bulk.iter().filter(|bulk| bulk.texture.more).count()
             + self.objects.iter().filter(|(_, texture, ..)| texture.more).count();
         if patterned > 0 {
-            let message = "textures have patterns, images or outlines; their colour is drawn alone";
+            let message = "textures have patterns or images (`TEXFUNC` 2 and above) or outlines; their constant \
+                           colour is drawn alone";
             warn("patterns", message.to_owned());
         }
         let all = self.bulk.iter().map(|bulk| bulk.texture);
