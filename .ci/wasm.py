@@ -271,17 +271,6 @@ def walk(browser, address, faults):
     return sorted(firsts)[1]
 
 
-def drawn(png):
-    """What a PNG holds but for its texts: of a film's frame the program also tells which picture it is."""
-    data, parts = png.read_bytes(), []
-    at = 8
-    while at < len(data):
-        end = at + 12 + int.from_bytes(data[at : at + 4], "big")
-        parts += [data[at:end]] if data[at + 4 : at + 8] != b"tEXt" else []
-        at = end
-    return parts
-
-
 def frames(browser, address, faults):
     """Every worker shows the frame of a trajectory that the slider is at, and the picture is the program's."""
     context, page = open_page(browser, f"{address}?workers=2", faults, service_workers="block")
@@ -298,7 +287,7 @@ def frames(browser, address, faults):
         page.click("#png")
     download.value.save_as(FOLDER / "frame.png")
     subprocess.run([PHONG, "render", FOLDER / "run.toml", "--frames", "2", "-o", FOLDER / "same.png", "--quiet"], check=True)
-    assert drawn(FOLDER / "frame.png") == drawn(FOLDER / "same.png"), "not the program's frame"
+    assert (FOLDER / "frame.png").read_bytes() == (FOLDER / "same.png").read_bytes(), "not the program's frame"
     before = page.evaluate("studio.look.picture")
     page.focus("#frame-number")
     page.keyboard.press("Home")
@@ -324,6 +313,23 @@ def too_large(browser, address, faults):
     wait(page, "document.getElementById('status').textContent.includes('600 MB')")
     assert not any("/scenes/" in url for url in asked), asked
     context.close()
+
+
+def without_vectors(playwright, address, faults, expected):
+    """A browser whose processor has no vectors for WebAssembly gets the module that needs none, and the same bits."""
+    browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox", "--js-flags=--no-enable-sse4-1"])
+    ASKED.clear()
+    context, page = open_page(browser, f"{address}?workers=2", faults, service_workers="block")
+    wait(page, "studio.look")
+    page.click("#stop")
+    modules = {path.rpartition("/")[2] for path in ASKED if ".wasm" in path}
+    assert modules == {"phong-plain_bg.wasm"}, modules
+    for scene in [scene for scene in SCENES if scene.stem in ("two-balls", "glass")]:
+        made = page.evaluate(DRAW, [scene.name, [320, 180], 4])
+        files = [base64.b64decode(made[kind]) for kind in ("png", "exr")]
+        assert (*files, explained(scene, made["told"])) == expected[scene.stem], f"{scene.stem} differs without vectors"
+    browser.close()
+    print("Chromium without vectors gets the plain module, and the program's bits")
 
 
 # Without vector instructions it may be left out: that takes as long again to build.
@@ -366,6 +372,8 @@ def main():
         frames(browser, f"{root}/run/", faults)
         too_large(browser, f"{root}/two/balls/", faults)
         browser.close()
+        if "plain" in KINDS:
+            without_vectors(playwright, address, faults, expected)
     server.shutdown()
     engines = list(next(iter(table.values())))
     print(f"{'scene':20} " + " ".join(f"{name:24}" for name in engines) + "  (PNG, EXR, explained)")

@@ -18,14 +18,16 @@ async function store() {
 addEventListener("fetch", (event) => {
   const { request } = event;
   if (request.method !== "GET" || !request.url.startsWith(registration.scope)) return;
-  event.respondWith(answer(request));
+  event.respondWith(answer(event));
 });
 
-async function answer(request) {
+async function answer(event) {
+  const { request } = event;
   const cache = await caches.open(NAME);
   try {
     const fresh = await fetch(request);
-    if (fresh.ok) await cache.put(request, fresh.clone());
+    // It is kept while the page has it already.
+    if (fresh.ok) event.waitUntil(cache.put(request, fresh.clone()));
     return fresh;
   } catch (error) {
     const kept = await cache.match(request, { ignoreSearch: true });

@@ -10,6 +10,13 @@ const MOST_BYTES = 5e8;
 // How long to draw before the next request is heard, in ms.
 const SLICE = 12;
 
+// How long another change is waited for, in ms, before more than the first pass is drawn, where the picture before was
+// given up with nothing more. The server does the same.
+const PAUSE = 50;
+
+// How much of a picture is drawn: nothing, its first pass, a pass of its full size.
+const [BEGUN, COARSE, FINE] = [0, 1, 2];
+
 // The first byte of a file among messages of bytes.
 const FILE = 3;
 
@@ -24,15 +31,23 @@ const asked = new Set();
 const large = [];
 // The number of the newest picture.
 let picture = 0;
+// How much of it is drawn, and since when it is; whether the one before was given up with nothing but its first pass.
+let stage = BEGUN;
+let seen = 0;
+let hasty = false;
+// Whether this worker draws first passes.
+let isFirst = true;
 const queue = [];
 // Tiles that are still to be posted.
 const tiles = [];
 let awake = false;
+let wake = () => {};
 
 // What the module calls.
 globalThis.hear = (reply) => {
   post();
-  if (reply.startsWith('{"is":"look"')) ({ picture } = JSON.parse(reply));
+  if (reply.startsWith('{"is":"look"')) began(JSON.parse(reply));
+  else if (reply.startsWith('{"is":"pass"')) reach(JSON.parse(reply).pass === 0 ? COARSE : FINE);
   if (kept) kept.push(reply);
   else postMessage(reply);
 };
@@ -41,6 +56,19 @@ globalThis.take = (bytes) => {
   if (bytes[0] === FILE) post();
   return performance.now() < deadline;
 };
+
+// A picture begins.
+function began(look) {
+  ({ picture } = look);
+  if (stage !== BEGUN) hasty = stage === COARSE;
+  // Who draws no first pass has nothing to wait for.
+  reach(isFirst ? BEGUN : COARSE);
+}
+
+function reach(now) {
+  stage = now;
+  seen = performance.now();
+}
 
 // Posts the tiles of a slice as one message.
 function post() {
@@ -58,7 +86,8 @@ globalThis.failed = (why) => (trouble = why);
 
 onmessage = ({ data }) => {
   queue.push(data);
-  if (!awake) run();
+  if (awake) wake();
+  else run();
 };
 
 async function run() {
@@ -66,7 +95,12 @@ async function run() {
   try {
     for (;;) {
       while (queue.length > 0) await meet(queue.shift());
-      if (!studio.has_work()) break;
+      if (!studio?.has_work()) break;
+      const left = hasty && stage === COARSE ? seen + PAUSE - performance.now() : 0;
+      if (left > 0) {
+        await pause(left);
+        continue;
+      }
       deadline = performance.now() + SLICE;
       studio.advance();
       post();
@@ -77,6 +111,17 @@ async function run() {
     // The module cannot be used any more: whoever started this worker starts another.
     postMessage({ failed: trouble || String(error) });
   }
+}
+
+// Waits so many ms, or until something comes.
+function pause(time) {
+  return new Promise((resolve) => {
+    const timer = setTimeout(resolve, time);
+    wake = () => {
+      clearTimeout(timer);
+      resolve();
+    };
+  });
 }
 
 // Lets what was sent meanwhile come in.
@@ -91,6 +136,7 @@ function breath() {
 async function meet(message) {
   if (typeof message === "string") return receive(message);
   if (message.module) return begin(message);
+  if (message.early) return void import(message.early).catch(() => {}); // what is wrong with it is told when it is needed
   if (message.join) {
     // Shares of a picture whose place another has taken meanwhile are no use.
     if ((message.picture ?? picture) === picture) message.join.forEach((part) => studio.join(part));
@@ -112,11 +158,15 @@ function fetchRest(address) {
 
 async function begin({ module, script, rest, share, open, scenes, look }) {
   globalThis.rest = () => fetchRest(rest);
+  shelf = scenes;
+  isFirst = share[0] === 0;
+  // What will be opened first comes meanwhile.
+  const first = scenes[open]?.bytes <= MOST_BYTES ? read(open) : null;
   const { default: load, Studio } = await import(script);
   await load({ module_or_path: module });
   studio = new Studio(...share);
-  shelf = scenes;
-  if (share[0] === 0) studio.hello(open, Object.keys(scenes).filter((name) => !scenes[name].hidden), look);
+  if (first) await put(open, first);
+  if (isFirst) studio.hello(open, Object.keys(scenes).filter((name) => !scenes[name].hidden), look);
 }
 
 // Gives the engine a request; if that asks for files of the folder, it is given again with them.
@@ -142,7 +192,19 @@ async function fetchFile(path) {
     large.push(JSON.stringify({ is: "error", message: words.tooLargeHere(path, bytes, MOST_BYTES) }));
     return;
   }
+  await put(path, read(path));
+}
+
+// Fetches a file; null: it cannot be had.
+async function read(path) {
   const address = new URL(`scenes/${path.split("/").map(encodeURIComponent).join("/")}`, location.href);
   const answer = await fetch(address).catch(() => null);
-  if (answer?.ok) studio.put(path, new Uint8Array(await answer.arrayBuffer()));
+  return answer?.ok ? answer.arrayBuffer() : null;
+}
+
+// Gives the engine a file that is on its way.
+async function put(path, coming) {
+  asked.add(path);
+  const bytes = await coming;
+  if (bytes) studio.put(path, new Uint8Array(bytes));
 }

@@ -2,6 +2,7 @@
 // to the page they are one engine. The first answers; of the others only tiles and passes are used.
 
 import { frames } from "./frame.js";
+import { prepare, script } from "./module.js";
 import { words } from "./words.js";
 
 // More share what is drawn, but each reads the scene for itself.
@@ -9,27 +10,6 @@ const MOST = 8;
 
 // Requests that leave the picture as it is: the first engine alone is asked.
 const ASKED = new Set(["explain", "export", "keys", "facets", "cosine-power", "lobe", "guess", "grade", "save", "check-file"]);
-
-// A module that gives a vector: whether it is one at all tells whether vectors are known here.
-const VECTOR = [
-  0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 8, 1, 6, 0, 65, 0, 253, 15, 11,
-];
-
-// What every worker begins with: the module, compiled once, and what there is to open.
-async function prepare() {
-  const name = WebAssembly.validate(new Uint8Array(VECTOR)) ? "phong-simd" : "phong-plain";
-  const address = (file) => new URL(file, import.meta.url);
-  const get = async (file) => {
-    const answer = await fetch(address(file));
-    if (!answer.ok) throw new Error(`${file}: ${answer.status}`);
-    return answer;
-  };
-  const [module, { open, scenes, look }] = await Promise.all([
-    get(`${name}_bg.wasm`).then(async (answer) => WebAssembly.compile(await answer.arrayBuffer())),
-    get("files.json").then((answer) => answer.json()),
-  ]);
-  return { module, script: address(`${name}.js`).href, rest: address(`${name}_rest.wasm`).href, open, scenes, look };
-}
 
 export function work({ hear, take }) {
   return new Team(hear, take);
@@ -44,13 +24,14 @@ class Team {
     this.open = null; // the newest scene that was asked for
     this.parts = null; // who waits for shares
     this.exports = Promise.resolve(); // one export after another
-    this.ready = prepare().then(
-      (kit) => {
-        this.kit = kit;
-        this.start();
-      },
-      (error) => hear({ is: "error", message: words.noEngine + error.message }),
-    );
+    this.ready = prepare();
+    this.ready.catch((error) => hear({ is: "error", message: words.noEngine + error.message }));
+    this.start();
+  }
+
+  // Does something when the module is there; where it cannot be had, nothing.
+  whenReady(act) {
+    this.ready.then(act, () => {});
   }
 
   start() {
@@ -62,14 +43,15 @@ class Team {
       const worker = new Worker(new URL("worker.js", import.meta.url), { type: "module" });
       worker.onmessage = ({ data }) => this.heard(index, data);
       worker.onerror = (event) => this.restart(event.message ?? "");
-      worker.postMessage({ ...this.kit, share: [index, this.count] });
+      // Its script comes while the module is still compiled.
+      worker.postMessage({ early: script() });
+      this.whenReady((kit) => worker.postMessage({ ...kit, share: [index, this.count] }));
       return worker;
     });
   }
 
   send(request) {
-    this.ready.then(() => {
-      if (!this.kit) return;
+    this.whenReady(() => {
       if (request.do === "open") this.open = request;
       if (request.do === "export") this.exports = this.exports.then(() => this.exported(request));
       else this.tell(request, ASKED.has(request.do) ? 1 : this.count);
@@ -167,7 +149,7 @@ class Team {
     if (this.again) return; // twice in a row: it is the scene
     this.again = true;
     this.start();
-    if (this.open) this.tell(this.open, this.count);
+    if (this.open) this.whenReady(() => this.tell(this.open, this.count));
   }
 }
 

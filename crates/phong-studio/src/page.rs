@@ -30,6 +30,7 @@ page_files! {
     "words.js" "text/javascript; charset=utf-8",
     "engine.js" "text/javascript; charset=utf-8",
     "frame.js" "text/javascript; charset=utf-8",
+    "module.js" "text/javascript; charset=utf-8",
     "workers.js" "text/javascript; charset=utf-8",
     "worker.js" "text/javascript; charset=utf-8",
     "offline.js" "text/javascript; charset=utf-8",

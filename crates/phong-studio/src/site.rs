@@ -5,6 +5,7 @@
 //! from elsewhere; and a service worker keeps it for when there is no network.
 
 use std::collections::BTreeMap;
+use std::fmt::Write as _;
 use std::io;
 use std::sync::{Mutex, PoisonError};
 
@@ -97,12 +98,21 @@ fn static_file(file: &page::PageFile) -> SiteFile {
     if file.name != "index.html" {
         return SiteFile { path, bytes: file.bytes.to_vec() };
     }
-    let policy = format!(
-        "<meta charset=\"utf-8\">\n    <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">"
+    // The module is what takes longest: it is asked for first. Then all scripts at once, and not each when another
+    // that needs it is there.
+    let mut head = format!(
+        "<meta charset=\"utf-8\">\n    <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n    \
+         <script type=\"module\" async src=\"module.js\"></script>"
     );
+    let later = ["module.js", "worker.js", "offline.js"];
+    let scripts = page::FILES.iter().filter(|file| file.media_type.starts_with("text/javascript"));
+    for script in scripts.filter(|file| !later.contains(&file.name)) {
+        // Writing to a string does not fail.
+        let _ = write!(head, "\n    <link rel=\"modulepreload\" href=\"{}\">", script.name);
+    }
     let text = String::from_utf8_lossy(file.bytes)
         .replacen("data-engine=\"server\"", "data-engine=\"worker\"", 1)
-        .replacen("<meta charset=\"utf-8\">", &policy, 1);
+        .replacen("<meta charset=\"utf-8\">", &head, 1);
     SiteFile { path, bytes: text.into_bytes() }
 }
 
@@ -163,6 +173,8 @@ mod tests {
         let page = files.iter().find(|file| file.path == "index.html").unwrap();
         let page = String::from_utf8(page.bytes.clone()).unwrap();
         assert!(page.contains("data-engine=\"worker\"") && page.contains("'wasm-unsafe-eval'"));
+        assert!(page.find("async src=\"module.js\"") < page.find("href=\"studio.js\""));
+        assert!(!page.contains("href=\"worker.js\""));
         let is_script =
             |path: &str| path.rsplit_once('.').is_some_and(|(_, ending)| ending == "js");
         for file in files.iter().filter(|file| is_script(&file.path)) {
