@@ -134,6 +134,38 @@ def handles(walk):
     walk.start()
 
 
+def pointing(walk):
+    """What is told of the pixel under the pointer, and the ring around it, are always of the picture that is shown."""
+    page = walk.page
+    page.mouse.move(*walk.at(105, 75))
+    walk.wait("studio.told?.pixel[0] === 105")
+    before = page.text_content("#why")
+    walk.newer(lambda: page.focus("#frame") or page.keyboard.press("ArrowLeft"))
+    walk.wait("studio.toldOf === studio.look.picture")
+    assert page.evaluate("studio.told.pixel") == [105, 75] and page.text_content("#why") != before
+
+    def drag():
+        page.mouse.move(*walk.at(200, 50))
+        page.mouse.down()
+        page.mouse.move(*walk.at(130, 60), steps=6)
+        page.mouse.up()
+
+    walk.newer(drag)
+    page.wait_for_timeout(400)
+    walk.done()
+    walk.wait("studio.toldOf === studio.look.picture")
+    assert page.evaluate("studio.told.pixel") == [130, 60]
+    ring = page.locator("#overlay .pixel").first
+    assert [float(ring.get_attribute(key)) for key in ("cx", "cy")] == [130.5, 60.5]
+    walk.shot("18-dragged")
+    # A slider changes what is told of the same pixel; another scene takes it away, until it is pointed at.
+    number = page.locator('input[type="number"][aria-label^="materials.plastic.k_s"]')
+    walk.newer(lambda: number.fill("0.1") or page.keyboard.press("Enter"))
+    walk.wait("studio.toldOf === studio.look.picture")
+    assert page.evaluate("studio.told.pixel") == [130, 60]
+    walk.start()
+
+
 def seeing(walk):
     """Two pixels compared, a lobe plotted, a term left out, another alpha supposed, A beside B."""
     page = walk.page
@@ -381,4 +413,4 @@ CONTRAST = """(() => {
     return faint;
 })()"""
 
-ALL = [writing, typing, handles, seeing, files, looks, frames, saving, teaching, manners]
+ALL = [writing, typing, handles, pointing, seeing, files, looks, frames, saving, teaching, manners]

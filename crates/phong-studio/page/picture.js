@@ -14,6 +14,7 @@ export class Picture {
     this.point = point;
     this.pin = pin;
     this.held = false;
+    this.under = null; // the pixel that a pointer was last over
     this.listen();
   }
 
@@ -104,8 +105,9 @@ export class Picture {
     });
     frame.addEventListener("pointermove", (event) => {
       const before = fingers.get(event.pointerId);
+      const pixel = this.pixel(event);
+      this.under = pixel ?? this.under;
       if (!before) {
-        const pixel = this.pixel(event);
         if (pixel) this.point(pixel);
         return;
       }

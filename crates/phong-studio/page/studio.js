@@ -27,7 +27,7 @@ at("status").textContent = words.connecting;
 at("why").textContent = words.nothing;
 
 // What is known of the engine.
-const state = { look: null, stopped: false, asked: 0, answered: 0, wanted: null, pinned: null, other: null };
+const state = { look: null, stopped: false, asked: 0, answered: 0, wanted: null, told: null, toldOf: 0, pinned: null, other: null };
 globalThis.studio = state; // for who looks from outside, as tests do
 
 const engine = connect({ hear, take, gone: () => say(words.lost) });
@@ -128,6 +128,22 @@ function explain(pixel) {
   if (state.asked === state.answered) ask();
 }
 
+// Explains anew in another picture: the pixel that is kept, or the one under the pointer, or the one that is told of.
+function explainAgain([width, height]) {
+  const pixel = state.pinned ?? (at("follow").checked ? picture.under : null) ?? state.told?.pixel;
+  if (!pixel) return;
+  if (pixel[0] < width && pixel[1] < height) explain(pixel);
+  else forget();
+}
+
+// Nothing is explained any more.
+function forget() {
+  state.told = null;
+  picture.clear();
+  picture.mark(state.other);
+  at("why").textContent = words.nothing;
+}
+
 function ask() {
   const pixel = state.wanted;
   state.wanted = null;
@@ -150,6 +166,12 @@ function keepOther() {
   at("compared").replaceChildren();
   picture.mark(state.other);
   if (state.other) send({ do: "explain", id: OTHER, pixel: state.other });
+}
+
+// The table of keys is asked for when the first scene is read, so that no picture waits for it.
+function askKeys() {
+  if (!state.hasKeys) send({ do: "keys" });
+  state.hasKeys = true;
 }
 
 function note() {
@@ -189,7 +211,6 @@ const hearing = {
     looks.names(all);
     file.begin(saves);
     state.lookFirst = look;
-    send({ do: "keys" });
     send({ do: "open", path: open });
   },
   scene({ path, text }) {
@@ -204,7 +225,7 @@ const hearing = {
     state.pinned = null;
     if (state.other) keepOther();
     if (curtain.engine) keepA();
-    picture.clear();
+    forget();
   },
   text({ text, note: left, from_file: fromFile }) {
     editor.show(text);
@@ -219,6 +240,7 @@ const hearing = {
     file.changed(changed);
   },
   checked({ ok, diagnostics }) {
+    askKeys();
     // What was left to say of the text stands below it, until it changes again.
     const left = state.left ? [{ severity: "note", message: state.left }] : [];
     state.left = null;
@@ -253,7 +275,7 @@ const hearing = {
     if (state.fresh) history.start({ text: state.bare ? null : editor.text, set: look.set, dressed: look.dressed });
     else note();
     state.fresh = false;
-    if (state.pinned) explain(state.pinned);
+    explainAgain(look.size);
     if (state.other) send({ do: "explain", id: OTHER, pixel: state.other });
   },
   pass({ picture: number, pass, passes, samples }) {
@@ -270,13 +292,14 @@ const hearing = {
     else say(pass + 1 === passes ? words.done(all) : words.drawing(samples, all));
     state.done = pass + 1 === passes ? number : state.done;
   },
-  explanation({ id, told, drawn, lines }) {
+  explanation({ id, picture: number, told, drawn, lines }) {
     if (id === SUPPOSED) return whatIf.answer(told);
     if (id === OTHER) {
       state.compared = told;
     } else {
       state.answered = Math.max(state.answered, id);
       state.told = told;
+      state.toldOf = number;
       show(at("why"), told, drawn);
       picture.lines(lines, told.pixel);
       [at("x").value, at("y").value] = told.pixel;
@@ -284,7 +307,7 @@ const hearing = {
       askLobe();
       ask();
     }
-    if (state.other && state.compared) compare(at("compared"), state.compared, state.told);
+    if (state.other && state.compared && state.told) compare(at("compared"), state.compared, state.told);
   },
   mistake(mistake) {
     teaching.choose(mistake);
@@ -312,6 +335,7 @@ const hearing = {
     whatIf.keys(schema);
   },
   error({ message }) {
+    askKeys();
     state.answered = state.asked;
     saving.refused();
     teaching.refused();
