@@ -2,7 +2,7 @@
 """Parts a module of WebAssembly in two: `python3 .ci/split.py MODULE REST`.
 
 MODULE keeps what every scene needs. What few do is moved to REST: letters and their drawing, models of other programs,
-images, files that are written, grades. REST is fetched when one of its functions is called for the first time.
+images, cuts, occlusion, files that are written, grades. REST is fetched when one of its functions is called for the first time.
 No function is changed, so the bits are the same. Binaryen's `wasm-split` does it; this says which functions go.
 """
 
@@ -17,13 +17,15 @@ MODULE, REST = Path(sys.argv[1]), Path(sys.argv[2])
 FONT = Path(__file__).resolve().parent.parent / "crates/phong-lab/src/furniture/font/sans.ttf"
 FEATURES = ["simd", "bulk-memory", "sign-ext", "mutable-globals", "nontrapping-float-to-int", "reference-types", "multivalue"]
 TABLE = 1  # the kind of an export
-# Whether a file is of a format is asked of every file, and what may have been made of things is asked when they go.
-ALWAYS = re.compile(r"^core::ptr::drop_in_place|::(is_\w+|First::of)\b")
+# Whether a file is of a format is asked of every file, what may have been made of things is asked when they go, and rays of
+# every scene come by where those of a cut one part.
+ALWAYS = re.compile(r"^core::ptr::drop_in_place|::(is_\w+|First::of)\b|view::clip::<impl phong::view::View>")
 # What few scenes need, by the paths of functions. What only these call goes with them.
 SELDOM = re.compile(
     r"\b(rustybuzz|unicode_\w+|ttf_parser|tiny_skia\w*|zune_\w+|bevy_mikktspace"
     r"|fdeflate|miniz_oxide|flate2|png::(adam7|decoder|encoder|filter)"
     r"|phong_lab::(furniture|draw|grade|figures|tell::html)"
+    r"|phong::(view::clip|integrator::openness|part::settings)"
     r"|phong_scene::(molecule|texels::(decoded|file|jpeg|png|radiance))"
     r"|phong_scene::format::(gltf|tachyon|ply|obj|off|nff|stl|cif|gro|pdb|xyz|lammps|atoms|dcd|mtl|frames)"
     r"|phong::(image::(exr|jpeg|picture|png::write|write)|part::(join|tone|Part|write)|geometry::tangents))\b"
