@@ -15,6 +15,7 @@ use super::{
     framed::{Entered, Framed},
     frustum::Frustum,
     leaves::{Content, Leaves},
+    pause::Pause,
     query::Query,
     sheared::Sheared,
     waiting::{Waiting, key_of_child, push},
@@ -66,38 +67,6 @@ impl Group {
         framed: Framed::EMPTY,
         entries: [Entry::NONE; _],
     };
-}
-
-/// How many groups are left out after some that gave up: where one ray spreads too far from the next, the
-/// groups that follow mostly do as well. It changes how soon rays are traced and never what they hit.
-#[derive(Clone, Copy)]
-struct Pause {
-    /// Groups to leave out.
-    left: u32,
-    /// How many were left out when the last one gave up; 0: it did not.
-    last: u32,
-}
-
-impl Pause {
-    /// None are left out.
-    const NONE: Self = Self { left: 0, last: 0 };
-    /// The most that are left out in a row.
-    const MOST: u32 = 15;
-
-    /// Whether the next group is left out.
-    #[inline(always)]
-    fn skips(&mut self) -> bool {
-        let skips = self.left > 0;
-        self.left -= u32::from(skips);
-        skips
-    }
-
-    /// Takes note of whether a group reached its end.
-    #[inline(always)]
-    fn note(&mut self, done: bool) {
-        self.last = if done { 0 } else { (2 * self.last + 1).min(Self::MOST) };
-        self.left = self.last;
-    }
 }
 
 /// Nodes and leaves to visit.

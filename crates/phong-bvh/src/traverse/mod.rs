@@ -8,6 +8,7 @@ mod framed;
 mod frustum;
 mod interleaved;
 mod leaves;
+mod pause;
 mod query;
 mod scattered;
 mod sheared;

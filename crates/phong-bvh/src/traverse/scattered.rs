@@ -3,13 +3,15 @@
 //! As they come, neighbours go different ways. Put in order of their directions, they are beams of up to 64 rays.
 //! A node is tested once for a beam, by intervals; a child that the beam may enter is tested once more when its turn
 //! comes, against the rays themselves that entered its parent and are not blocked yet. So a beam enters every box that one
-//! of its rays would enter alone, and most boxes are met while many of its rays are left.
+//! of its rays would enter alone, and most boxes are met while many of its rays are left. Where surfaces lie too far
+//! apart for that, beams give up, and rays are traced one by one.
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*, u32x8};
 
 use super::{
     World,
     columns::{least, lowest},
+    pause::Pause,
     sheared::packets,
     slabs::SLACK,
     waiting::{Waiting, key_of_child, push},
@@ -29,6 +31,8 @@ use crate::{
 pub(super) const TOGETHER: usize = 512;
 /// The most rays of a beam.
 const MOST: usize = 64;
+/// A beam gives up after so many nodes and leaves per ray.
+const PATIENCE: u32 = 4;
 /// Beams of fewer rays are left to be traced one by one.
 const FEWEST: usize = 4;
 /// Up to so many rays are tested one by one in a leaf, each against eight spheres.
@@ -40,6 +44,7 @@ const NUMBERS: usize = 9;
 
 /// Rays put in order, and memory for a beam.
 pub(super) struct Memory {
+    pause: Pause,
     /// The cell of each ray as they come, if it is to be traced.
     cells: Vec<u16>,
     /// The number of each ray as they come, in order; and a whole eight more.
@@ -54,6 +59,7 @@ pub(super) struct Memory {
 impl Memory {
     /// No rays.
     pub(super) const EMPTY: Self = Self {
+        pause: Pause::NONE,
         cells: Vec::new(),
         numbers: [const { Vec::new() }; NUMBERS],
         from: Vec::new(),
@@ -98,25 +104,30 @@ impl Kernel for Scattered<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let Self { world, root, rays, lanes, blocked, memory } = self;
+        if memory.pause.skips() {
+            return;
+        }
         let ends = put_in_order(simd, rays, lanes, memory);
-        let mut start = 0;
+        let (mut start, mut tried, mut given_up) = (0, 0, 0);
         for (cell, &end) in ends.iter().enumerate() {
             let end = usize::from(end);
-            while start < end {
+            while start < end && is_worth_while(tried, given_up) {
                 let count = (end - start).min(MOST);
                 if count >= FEWEST {
-                    let hit = Beam::new(simd, cell, start, count, memory)
+                    let Traced { hit, known } = Beam::new(simd, cell, start, count, memory)
                         .trace(simd, world, root, memory);
+                    tried += 1;
+                    given_up += u32::from(known != u64::MAX);
                     for i in 0..count {
                         let from = usize::from(memory.from[start + i]);
-                        let bit = 1 << (from % 8);
-                        lanes[from / 8] &= !bit;
+                        lanes[from / 8] &= !(((known >> i) as u32 & 1) << (from % 8));
                         blocked[from / 8] |= ((hit >> i) as u32 & 1) << (from % 8);
                     }
                 }
                 start += count;
             }
         }
+        memory.pause.note(is_worth_while(tried, given_up));
     }
 }
 
@@ -195,6 +206,19 @@ fn cells_of<S: Simd>(simd: S, rays: &Rays8) -> u32x8<S> {
 #[inline(always)]
 fn sign<S: Simd>(v: f32x8<S>) -> u32x8<S> {
     v.bitcast::<u32x8<S>>() >> 31
+}
+
+/// Whether most of the beams that were tried reached their end.
+fn is_worth_while(tried: u32, given_up: u32) -> bool {
+    given_up < 8 || given_up < tried / 4
+}
+
+/// What is known of the rays of a beam, a bit each.
+struct Traced {
+    /// Those that hit something.
+    hit: u64,
+    /// Those of which it is known whether they do: all, but where the beam gave up.
+    known: u64,
 }
 
 /// Rays of one cell that follow one another.
@@ -296,13 +320,19 @@ impl<S: Simd> Beam<S> {
         }
     }
 
-    /// The rays that hit something.
+    /// Asks of all rays whether they hit something, unless that takes too long.
     #[inline(always)]
-    fn trace(&self, simd: S, world: &World<'_>, root: Ref, memory: &mut Memory) -> u64 {
+    fn trace(&self, simd: S, world: &World<'_>, root: Ref, memory: &mut Memory) -> Traced {
         let mut active = self.all;
+        let mut patience = PATIENCE * active.count_ones();
         memory.entries[0] = Entry { key: u64::from(root.0), rays: active, parent: NO_BOX };
         let mut depth = 1;
         while depth > 0 {
+            if patience == 0 {
+                let hit = self.all & !active;
+                return Traced { hit, known: hit };
+            }
+            patience -= 1;
             depth -= 1;
             let Entry { key, rays, parent } = memory.entries[depth];
             let mut rays = rays & active;
@@ -326,7 +356,7 @@ impl<S: Simd> Beam<S> {
                 break;
             }
         }
-        self.all & !active
+        Traced { hit: self.all & !active, known: u64::MAX }
     }
 
     /// Those of some rays that enter the box of a child.
