@@ -129,7 +129,12 @@ function explain(pixel) {
 }
 
 // Explains anew in another picture: the pixel that is kept, or the one under the pointer, or the one that is told of.
+// While a hand turns the picture, no ring is drawn and nothing asked: to write numbers takes longer than a first pass.
 function explainAgain([width, height]) {
+  if (picture.held && !state.pinned) {
+    picture.clear();
+    return picture.mark(state.other);
+  }
   const pixel = state.pinned ?? (at("follow").checked ? picture.under : null) ?? state.told?.pixel;
   if (!pixel) return;
   if (pixel[0] < width && pixel[1] < height) explain(pixel);
@@ -394,7 +399,10 @@ at("pixel").onsubmit = (event) => {
   explain(state.pinned);
 };
 at("follow").onchange = () => (state.pinned = null);
-addEventListener("pointerup", () => history.settle());
+addEventListener("pointerup", () => {
+  history.settle();
+  if (state.look && !state.pinned) explainAgain(state.look.size);
+});
 addEventListener("keydown", (event) => {
   const command = (event.ctrlKey || event.metaKey) && !event.altKey;
   const key = command ? event.key.toLowerCase() : "";
