@@ -8,8 +8,8 @@ use phong::look::Look;
 use phong::view::{View, ViewError};
 use phong_lab::furniture;
 use phong_scene::{
-    Background, Diagnostic, Framing, Image, Material, MaterialId, Object, Place, Scene, Shape,
-    Texture, TextureId,
+    Background, Diagnostic, Framing, Image, Material, MaterialId, Object, Place, Scene, Texture,
+    TextureId,
 };
 
 /// What of a scene is chosen for the picture, since nobody has said it.
@@ -306,11 +306,7 @@ impl Snapshot {
         let (scene, mut warnings) = self.framed(image);
         let version = self.version;
         // Points and lines whose radius was guessed are as thick as the picture needs them.
-        let guessed = scene.all_objects().any(|object| match &object.shape {
-            Shape::Points(points) => points.guessed.is_some(),
-            Shape::Cylinders(lines) => lines.guessed.is_some(),
-            _ => false,
-        });
+        let guessed = scene.all_objects().any(|object| object.shape.guessed().is_some());
         let fresh = *stale || guessed || geometry.is_none();
         let geometry = match geometry {
             Some(geometry) if !fresh => Arc::clone(geometry),

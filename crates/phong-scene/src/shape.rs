@@ -388,6 +388,17 @@ impl Shape {
         self.word()
     }
 
+    /// The radius of all of its spheres or lines, in the object's unit, if nobody gave one and the reader guessed
+    /// it: [`Scene::frame`](crate::Scene::frame) may give them a larger one.
+    #[must_use]
+    pub fn guessed(&self) -> Option<f32> {
+        match self {
+            Self::Points(points) => points.guessed,
+            Self::Cylinders(cylinders) => cylinders.guessed,
+            _ => None,
+        }
+    }
+
     /// The numbers that its points have besides their place.
     #[must_use]
     pub fn fields(&self) -> &[Field] {

@@ -4,8 +4,7 @@ use std::io;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use phong::scene::{
-    Blob, Change, Format, FrameRange, Frames, Limits, Object, Reading, Scene, Shape, Source,
-    read_changed,
+    Blob, Change, Format, FrameRange, Frames, Limits, Reading, Scene, Source, read_changed,
 };
 
 /// How many bytes of a text file are looked through for frames, and how many frames are found of a file. It is done
@@ -82,11 +81,9 @@ impl Frame {
 
     /// Whether sizes were guessed for the first frame of a bare model that the others have as well.
     pub(super) fn guesses(&self) -> bool {
-        let is_guessed = |object: &Object| match &object.shape {
-            Shape::Points(points) => points.guessed.is_some(),
-            _ => false,
-        };
-        self.first.as_ref().is_some_and(|first| first.objects.iter().any(is_guessed))
+        let first = self.first.as_ref();
+        first
+            .is_some_and(|first| first.all_objects().any(|object| object.shape.guessed().is_some()))
     }
 
     /// The range of frames that this is; `None`: it is the first, for which nothing need be known of the others.
