@@ -14,6 +14,9 @@ const MOST: u64 = 8 << 30;
 /// What a packed file begins with. Of the ways to pack, only deflate was ever defined.
 const MAGIC: [u8; 3] = [0x1f, 0x8b, 8];
 
+/// What the text begins with that stands in place of a file where Git LFS has not brought the file itself.
+const POINTER: &[u8] = b"version https://git-lfs.github.com/spec/";
+
 /// A source whose packed files are read as what they hold.
 pub(crate) struct Unpacked<'a> {
     source: &'a dyn Source,
@@ -36,9 +39,13 @@ impl fmt::Debug for Unpacked<'_> {
 impl Source for Unpacked<'_> {
     fn open(&self, path: &str) -> io::Result<Box<dyn Blob>> {
         let blob = self.source.open(path)?;
-        let mut head = [0; MAGIC.len()];
+        let mut head = [0; POINTER.len()];
         let read = blob.read_full(&mut head, 0)?;
-        if head[..read] != MAGIC {
+        if head == POINTER {
+            let message = "the file itself is not here: this is a pointer of Git LFS to it; `git lfs pull` brings it";
+            return Err(io::Error::new(io::ErrorKind::InvalidData, message));
+        }
+        if !head[..read].starts_with(&MAGIC) {
             return Ok(blob);
         }
         let packed = io::BufReader::with_capacity(1 << 16, Reader { blob: &*blob, at: 0 });
@@ -133,6 +140,13 @@ mod tests {
         assert!(error.contains("more than 1000 bytes"), "{error}");
         let error = open(zeros[..zeros.len() / 2].to_vec(), 1 << 30).expect_err("cut");
         assert!(error.to_string().contains("cannot be unpacked"), "{error}");
+    }
+
+    #[test]
+    fn a_pointer_of_git_lfs_is_refused_with_a_way_out() {
+        let pointer = b"version https://git-lfs.github.com/spec/v1\noid sha256:23\nsize 1324\n";
+        let error = open(pointer.to_vec(), 1 << 20).expect_err("a pointer").to_string();
+        assert!(error.ends_with("`git lfs pull` brings it"), "{error}");
     }
 
     #[test]

@@ -407,6 +407,28 @@ fn gltf(nodes: &str, roots: &str, more: &str, of_primitive: &str) -> Reading {
 }
 
 #[test]
+fn a_gltf_primitive_whose_places_are_packed_is_refused_by_the_name_of_the_packing() {
+    let file = |accessor: &str, required: &str| {
+        format!(
+            r#"{{"asset": {{"version": "2.0"}}, "extensionsUsed": ["KHR_draco_mesh_compression"] {required},
+            "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0}}, "extensions":
+                {{"KHR_draco_mesh_compression": {{"bufferView": 0, "attributes": {{"POSITION": 0}}}}}}}}]}}],
+            "accessors": [{{"componentType": 5126, "type": "VEC3", "count": 3 {accessor}}}],
+            "bufferViews": [{{"buffer": 0, "byteLength": 36}}],
+            "buffers": [{{"byteLength": 36, "uri":
+                "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}}]}}"#
+        )
+    };
+    let packed = told(&text("a.gltf", &file("", "")));
+    assert!(packed.contains("it is packed by `KHR_draco_mesh_compression`"), "{packed}");
+    let required = r#", "extensionsRequired": ["KHR_draco_mesh_compression"]"#;
+    let required = told(&text("a.gltf", &file("", required)));
+    assert!(required.contains("requires `KHR_draco_mesh_compression`"), "{required}");
+    let beside = text("a.gltf", &file(r#", "bufferView": 0"#, ""));
+    assert_eq!(mesh(beside).indices.len(), 1, "it is also there as it is");
+}
+
+#[test]
 fn a_root_of_a_gltf_scene_may_have_a_parent() {
     let nodes = r#"[{"children": [1], "translation": [5, 0, 0]}, {"mesh": 0}]"#;
     for (roots, end, x) in [("[1]", "as if it had none", 0.0), ("[0, 1]", "below it, once", 5.0)] {

@@ -42,7 +42,7 @@ impl Reader<'_> {
         findings: &mut Findings,
     ) -> Result<Option<Shape>> {
         for name in ["KHR_draco_mesh_compression", "EXT_meshopt_compression"] {
-            if at.extension(name).is_some() && at.need("attributes")?.get("POSITION").is_none() {
+            if at.extension(name).is_some() && !self.has_places(at)? {
                 return Err(at.fault(format!("it is packed by `{name}`, which is not understood")));
             }
         }
@@ -175,6 +175,13 @@ impl Reader<'_> {
             1..=3 => Some(lines(&mesh, &kept).into()),
             _ => self.triangles(mesh, &kept, findings).map(Shape::from),
         })
+    }
+
+    /// Whether a primitive has places that are not packed: such as name no part of a buffer are all zeros.
+    fn has_places(&self, at: &At<'_>) -> Result<bool> {
+        let Some(number) = at.need("attributes")?.get("POSITION") else { return Ok(false) };
+        let places = self.root.item("accessors", number.index()?)?;
+        Ok(places.get("bufferView").is_some() || places.get("sparse").is_some())
     }
 
     fn triangles(&self, mut mesh: Mesh, kept: &[Element], findings: &mut Findings) -> Option<Mesh> {
