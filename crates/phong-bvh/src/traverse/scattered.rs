@@ -39,21 +39,29 @@ const FEWEST: usize = 4;
 const FEW: u32 = 4;
 /// Kinds of directions: eight octants, each cut in 16 triangles, of 32 numbers.
 const CELLS: usize = 256;
-/// Numbers of each ray: origin, direction, 1 / d·d, where it begins and ends.
-const NUMBERS: usize = 9;
+/// A number of each ray of a beam.
+type Column = [[f32; 8]; MOST / 8];
 
 /// Rays put in order, and memory for a beam.
 pub(super) struct Memory {
     pause: Pause,
     /// The cell of each ray as they come, if it is to be traced.
     cells: Vec<u16>,
-    /// The number of each ray as they come, in order; and a whole eight more.
-    numbers: [Vec<f32>; NUMBERS],
-    /// Where they come from.
-    from: Vec<u16>,
-    /// The reciprocal directions of a beam.
-    reciprocal: [[[f32; 8]; MOST / 8]; 3],
+    /// Which rays they are, in order.
+    order: Vec<u16>,
+    beam: Numbers,
     entries: Vec<Entry>,
+}
+
+/// The rays of a beam side by side. Behind the last are rays of earlier beams.
+struct Numbers {
+    origin: [Column; 3],
+    dir: [Column; 3],
+    reciprocal: [Column; 3],
+    /// 1 / d·d.
+    scale: Column,
+    t_min: Column,
+    t_max: Column,
 }
 
 impl Memory {
@@ -61,15 +69,61 @@ impl Memory {
     pub(super) const EMPTY: Self = Self {
         pause: Pause::NONE,
         cells: Vec::new(),
-        numbers: [const { Vec::new() }; NUMBERS],
-        from: Vec::new(),
-        reciprocal: [[[0.0; 8]; MOST / 8]; 3],
+        order: Vec::new(),
+        beam: Numbers {
+            origin: [[[0.0; 8]; MOST / 8]; 3],
+            dir: [[[0.0; 8]; MOST / 8]; 3],
+            reciprocal: [[[0.0; 8]; MOST / 8]; 3],
+            scale: [[0.0; 8]; MOST / 8],
+            t_min: [[0.0; 8]; MOST / 8],
+            t_max: [[0.0; 8]; MOST / 8],
+        },
         entries: Vec::new(),
     };
 }
 
+impl Numbers {
+    /// Eight rays.
+    #[inline(always)]
+    fn eight<S: Simd>(&self, simd: S, packet: usize) -> Closest8<S> {
+        let packet = packet & 7;
+        Closest8 {
+            origin: eight_of(simd, &self.origin, packet),
+            dir: eight_of(simd, &self.dir, packet),
+            scale: load(simd, &self.scale[packet]),
+            t_min: load(simd, &self.t_min[packet]),
+            t_max: load(simd, &self.t_max[packet]),
+        }
+    }
+
+    /// One ray in all lanes.
+    #[inline(always)]
+    fn one<S: Simd>(&self, simd: S, ray: usize) -> Closest8<S> {
+        let (packet, lane) = ((ray / 8) & 7, ray & 7);
+        Closest8 {
+            origin: one_of(simd, &self.origin, packet, lane),
+            dir: one_of(simd, &self.dir, packet, lane),
+            scale: f32x8::splat(simd, self.scale[packet][lane]),
+            t_min: f32x8::splat(simd, self.t_min[packet][lane]),
+            t_max: f32x8::splat(simd, self.t_max[packet][lane]),
+        }
+    }
+}
+
+// No closures: they would become calls.
+
+#[inline(always)]
+fn eight_of<S: Simd>(simd: S, [x, y, z]: &[Column; 3], packet: usize) -> [f32x8<S>; 3] {
+    [load(simd, &x[packet]), load(simd, &y[packet]), load(simd, &z[packet])]
+}
+
+#[inline(always)]
+fn one_of<S: Simd>(simd: S, [x, y, z]: &[Column; 3], packet: usize, lane: usize) -> [f32x8<S>; 3] {
+    splat3(simd, [x[packet][lane], y[packet][lane], z[packet][lane]])
+}
+
 /// A node or leaf to visit. `key`: entry distance in the upper half, [`Ref`] in the lower. `rays`: those that enter its
-/// parent. `parent`: where its box is, as the row of the node times eight plus the lane.
+/// parent. `parent`: where its box is, as the row of the node times eight plus the lane; [`NO_BOX`]: all rays enter.
 #[derive(Clone, Copy)]
 struct Entry {
     key: u64,
@@ -84,7 +138,7 @@ impl Waiting for Entry {
     }
 }
 
-/// The root has no box.
+/// Of the root, and of boxes in which all rays start.
 const NO_BOX: u32 = u32::MAX;
 
 /// Traces the rays `lanes`, a bit each, of a tree of spheres alone. Those that are left in them have to be traced one by one.
@@ -108,26 +162,39 @@ impl Kernel for Scattered<'_> {
             return;
         }
         let ends = put_in_order(simd, rays, lanes, memory);
+        lanes.fill(0);
         let (mut start, mut tried, mut given_up) = (0, 0, 0);
         for (cell, &end) in ends.iter().enumerate() {
             let end = usize::from(end);
-            while start < end && is_worth_while(tried, given_up) {
+            while start < end {
                 let count = (end - start).min(MOST);
-                if count >= FEWEST {
-                    let Traced { hit, known } = Beam::new(simd, cell, start, count, memory)
-                        .trace(simd, world, root, memory);
-                    tried += 1;
-                    given_up += u32::from(known != u64::MAX);
-                    for i in 0..count {
-                        let from = usize::from(memory.from[start + i]);
-                        lanes[from / 8] &= !(((known >> i) as u32 & 1) << (from % 8));
-                        blocked[from / 8] |= ((hit >> i) as u32 & 1) << (from % 8);
-                    }
-                }
+                let Memory { order, beam, entries, .. } = &mut *memory;
+                let order = &order[start..start + count];
                 start += count;
+                let all = u64::MAX >> (MOST - count);
+                if count < FEWEST || !is_worth_while(tried, given_up) {
+                    mark(lanes, order, all);
+                    continue;
+                }
+                let Traced { hit, known } = Beam::new(simd, cell, order, rays, beam)
+                    .trace(simd, world, root, beam, entries);
+                tried += 1;
+                given_up += u32::from(known != u64::MAX);
+                mark(lanes, order, all & !known);
+                mark(blocked, order, hit);
             }
         }
         memory.pause.note(is_worth_while(tried, given_up));
+    }
+}
+
+/// Sets the bits of some of the rays of a beam, `which`, in the eights that they come from.
+#[inline(always)]
+fn mark(eights: &mut [u32], order: &[u16], mut which: u64) {
+    while which != 0 {
+        let from = order[which.trailing_zeros() as usize];
+        which &= which - 1;
+        eights[usize::from(from / 8)] |= 1 << (from % 8);
     }
 }
 
@@ -139,14 +206,10 @@ fn put_in_order<S: Simd>(
     wanted: &[u32],
     memory: &mut Memory,
 ) -> [u16; CELLS] {
-    let Memory { cells, numbers, from, entries, .. } = memory;
-    let room = 8 * TOGETHER + 8;
-    cells.resize(room, 0);
-    from.resize(room, 0);
+    let Memory { cells, order, entries, .. } = memory;
+    cells.resize(8 * TOGETHER, 0);
+    order.resize(8 * TOGETHER, 0);
     entries.resize(super::STACK, Entry { key: 0, rays: 0, parent: NO_BOX });
-    for column in &mut *numbers {
-        column.resize(room, 0.0);
-    }
     let mut counts = [0_u16; CELLS];
     for ((rays, &wanted), cells) in rays.iter().zip(wanted).zip(cells.as_chunks_mut::<8>().0) {
         if wanted == 0 {
@@ -165,23 +228,12 @@ fn put_in_order<S: Simd>(
         *next = sum;
         sum += count;
     }
-    let [ox, oy, oz, dx, dy, dz, scale, t_min, t_max] = numbers;
-    for (i, (rays, &wanted)) in rays.iter().zip(wanted).enumerate() {
-        if wanted == 0 {
-            continue;
-        }
-        let loaded = rays.load(simd);
-        let scales: [f32; 8] = Closest8::of_rays(simd, &loaded).scale.into();
+    for (i, (cells, &wanted)) in cells.as_chunks::<8>().0.iter().zip(wanted).enumerate() {
         for lane in lanes(wanted) {
             let lane = lane & 7;
-            let next = &mut next[usize::from(cells[8 * i + lane]) % CELLS];
-            let to = usize::from(*next);
+            let next = &mut next[usize::from(cells[lane]) % CELLS];
+            order[usize::from(*next)] = (8 * i + lane) as u16;
             *next += 1;
-            from[to] = (8 * i + lane) as u16;
-            (ox[to], oy[to], oz[to]) =
-                (rays.origin[0][lane], rays.origin[1][lane], rays.origin[2][lane]);
-            (dx[to], dy[to], dz[to]) = (rays.dir[0][lane], rays.dir[1][lane], rays.dir[2][lane]);
-            (scale[to], t_min[to], t_max[to]) = (scales[lane], rays.t_min[lane], rays.t_max[lane]);
         }
     }
     next
@@ -223,7 +275,6 @@ struct Traced {
 
 /// Rays of one cell that follow one another.
 struct Beam<S: Simd> {
-    start: usize,
     /// A bit for each.
     all: u64,
     negative: [bool; 3],
@@ -247,21 +298,35 @@ struct Beam<S: Simd> {
 
 impl<S: Simd> Beam<S> {
     #[inline(always)]
-    fn new(simd: S, cell: usize, start: usize, count: usize, memory: &mut Memory) -> Self {
+    fn new(simd: S, cell: usize, order: &[u16], rays: &[Rays8], beam: &mut Numbers) -> Self {
+        let count = order.len();
         let all = u64::MAX >> (MOST - count);
         let negative = [cell & 128 != 0, cell & 64 != 0, cell & 32 != 0];
+        for (to, &from) in order.iter().enumerate() {
+            let (rays, from) = (&rays[usize::from(from / 8)], usize::from(from) & 7);
+            let (packet, to) = ((to / 8) & 7, to & 7);
+            for axis in 0..3 {
+                beam.origin[axis][packet][to] = rays.origin[axis][from];
+                beam.dir[axis][packet][to] = rays.dir[axis][from];
+            }
+            beam.t_min[packet][to] = rays.t_min[from];
+            beam.t_max[packet][to] = rays.t_max[from];
+        }
         // Minima, and maxima with their signs changed, as in `Columns`.
         let most = f32x8::splat(simd, f32::INFINITY);
         let one = f32x8::splat(simd, 1.0);
         let (mut starts, mut directions, mut reciprocals) = ([most; 8], [most; 8], [most; 8]);
         for packet in 0..count.div_ceil(8) {
             let own = mask32x8::from_bitmask(simd, all >> (8 * packet) & 0xff);
+            let Closest8 { origin, dir, t_min, t_max, .. } = beam.eight(simd, packet);
+            let [x, y, z] = dir;
+            // The number that `Closest8::of_rays` finds.
+            (one / (x * x + y * y + z * z)).store_array(&mut beam.scale[packet & 7]);
             for axis in 0..3 {
-                let origin = column(simd, &memory.numbers[axis], start, packet);
-                let dir = column(simd, &memory.numbers[3 + axis], start, packet);
+                let (origin, dir) = (origin[axis], dir[axis]);
                 let reciprocal =
                     (one / dir).max(f32x8::splat(simd, -1e37)).min(f32x8::splat(simd, 1e37));
-                reciprocal.store_array(&mut memory.reciprocal[axis][packet & 7]);
+                reciprocal.store_array(&mut beam.reciprocal[axis][packet & 7]);
                 starts[axis] = own.select(origin, most).min(starts[axis]);
                 starts[axis + 3] = own.select(-origin, most).min(starts[axis + 3]);
                 directions[axis] = own.select(dir, most).min(directions[axis]);
@@ -269,8 +334,6 @@ impl<S: Simd> Beam<S> {
                 reciprocals[axis] = own.select(reciprocal, most).min(reciprocals[axis]);
                 reciprocals[axis + 3] = own.select(-reciprocal, most).min(reciprocals[axis + 3]);
             }
-            let t_min = column(simd, &memory.numbers[7], start, packet);
-            let t_max = column(simd, &memory.numbers[8], start, packet);
             starts[6] = own.select(t_min, most).min(starts[6]);
             starts[7] = own.select(-t_max, most).min(starts[7]);
         }
@@ -288,8 +351,8 @@ impl<S: Simd> Beam<S> {
         let mut cosine = one;
         for packet in 0..count.div_ceil(8) {
             let own = mask32x8::from_bitmask(simd, all >> (8 * packet) & 0xff);
-            let dir = |axis: usize| column(simd, &memory.numbers[3 + axis], start, packet);
-            let dot = dir(0) * along[0] + dir(1) * along[1] + dir(2) * along[2];
+            let [x, y, z] = beam.eight(simd, packet).dir;
+            let dot = x * along[0] + y * along[1] + z * along[2];
             cosine = own.select(dot, one).min(cosine);
         }
         let cosine = lowest(cosine) - 1e-5;
@@ -304,7 +367,6 @@ impl<S: Simd> Beam<S> {
             reciprocal[axis] = [reciprocals[axis], -reciprocals[axis + 3]];
         }
         Self {
-            start,
             all,
             negative,
             pad,
@@ -322,10 +384,17 @@ impl<S: Simd> Beam<S> {
 
     /// Asks of all rays whether they hit something, unless that takes too long.
     #[inline(always)]
-    fn trace(&self, simd: S, world: &World<'_>, root: Ref, memory: &mut Memory) -> Traced {
+    fn trace(
+        &self,
+        simd: S,
+        world: &World<'_>,
+        root: Ref,
+        beam: &Numbers,
+        entries: &mut [Entry],
+    ) -> Traced {
         let mut active = self.all;
         let mut patience = PATIENCE * active.count_ones();
-        memory.entries[0] = Entry { key: u64::from(root.0), rays: active, parent: NO_BOX };
+        entries[0] = Entry { key: u64::from(root.0), rays: active, parent: NO_BOX };
         let mut depth = 1;
         while depth > 0 {
             if patience == 0 {
@@ -334,24 +403,24 @@ impl<S: Simd> Beam<S> {
             }
             patience -= 1;
             depth -= 1;
-            let Entry { key, rays, parent } = memory.entries[depth];
+            let Entry { key, rays, parent } = entries[depth];
             let mut rays = rays & active;
             if rays == 0 {
                 continue;
             }
             if parent != NO_BOX {
                 let node = rows(world.rows, parent as usize / 8);
-                rays = self.enter(simd, node, parent as usize % 8, rays, memory);
+                rays = self.enter(simd, node, parent as usize % 8, rays, beam);
                 if rays == 0 {
                     continue;
                 }
             }
             let at = Ref(key as u32);
             if at.kind().is_none() {
-                depth = self.visit(simd, world, at, rays, &mut memory.entries, depth);
+                depth = self.visit(simd, world, at, rays, entries, depth);
                 continue;
             }
-            active &= !self.leaf(simd, rows(world.rows, at.row()), rays, memory);
+            active &= !self.leaf(simd, rows(world.rows, at.row()), rays, beam);
             if active == 0 {
                 break;
             }
@@ -361,13 +430,14 @@ impl<S: Simd> Beam<S> {
 
     /// Those of some rays that enter the box of a child.
     #[inline(always)]
-    fn enter(&self, simd: S, node: &[Row; NODE], lane: usize, rays: u64, memory: &Memory) -> u64 {
-        let side = |row: usize| f32x8::splat(simd, node[row & 7].0[lane & 7]);
-        let near = |axis: usize| 2 * axis + usize::from(self.negative[axis]);
-        let nears = [side(near(0)), side(near(1)), side(near(2))];
-        let fars = [side(near(0) ^ 1), side(near(1) ^ 1), side(near(2) ^ 1)];
-        let pad = |axis: usize| if self.negative[axis] { -self.pad } else { self.pad };
-        let pads = [pad(0), pad(1), pad(2)];
+    fn enter(&self, simd: S, node: &[Row; NODE], lane: usize, rays: u64, beam: &Numbers) -> u64 {
+        let side = |axis: usize, is_far: bool| {
+            let is_high = self.negative[axis] != is_far;
+            let pad = if is_high { self.pad } else { -self.pad };
+            f32x8::splat(simd, node[2 * axis + usize::from(is_high)].0[lane & 7] + pad)
+        };
+        let nears = [side(0, false), side(1, false), side(2, false)];
+        let fars = [side(0, true), side(1, true), side(2, true)];
         let mut met = 0;
         let mut left = rays;
         while left != 0 {
@@ -376,13 +446,12 @@ impl<S: Simd> Beam<S> {
             let mut first = f32x8::splat(simd, self.t_min);
             let mut last = f32x8::splat(simd, self.t_max);
             for axis in 0..3 {
-                let origin = column(simd, &memory.numbers[axis], self.start, packet);
-                let reciprocal = load(simd, &memory.reciprocal[axis][packet & 7]);
-                first = first.max((nears[axis] - (origin + pads[axis])) * reciprocal);
-                let reciprocal = reciprocal * (1.0 + SLACK);
-                last = last.min((fars[axis] - (origin - pads[axis])) * reciprocal);
+                let origin = load(simd, &beam.origin[axis][packet & 7]);
+                let reciprocal = load(simd, &beam.reciprocal[axis][packet & 7]);
+                first = first.max((nears[axis] - origin) * reciprocal);
+                last = last.min((fars[axis] - origin) * reciprocal);
             }
-            met |= first.simd_le(last).to_bitmask() << (8 * packet);
+            met |= first.simd_le(last * (1.0 + SLACK)).to_bitmask() << (8 * packet);
         }
         met & rays
     }
@@ -411,21 +480,38 @@ impl<S: Simd> Beam<S> {
             last = last.min((way * (low * (1.0 + SLACK))).max(way * (high * (1.0 + SLACK))));
         }
         let mut mask = first.simd_le(last).to_bitmask() as u32;
+        let full = self.around(simd, node);
         let enter = first.to_array();
         let mut depth = bottom;
         while mask != 0 {
             let lane = mask.trailing_zeros() as usize & 7;
             mask &= mask - 1;
             let key = key_of_child(node, at.row(), lane, &enter);
-            let parent = (at.row() * 8 + lane) as u32;
+            let is_full = full >> lane & 1 != 0;
+            let parent = if is_full { NO_BOX } else { (at.row() * 8 + lane) as u32 };
             push(entries, bottom, &mut depth, Entry { key, rays, parent });
         }
         depth
     }
 
+    /// The children of a node in whose boxes all rays start, a bit each.
+    #[inline(always)]
+    fn around(&self, simd: S, node: &[Row; NODE]) -> u32 {
+        let mut full = mask32x8::from_bitmask(simd, 0xff);
+        for axis in 0..3 {
+            // Of the numbers of origins, moved outwards, the least and the greatest.
+            let (a, b) = (self.near_origin[axis], self.far_origin[axis]);
+            let (low, high) = if self.negative[axis] { (a, b) } else { (b, a) };
+            full = full
+                & load(simd, &node[2 * axis].0).simd_le(f32x8::splat(simd, low))
+                & load(simd, &node[2 * axis + 1].0).simd_ge(f32x8::splat(simd, high));
+        }
+        full.to_bitmask() as u32
+    }
+
     /// Those of some rays that hit a sphere of a leaf.
     #[inline(always)]
-    fn leaf(&self, simd: S, block: &[Row; BLOCK], rays: u64, memory: &Memory) -> u64 {
+    fn leaf(&self, simd: S, block: &[Row; BLOCK], rays: u64, beam: &Numbers) -> u64 {
         let count = rays.count_ones();
         // For few rays, finding the spheres that all of them miss costs more than it saves.
         let mut spheres = if count <= FEW { 0 } else { self.near(simd, block) };
@@ -435,15 +521,7 @@ impl<S: Simd> Beam<S> {
             while left != 0 {
                 let i = left.trailing_zeros() as usize & 63;
                 left &= left - 1;
-                let number = |of: usize| f32x8::splat(simd, memory.numbers[of][self.start + i]);
-                let ray = Closest8 {
-                    origin: [number(0), number(1), number(2)],
-                    dir: [number(3), number(4), number(5)],
-                    scale: number(6),
-                    t_min: number(7),
-                    t_max: number(8),
-                };
-                hit |= u64::from(ray.intersect(simd, block).0 != 0) << i;
+                hit |= u64::from(beam.one(simd, i).intersect(simd, block).0 != 0) << i;
             }
             return hit;
         }
@@ -454,14 +532,7 @@ impl<S: Simd> Beam<S> {
             while left != 0 {
                 let packet = left.trailing_zeros() as usize / 8;
                 left &= !(0xff << (8 * packet));
-                let numbers = |of: usize| column(simd, &memory.numbers[of], self.start, packet);
-                let eight = Closest8 {
-                    origin: [numbers(0), numbers(1), numbers(2)],
-                    dir: [numbers(3), numbers(4), numbers(5)],
-                    scale: numbers(6),
-                    t_min: numbers(7),
-                    t_max: numbers(8),
-                };
+                let eight = beam.eight(simd, packet);
                 if let Some((met, _)) = eight.intersect_one(simd, block, lane) {
                     hit |= met.to_bitmask() << (8 * packet) & rays;
                 }
@@ -492,13 +563,6 @@ impl<S: Simd> Beam<S> {
         let far = off.simd_gt(most * most) | (along + reach).simd_lt(f32x8::splat(simd, 0.0));
         !far.to_bitmask() as u32 & 0xff
     }
-}
-
-/// A number of eight rays of a beam.
-#[inline(always)]
-fn column<S: Simd>(simd: S, numbers: &[f32], start: usize, packet: usize) -> f32x8<S> {
-    let from = start + 8 * packet;
-    f32x8::from_slice(simd, &numbers[from..from + 8])
 }
 
 #[inline(always)]

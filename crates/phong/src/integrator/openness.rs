@@ -171,8 +171,9 @@ impl Integrator<'_> {
     /// Adds to the shares of some surfaces what is left along a ray of each.
     fn add_shares(&self, rays: &[Rays8], blocked: &[u32], shares: &mut [[f32; 8]]) {
         for ((shares, rays), blocked) in shares.iter_mut().zip(rays).zip(blocked) {
-            for lane in lanes(rays.there & !blocked) {
-                shares[lane] += 1.0;
+            let free = rays.there & !blocked;
+            for (lane, share) in shares.iter_mut().enumerate() {
+                *share += (free >> lane & 1) as f32;
             }
             if self.scene.has_filters() {
                 for lane in lanes(rays.there & blocked) {
