@@ -5,8 +5,9 @@ use std::sync::Arc;
 
 use glam::{DAffine2, DAffine3, DMat3, DVec2, DVec3};
 
-use super::buffer::{self, Buffers};
+use super::buffer::Buffers;
 use super::json::{At, Fault, Result};
+use super::uri::load;
 use crate::color::Rgb;
 use crate::diagnostic::Place;
 use crate::format::text::{Findings, whole};
@@ -150,7 +151,7 @@ impl<'a> Images<'a> {
             (Some(view), _) => texels::parse(buffers.bytes(&self.root, &view)?, &limits),
             (None, Some(uri)) => {
                 let most = self.limits.bytes.min(1 << 32);
-                let bytes = buffer::load(&uri, self.path, self.source, most)?;
+                let bytes = load(&uri, self.path, self.source, most)?;
                 texels::parse(&bytes, &limits)
             }
             (None, None) => Err("it has neither `bufferView` nor `uri`".to_owned()),

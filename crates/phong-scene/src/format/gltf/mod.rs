@@ -39,6 +39,7 @@ mod material;
 mod nodes;
 mod primitive;
 mod surface;
+mod uri;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;

@@ -1,0 +1,75 @@
+//! What URIs name: bytes of their own, and files.
+
+use super::json::{At, Result};
+use crate::source::{Source, trouble};
+
+/// What a URI names: the bytes that it holds itself, or those of a file.
+pub(super) fn load(uri: &At<'_>, path: &str, source: &dyn Source, length: u64) -> Result<Vec<u8>> {
+    let text = uri.text()?;
+    if let Some(data) = text.strip_prefix("data:") {
+        let (kind, data) = data.split_once(',').unwrap_or_default();
+        let bytes = if kind.ends_with(";base64") { base64(data) } else { Some(unescaped(data)) };
+        return bytes.ok_or_else(|| uri.fault("it is no base64"));
+    }
+    let name = unescaped(text);
+    let name = String::from_utf8_lossy(&name);
+    let folder = path.rfind(['/', '\\']).map_or("", |end| &path[..=end]);
+    let file = if name.starts_with('/') { name.into_owned() } else { format!("{folder}{name}") };
+    let cannot = |error| uri.fault(format!("`{file}` cannot be read: {}", trouble(&error)));
+    let blob = source.open(&file).map_err(cannot)?;
+    blob.read_whole(length).map_err(cannot)
+}
+
+/// Text with `%20` and the like as what they stand for.
+fn unescaped(text: &str) -> Vec<u8> {
+    let hex = |byte: u8| char::from(byte).to_digit(16);
+    let mut bytes = text.bytes();
+    let mut plain = Vec::with_capacity(text.len());
+    while let Some(byte) = bytes.next() {
+        let mut ahead = bytes.clone();
+        let pair = (ahead.next().and_then(hex), ahead.next().and_then(hex));
+        if let (b'%', (Some(high), Some(low))) = (byte, pair) {
+            plain.push((16 * high + low) as u8);
+            bytes = ahead;
+        } else {
+            plain.push(byte);
+        }
+    }
+    plain
+}
+
+/// The bytes that base64 stands for; `None`: it is none.
+fn base64(text: &str) -> Option<Vec<u8>> {
+    let mut bytes = Vec::with_capacity(text.len() / 4 * 3);
+    let (mut bits, mut count) = (0_u32, 0);
+    for byte in text.bytes().filter(|b| !b.is_ascii_whitespace() && *b != b'=') {
+        let value = match byte {
+            b'A'..=b'Z' => byte - b'A',
+            b'a'..=b'z' => byte - b'a' + 26,
+            b'0'..=b'9' => byte - b'0' + 52,
+            b'+' | b'-' => 62,
+            b'/' | b'_' => 63,
+            _ => return None,
+        };
+        bits = bits << 6 | u32::from(value);
+        count += 6;
+        if count >= 8 {
+            count -= 8;
+            bytes.push((bits >> count) as u8);
+        }
+    }
+    Some(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn base64_and_escapes_become_bytes() {
+        assert_eq!(base64("TWFu\nTWE=").as_deref(), Some(&b"ManMa"[..]));
+        assert_eq!(base64("T").as_deref(), Some(&b""[..]));
+        assert_eq!(base64("T*"), None);
+        assert_eq!(unescaped("a%20b%C3%a9%2"), "a bé%2".as_bytes());
+    }
+}
