@@ -1,17 +1,20 @@
 //! Buffers, and the numbers that accessors find in them.
 
-use glam::{Vec2, Vec3, Vec4};
+use std::borrow::Cow;
+use std::io;
 
+use rayon::prelude::*;
+
+use super::bytes::Bytes;
 use super::json::{At, Fault, Result};
 use super::uri::load;
 use crate::limits::Limits;
-use crate::source::Source;
+use crate::source::{Source, trouble};
 
 /// The bytes of all buffers.
-#[derive(Debug, Default)]
 pub(super) struct Buffers {
     /// Each, or why it cannot be used.
-    all: Vec<std::result::Result<Vec<u8>, Fault>>,
+    all: Vec<std::result::Result<Bytes, Fault>>,
 }
 
 /// What kinds of numbers an accessor holds.
@@ -74,37 +77,84 @@ impl Component {
     }
 }
 
-/// Numbers in rows of the same length.
-#[derive(Debug)]
-pub(super) struct Rows {
-    /// Numbers of a row.
-    pub(super) width: usize,
-    pub(super) count: usize,
-    numbers: Vec<f32>,
+/// Rows that are read at once are at most so many, and lie within about so many bytes.
+const PIECE: [usize; 2] = [1 << 14, 1 << 18];
+
+/// Most files that are open at once.
+const OPEN: usize = 16;
+
+/// Some bytes of a buffer, of a view of it.
+struct View<'b> {
+    bytes: &'b Bytes,
+    start: u64,
+    length: u64,
+    /// How far apart its rows begin, if it says so.
+    stride: Option<usize>,
+    pointer: String,
 }
 
-impl Rows {
-    /// One row; missing numbers are 0.
-    #[inline]
-    fn row<const N: usize>(&self, i: usize) -> [f32; N] {
-        let row = self.numbers.get(i * self.width..(i + 1) * self.width).unwrap_or_default();
-        std::array::from_fn(|k| row.get(k).copied().unwrap_or(0.0))
+impl<'b> View<'b> {
+    /// So many bytes of it from one on; `None`: they are not there.
+    fn part(&self, at: &At<'_>, from: u64, length: u64) -> Result<Option<Cow<'b, [u8]>>> {
+        if from.checked_add(length).is_none_or(|end| end > self.length) {
+            return Ok(None);
+        }
+        let part = self.bytes.part(self.start + from, length as usize);
+        part.map(Some).map_err(|error| at.fault(unread(&error)))
+    }
+}
+
+fn unread(error: &io::Error) -> String {
+    format!("its bytes cannot be read: {}", trouble(error))
+}
+
+/// What an accessor says of its rows.
+struct Accessor<'a> {
+    at: At<'a>,
+    component: Component,
+    /// Numbers of a row.
+    width: usize,
+    count: usize,
+    normalized: bool,
+}
+
+/// Where the rows of an accessor lie.
+struct Layout<'b> {
+    view: View<'b>,
+    /// Where the first row begins in the buffer.
+    start: u64,
+    /// How far apart rows begin.
+    stride: usize,
+    /// Bytes of a row.
+    row: usize,
+}
+
+impl Layout<'_> {
+    /// Makes a value of each row, by all threads.
+    fn each<T: Send>(
+        &self,
+        values: &mut [T],
+        make: impl Fn(&[u8], &mut [T]) + Sync,
+    ) -> io::Result<()> {
+        let rows = PIECE[0].min(PIECE[1] / self.stride.max(1)).max(1);
+        let read = |room: &mut Vec<u8>, (number, values): (usize, &mut [T])| {
+            let start = self.start + (number * rows * self.stride) as u64;
+            let length = (values.len() - 1) * self.stride + self.row;
+            make(self.view.bytes.piece(start, length, room)?, values);
+            Ok(())
+        };
+        values.par_chunks_mut(rows).enumerate().map_init(Vec::new, read).collect()
     }
 
-    pub(super) fn vectors(&self) -> Vec<Vec3> {
-        (0..self.count).map(|i| Vec3::from(self.row::<3>(i))).collect()
+    /// The rows in bytes that begin with the first of them.
+    fn rows<'b>(&self, bytes: &'b [u8]) -> impl Iterator<Item = &'b [u8]> {
+        let (stride, row) = (self.stride, self.row);
+        (0..).map_while(move |i: usize| bytes.get(i * stride..)?.get(..row))
     }
 
-    pub(super) fn pairs(&self) -> Vec<Vec2> {
-        (0..self.count).map(|i| Vec2::from(self.row::<2>(i))).collect()
-    }
-
-    pub(super) fn quadruples(&self) -> Vec<Vec4> {
-        (0..self.count).map(|i| Vec4::from(self.row::<4>(i))).collect()
-    }
-
-    pub(super) fn matrices(&self) -> Vec<[f32; 16]> {
-        (0..self.count).map(|i| self.row(i)).collect()
+    /// Whether the numbers lie side by side.
+    fn is_packed(&self) -> bool {
+        self.stride == self.row
     }
 }
 
@@ -113,24 +163,26 @@ impl Buffers {
     pub(super) fn read(
         root: &At<'_>,
         path: &str,
-        binary: Option<Vec<u8>>,
+        binary: Option<Bytes>,
         source: &dyn Source,
         limits: &Limits,
     ) -> Result<Self> {
         let mut binary = binary;
         let mut room = limits.bytes;
-        let mut read = |at: At<'_>| -> Result<Vec<u8>> {
+        let mut open = OPEN;
+        let mut read = |at: At<'_>| -> Result<Bytes> {
             let length = at.need("byteLength")?.whole()?;
             if length > room {
                 return Err(at.fault(format!("it takes {length} bytes of memory; {room} are left")));
             }
             room -= length;
             let bytes = match at.get("uri") {
-                Some(uri) => load(&uri, path, source, length)?,
+                Some(uri) => load(&uri, path, source, length, open > 0)?,
                 None if at.pointer == "/buffers/0" => binary.take().unwrap_or_default(),
-                None => Vec::new(),
+                None => Bytes::default(),
             };
-            if (bytes.len() as u64) < length {
+            open -= usize::from(matches!(bytes, Bytes::Filed { .. }));
+            if bytes.len() < length {
                 let there = bytes.len();
                 return Err(at.fault(format!("only {there} of its {length} bytes are there")));
             }
@@ -139,8 +191,8 @@ impl Buffers {
         Ok(Self { all: root.list("buffers")?.into_iter().map(&mut read).collect() })
     }
 
-    /// The bytes of a view of a buffer, and how far apart its rows begin, if it says so.
-    fn view(&self, root: &At<'_>, index: &At<'_>) -> Result<(&[u8], Option<usize>, String)> {
+    /// A view of a buffer.
+    fn view(&self, root: &At<'_>, index: &At<'_>) -> Result<View<'_>> {
         let view = root.item("bufferViews", index.index()?).map_err(|f| index.fault(f.message))?;
         let buffer = view.need("buffer")?;
         let bytes = match self.all.get(buffer.index()?) {
@@ -150,26 +202,161 @@ impl Buffers {
         };
         let (offset, length) =
             (view.whole_or_zero("byteOffset")?, view.need("byteLength")?.whole()?);
-        let end = offset.checked_add(length).filter(|end| *end <= bytes.len() as u64);
-        let Some(end) = end else {
+        if offset.checked_add(length).is_none_or(|end| end > bytes.len()) {
             return Err(
                 view.fault(format!("it goes beyond the {} bytes of its buffer", bytes.len()))
             );
-        };
+        }
         let stride = match view.get("byteStride") {
             Some(at) => Some(at.index()?).filter(|stride| *stride > 0),
             None => None,
         };
-        Ok((&bytes[offset as usize..end as usize], stride, view.pointer))
+        Ok(View { bytes, start: offset, length, stride, pointer: view.pointer })
     }
 
     /// The bytes of a view of a buffer.
-    pub(super) fn bytes(&self, root: &At<'_>, index: &At<'_>) -> Result<&[u8]> {
-        self.view(root, index).map(|(bytes, ..)| bytes)
+    pub(super) fn bytes(&self, root: &At<'_>, index: &At<'_>) -> Result<Cow<'_, [u8]>> {
+        let view = self.view(root, index)?;
+        Ok(view.part(index, 0, view.length)?.unwrap_or_default())
     }
 
-    /// The rows of an accessor, normalised where it says so.
-    pub(super) fn rows(&self, root: &At<'_>, index: &At<'_>, limits: &Limits) -> Result<Rows> {
+    /// The rows of an accessor, normalised where it says so, of so many numbers each: further ones are left
+    /// out, and those that are not there are 0.
+    pub(super) fn rows<const N: usize>(
+        &self,
+        root: &At<'_>,
+        index: &At<'_>,
+        limits: &Limits,
+    ) -> Result<Vec<[f32; N]>> {
+        let accessor = Accessor::of(root, index, limits)?;
+        let Accessor { ref at, component, width, count, .. } = accessor;
+        let layout = self.layout(root, &accessor)?;
+        let mut rows = vec![[0.0; N]; count];
+        let size = component.size();
+        if let Some(layout) = layout {
+            let packed = layout.is_packed() && component == Component::F32 && width == N;
+            let make = |bytes: &[u8], rows: &mut [[f32; N]]| {
+                if packed {
+                    for (to, from) in rows.as_flattened_mut().iter_mut().zip(bytes.as_chunks().0) {
+                        *to = f32::from_le_bytes(*from);
+                    }
+                    return;
+                }
+                for (row, from) in rows.iter_mut().zip(layout.rows(bytes)) {
+                    for (to, from) in row.iter_mut().zip(from.chunks_exact(size)) {
+                        *to = accessor.number(from);
+                    }
+                }
+            };
+            layout.each(&mut rows, make).map_err(|error| at.fault(unread(&error)))?;
+        }
+        if let Some(sparse) = at.get("sparse") {
+            let places = self.sparse(root, &sparse, "indices")?;
+            let bytes = self.sparse_values(root, &sparse, (places.len() * width * size) as u64)?;
+            for (k, place) in places.into_iter().enumerate() {
+                let row = rows.get_mut(place as usize);
+                let from = bytes.get(k * width * size..(k + 1) * width * size);
+                let (Some(row), Some(from)) = (row, from) else {
+                    return Err(sparse
+                        .fault(format!("row {place} is none of the {count}, or has no value")));
+                };
+                for (number, bytes) in row.iter_mut().zip(from.chunks_exact(size)) {
+                    *number = accessor.number(bytes);
+                }
+            }
+        }
+        Ok(rows)
+    }
+
+    /// The whole numbers of an accessor, as of indices, N together; what is left of the last is left out.
+    pub(super) fn indices<const N: usize>(
+        &self,
+        root: &At<'_>,
+        index: &At<'_>,
+        limits: &Limits,
+    ) -> Result<Vec<[u32; N]>> {
+        let at = root.item("accessors", index.index()?).map_err(|f| index.fault(f.message))?;
+        let component = Component::of(&at.need("componentType")?)?;
+        if component != Component::U32 {
+            let accessor = Accessor::of(root, index, limits)?;
+            let layout = self.layout(root, &accessor)?.filter(|_| at.get("sparse").is_none());
+            if let (Some(layout), 1) = (layout, accessor.width) {
+                return whole(&accessor, &layout);
+            }
+            // Of several numbers a row, each is an index.
+            let all: Vec<u32> = match accessor.width {
+                1 => flat(&self.rows::<1>(root, index, limits)?),
+                2 => flat(&self.rows::<2>(root, index, limits)?),
+                3 => flat(&self.rows::<3>(root, index, limits)?),
+                4 => flat(&self.rows::<4>(root, index, limits)?),
+                9 => flat(&self.rows::<9>(root, index, limits)?),
+                _ => flat(&self.rows::<16>(root, index, limits)?),
+            };
+            return Ok(all.as_chunks().0.to_vec());
+        }
+        // An f32 does not hold them.
+        let count = at.need("count")?.index()?;
+        let view = self.view(root, &at.need("bufferView")?)?;
+        let offset = at.whole_or_zero("byteOffset")?;
+        let stride = view.stride.unwrap_or(4);
+        let fits = count.checked_sub(1).and_then(|last| last.checked_mul(stride)?.checked_add(4));
+        let end = fits.and_then(|n| offset.checked_add(n as u64));
+        if count > 0 && end.is_none_or(|end| end > view.length) {
+            return Err(at.fault(format!("its {count} rows go beyond its view's bytes")));
+        }
+        let layout = Layout { start: view.start.saturating_add(offset), view, stride, row: 4 };
+        whole(&Accessor { at, component, width: 1, count, normalized: false }, &layout)
+    }
+
+    /// Where the rows of an accessor lie; `None`: it names no view, so that they are all zeros.
+    fn layout(&self, root: &At<'_>, accessor: &Accessor<'_>) -> Result<Option<Layout<'_>>> {
+        let Accessor { at, component, width, count, .. } = accessor;
+        let Some(view) = at.get("bufferView") else { return Ok(None) };
+        let view = self.view(root, &view)?;
+        let offset = at.whole_or_zero("byteOffset")?;
+        let row = width * component.size();
+        let stride = view.stride.unwrap_or(row);
+        let needed = (*count as u64)
+            .saturating_sub(1)
+            .saturating_mul(stride as u64)
+            .saturating_add(row as u64)
+            .saturating_add(offset);
+        if *count > 0 && needed > view.length {
+            let View { length: there, pointer, .. } = view;
+            return Err(at.fault(format!(
+                "its {count} rows need {needed} bytes, but {pointer} has {there}"
+            )));
+        }
+        Ok(Some(Layout { start: view.start.saturating_add(offset), view, stride, row }))
+    }
+
+    /// The row numbers of a sparse accessor.
+    fn sparse(&self, root: &At<'_>, sparse: &At<'_>, key: &str) -> Result<Vec<u32>> {
+        let at = sparse.need(key)?;
+        let component = Component::of(&at.need("componentType")?)?;
+        let view = self.view(root, &at.need("bufferView")?)?;
+        let count = sparse.need("count")?.whole()?;
+        let offset = at.whole_or_zero("byteOffset")?;
+        let size = component.size();
+        let bytes = view.part(&at, offset, count.saturating_mul(size as u64))?;
+        let bytes = bytes.ok_or_else(|| at.fault("it goes beyond the bytes of its view"))?;
+        Ok(bytes.chunks_exact(size).map(|bytes| component.load(bytes) as u32).collect())
+    }
+
+    /// As many bytes of a sparse accessor's values as are there, and no more than so many.
+    fn sparse_values(&self, root: &At<'_>, sparse: &At<'_>, most: u64) -> Result<Cow<'_, [u8]>> {
+        let at = sparse.need("values")?;
+        let view = self.view(root, &at.need("bufferView")?)?;
+        let offset = at.whole_or_zero("byteOffset")?;
+        let length = view.length.checked_sub(offset).map_or(0, |rest| rest.min(most));
+        let bytes = view.part(&at, offset, length)?;
+        bytes.ok_or_else(|| at.fault("it begins beyond the bytes of its view"))
+    }
+}
+
+impl<'a> Accessor<'a> {
+    /// The accessor of a number; its rows are within the limits.
+    fn of(root: &At<'a>, index: &At<'_>, limits: &Limits) -> Result<Self> {
         let at = root.item("accessors", index.index()?).map_err(|f| index.fault(f.message))?;
         let component = Component::of(&at.need("componentType")?)?;
         let kind = at.need("type")?;
@@ -189,117 +376,49 @@ impl Buffers {
         if count > most || bytes > limits.bytes {
             return Err(at.fault(format!("{count} rows are more than are allowed")));
         }
-        let count = count as usize;
         let normalized = at.get("normalized").map_or(Ok(false), |at| at.flag())?;
-        let scale = if normalized { component.most() } else { 1.0 };
-        let value = |bytes: &[u8]| {
-            let value = component.load(bytes);
-            (if normalized { (value / scale).max(-1.0) } else { value }) as f32
-        };
-        let size = component.size();
-        let mut numbers = Vec::new();
-        match at.get("bufferView") {
-            None => numbers.resize(count * width, 0.0),
-            Some(view) => {
-                let (bytes, stride, pointer) = self.view(root, &view)?;
-                let offset = at.whole_or_zero("byteOffset")?;
-                let stride = stride.unwrap_or(width * size);
-                let needed = (count as u64)
-                    .saturating_sub(1)
-                    .saturating_mul(stride as u64)
-                    .saturating_add((width * size) as u64)
-                    .saturating_add(offset);
-                if count > 0 && needed > bytes.len() as u64 {
-                    let there = bytes.len();
-                    return Err(at.fault(format!(
-                        "its {count} rows need {needed} bytes, but {pointer} has {there}"
-                    )));
-                }
-                numbers.reserve_exact(count * width);
-                for row in (0..count).map(|i| offset as usize + i * stride) {
-                    let row = &bytes[row..row + width * size];
-                    if component == Component::F32 {
-                        numbers
-                            .extend(row.as_chunks::<4>().0.iter().map(|b| f32::from_le_bytes(*b)));
-                    } else {
-                        numbers.extend(row.chunks_exact(size).map(value));
-                    }
-                }
+        Ok(Self { at, component, width, count: count as usize, normalized })
+    }
+
+    /// The number that bytes stand for.
+    fn number(&self, bytes: &[u8]) -> f32 {
+        let value = self.component.load(bytes);
+        let whole = self.component != Component::F32;
+        (if self.normalized && whole { (value / self.component.most()).max(-1.0) } else { value })
+            as f32
+    }
+}
+
+/// The whole numbers of rows of one each.
+fn whole<const N: usize>(accessor: &Accessor<'_>, layout: &Layout<'_>) -> Result<Vec<[u32; N]>> {
+    let mut all = vec![[0; N]; accessor.count / N];
+    let make = |bytes: &[u8], all: &mut [u32]| match accessor.component {
+        Component::U32 if layout.is_packed() => {
+            let each = all.iter_mut().zip(bytes.as_chunks().0);
+            each.for_each(|(to, from)| *to = u32::from_le_bytes(*from));
+        }
+        Component::U16 if layout.is_packed() && !accessor.normalized => {
+            let each = all.iter_mut().zip(bytes.as_chunks().0);
+            each.for_each(|(to, from)| *to = u32::from(u16::from_le_bytes(*from)));
+        }
+        Component::U32 => {
+            for (to, from) in all.iter_mut().zip(layout.rows(bytes)) {
+                *to = u32::from_le_bytes(from.first_chunk().copied().unwrap_or_default());
             }
         }
-        if let Some(sparse) = at.get("sparse") {
-            let places = self.sparse(root, &sparse, "indices")?;
-            let (bytes, component_of_values) = (self.sparse_values(root, &sparse)?, component);
-            for (k, place) in places.into_iter().enumerate() {
-                let row = (place as usize).checked_mul(width).filter(|_| (place as usize) < count);
-                let from = bytes.get(k * width * size..(k + 1) * width * size);
-                let (Some(row), Some(from)) = (row, from) else {
-                    return Err(sparse
-                        .fault(format!("row {place} is none of the {count}, or has no value")));
-                };
-                for (number, bytes) in
-                    numbers[row..row + width].iter_mut().zip(from.chunks_exact(size))
-                {
-                    *number = if component_of_values == Component::F32 {
-                        component.load(bytes) as f32
-                    } else {
-                        value(bytes)
-                    };
-                }
-            }
+        _ => {
+            let each = all.iter_mut().zip(layout.rows(bytes));
+            each.for_each(|(to, from)| *to = accessor.number(from) as u32);
         }
-        Ok(Rows { width, count, numbers })
-    }
+    };
+    let read = layout.each(all.as_flattened_mut(), make);
+    read.map_err(|error| accessor.at.fault(unread(&error)))?;
+    Ok(all)
+}
 
-    /// The whole numbers of an accessor, as of indices.
-    pub(super) fn indices(
-        &self,
-        root: &At<'_>,
-        index: &At<'_>,
-        limits: &Limits,
-    ) -> Result<Vec<u32>> {
-        let at = root.item("accessors", index.index()?).map_err(|f| index.fault(f.message))?;
-        let component = at.need("componentType")?;
-        if Component::of(&component)? != Component::U32 {
-            let rows = self.rows(root, index, limits)?;
-            return Ok(rows.numbers.iter().map(|n| *n as u32).collect());
-        }
-        // An f32 does not hold them.
-        let count = at.need("count")?.index()?;
-        let (bytes, stride, _) = self.view(root, &at.need("bufferView")?)?;
-        let offset = at.whole_or_zero("byteOffset")? as usize;
-        let stride = stride.unwrap_or(4);
-        let fits = count.checked_sub(1).and_then(|last| last.checked_mul(stride)?.checked_add(4));
-        let fits = count == 0
-            || fits.and_then(|n| n.checked_add(offset)).is_some_and(|n| n <= bytes.len());
-        if !fits {
-            return Err(at.fault(format!("its {count} rows go beyond its view's bytes")));
-        }
-        let row =
-            |i: usize| bytes[offset + i * stride..].first_chunk().copied().unwrap_or_default();
-        Ok((0..count).map(|i| u32::from_le_bytes(row(i))).collect())
-    }
-
-    /// The row numbers of a sparse accessor.
-    fn sparse(&self, root: &At<'_>, sparse: &At<'_>, key: &str) -> Result<Vec<u32>> {
-        let at = sparse.need(key)?;
-        let component = Component::of(&at.need("componentType")?)?;
-        let (bytes, _, _) = self.view(root, &at.need("bufferView")?)?;
-        let count = sparse.need("count")?.index()?;
-        let offset = at.whole_or_zero("byteOffset")? as usize;
-        let size = component.size();
-        let end = count.checked_mul(size).and_then(|length| length.checked_add(offset));
-        let bytes = end.and_then(|end| bytes.get(offset..end));
-        let bytes = bytes.ok_or_else(|| at.fault("it goes beyond the bytes of its view"))?;
-        Ok(bytes.chunks_exact(size).map(|bytes| component.load(bytes) as u32).collect())
-    }
-
-    fn sparse_values(&self, root: &At<'_>, sparse: &At<'_>) -> Result<&[u8]> {
-        let at = sparse.need("values")?;
-        let (bytes, _, _) = self.view(root, &at.need("bufferView")?)?;
-        let offset = at.whole_or_zero("byteOffset")? as usize;
-        bytes.get(offset..).ok_or_else(|| at.fault("it begins beyond the bytes of its view"))
-    }
+/// All numbers of rows as whole ones.
+fn flat<const N: usize>(rows: &[[f32; N]]) -> Vec<u32> {
+    rows.as_flattened().iter().map(|n| *n as u32).collect()
 }
 
 #[cfg(test)]

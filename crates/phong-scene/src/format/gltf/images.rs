@@ -12,7 +12,7 @@ use crate::color::Rgb;
 use crate::diagnostic::Place;
 use crate::format::text::{Findings, whole};
 use crate::limits::Limits;
-use crate::source::Source;
+use crate::source::{Source, trouble};
 use crate::texels::{self, TexelValues, Texels, TexelsError};
 use crate::texture::{
     Encoding, TexelFilter, Texture, TextureId, TextureKind, TextureRef, TextureSpace, Wrap,
@@ -148,11 +148,12 @@ impl<'a> Images<'a> {
         let image = image.map_err(|f| number.fault(f.message))?;
         let limits = self.left();
         let decoded = match (image.get("bufferView"), image.get("uri")) {
-            (Some(view), _) => texels::parse(buffers.bytes(&self.root, &view)?, &limits),
+            (Some(view), _) => texels::parse(&buffers.bytes(&self.root, &view)?, &limits),
             (None, Some(uri)) => {
                 let most = self.limits.bytes.min(1 << 32);
-                let bytes = load(&uri, self.path, self.source, most)?;
-                texels::parse(&bytes, &limits)
+                let bytes = load(&uri, self.path, self.source, most, false)?;
+                let bytes = bytes.part(0, bytes.len() as usize);
+                bytes.map_err(|error| trouble(&error)).and_then(|b| texels::parse(&b, &limits))
             }
             (None, None) => Err("it has neither `bufferView` nor `uri`".to_owned()),
         };

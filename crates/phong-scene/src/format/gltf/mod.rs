@@ -32,6 +32,7 @@
 
 mod bright;
 mod buffer;
+mod bytes;
 pub(crate) mod export;
 mod images;
 mod json;
@@ -43,12 +44,14 @@ mod uri;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
+use std::ops::Range;
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat4};
 use serde_json::Value;
 
 use self::buffer::Buffers;
+use self::bytes::Bytes;
 use self::images::Images;
 use self::json::{At, Fault, Result};
 use self::material::Surface;
@@ -62,7 +65,7 @@ use crate::fragment::Fragment;
 use crate::material::MaterialId;
 use crate::scene::{Group, Object};
 use crate::shape::{GroupId, Shape};
-use crate::source::trouble;
+use crate::source::{Blob, trouble};
 use crate::transform::is_regular;
 
 /// What a binary file begins with, and the names of its two chunks.
@@ -118,25 +121,33 @@ fn document(
     if blob.len() > limits.bytes {
         return Err(io::Error::new(io::ErrorKind::FileTooLarge, "it is larger than is allowed"));
     }
-    let mut bytes = vec![0; blob.len() as usize];
-    let read = blob.read_full(&mut bytes, 0)?;
-    bytes.truncate(read);
-    drop(blob);
-    let mut binary = None;
-    let mut text = &bytes[..];
-    if bytes.starts_with(MAGIC) {
-        match chunks(&bytes) {
-            Ok((json, rest)) => (text, binary) = (json, rest.map(<[u8]>::to_vec)),
+    let mut head = [0; MAGIC.len()];
+    let (text, binary) = if blob.read_full(&mut head, 0)? == MAGIC.len() && head == MAGIC {
+        match chunks(blob.as_ref())? {
+            Ok((text, binary)) => (text, Some(binary)),
             Err(message) => {
                 findings.error("broken files", || whole(file), || message);
                 return Ok(None);
             }
         }
-    }
-    if text.len() as u64 > limits.text_bytes {
+    } else {
+        (0..blob.len(), None)
+    };
+    let length = text.end - text.start;
+    if length > limits.text_bytes {
         let message = format!("its JSON has more than {} bytes", limits.text_bytes);
         return Err(io::Error::new(io::ErrorKind::FileTooLarge, message));
     }
+    let mut bytes = Vec::new();
+    bytes.try_reserve_exact(length as usize)?;
+    bytes.resize(length as usize, 0);
+    let read = blob.read_full(&mut bytes, text.start)?;
+    bytes.truncate(read);
+    let binary = match binary {
+        Some(binary) => Some(Bytes::of(blob, binary.start, binary.end - binary.start, true)?),
+        None => None,
+    };
+    let text = &bytes[..];
     let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
     let value: Value = match serde_json::from_slice(text) {
         Ok(value) => value,
@@ -157,32 +168,39 @@ fn document(
     Ok(fragment.map_err(|fault| tell(findings, true, file, fault)).ok())
 }
 
-/// The text of a binary file, and the bytes behind it.
-fn chunks(bytes: &[u8]) -> std::result::Result<(&[u8], Option<&[u8]>), String> {
-    let number = |at: usize| {
-        let bytes = bytes.get(at..)?.first_chunk()?;
-        Some(u32::from_le_bytes(*bytes) as usize)
+/// Where the text of a binary file lies, and the bytes behind it, if there are any; or what is wrong with it.
+#[expect(clippy::type_complexity, reason = "two kinds of trouble")]
+fn chunks(blob: &dyn Blob) -> io::Result<std::result::Result<(Range<u64>, Range<u64>), String>> {
+    let there = blob.len();
+    let word = |at: u64| -> io::Result<Option<[u8; 4]>> {
+        let mut bytes = [0; 4];
+        Ok((blob.read_full(&mut bytes, at)? == bytes.len()).then_some(bytes))
     };
-    let (version, length) = (number(4), number(8));
-    match version {
-        Some(2) => {}
-        Some(other) => return Err(format!("it is binary glTF {other}; only 2 is read")),
-        None => return Err("the file ends within its head".to_owned()),
-    }
-    let there = bytes.len();
-    if let Some(length) = length.filter(|length| *length > there) {
-        return Err(format!("the file is cut short: {there} of its {length} bytes are there"));
-    }
-    let chunk = |at: usize, kind: &[u8]| -> Option<&[u8]> {
-        let length = number(at)?;
-        let named = bytes.get(at + 4..at + 8)? == kind;
-        bytes.get(at + 8..(at + 8).checked_add(length)?).filter(|_| named)
+    let number = |at: u64| Ok::<_, io::Error>(word(at)?.map(u32::from_le_bytes).map(u64::from));
+    let message = match (number(4)?, number(8)?) {
+        (Some(2), Some(length)) if length > there => {
+            Some(format!("the file is cut short: {there} of its {length} bytes are there"))
+        }
+        (Some(2), _) => None,
+        (Some(other), _) => Some(format!("it is binary glTF {other}; only 2 is read")),
+        (None, _) => Some("the file ends within its head".to_owned()),
     };
-    let json = chunk(12, JSON).ok_or_else(|| "the file holds no chunk of JSON".to_owned())?;
+    if let Some(message) = message {
+        return Ok(Err(message));
+    }
+    let chunk = |at: u64, kind: &[u8]| -> io::Result<Option<Range<u64>>> {
+        let (length, named) = (number(at)?, word(at + 4)?);
+        let end = length.map(|length| at + 8 + length).filter(|end| *end <= there);
+        Ok(end.filter(|_| named.is_some_and(|name| name == kind)).map(|end| at + 8..end))
+    };
+    let Some(json) = chunk(12, JSON)? else {
+        return Ok(Err("the file holds no chunk of JSON".to_owned()));
+    };
     // Chunks begin at multiples of four; some programs put the second right behind the first all the same.
-    let end = 20 + json.len();
-    let binary = chunk(end.next_multiple_of(4), BIN).or_else(|| chunk(end, BIN));
-    Ok((json, binary))
+    let end = json.end;
+    let aligned = chunk(end.next_multiple_of(4), BIN)?;
+    let binary = if aligned.is_some() { aligned } else { chunk(end, BIN)? };
+    Ok(Ok((json, binary.unwrap_or_default())))
 }
 
 /// Says a fault: an error, unless it leaves something to be drawn leniently.
@@ -196,7 +214,7 @@ fn tell(findings: &mut Findings, fatal: bool, file: &Arc<str>, fault: Fault) {
 /// All that the document's scene holds.
 fn assemble<'a>(
     root: &At<'a>,
-    binary: Option<Vec<u8>>,
+    binary: Option<Bytes>,
     file: &Arc<str>,
     input: &Input<'a>,
     findings: &mut Findings,
@@ -447,7 +465,7 @@ impl<'a> Scene<'a, '_> {
         let inverse = match at.get("inverseBindMatrices") {
             Some(index) => {
                 let Reader { buffers, limits, .. } = &self.reader;
-                buffers.rows(root, &index, limits)?.matrices()
+                buffers.rows::<16>(root, &index, limits)?
             }
             None => Vec::new(),
         };

@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use glam::{DAffine3, DMat4, DVec3, DVec4, Vec3, Vec4};
+use glam::{DAffine3, DMat4, DVec3, DVec4, Vec2, Vec3};
+use rayon::prelude::*;
 
 use super::buffer::Buffers;
 use super::json::{At, Result};
@@ -17,6 +18,9 @@ use crate::shape::Shape;
 
 /// The radius of lines, as a share of how large they are together.
 const LINE: f64 = 0.002;
+
+/// Indices that are looked through as a piece.
+const PIECE: usize = 1 << 14;
 
 /// What all primitives are read with.
 pub(super) struct Reader<'a> {
@@ -56,35 +60,25 @@ impl Reader<'_> {
             return Ok(None);
         };
         let (root, limits) = (&self.root, self.limits);
+        // What becomes vectors of as many numbers keeps its memory.
+        let vectors = |rows: Vec<[f32; 3]>| rows.into_iter().map(Vec3::from).collect();
         let mut mesh = Mesh {
-            positions: self.buffers.rows(root, &place, limits)?.vectors().into(),
+            positions: vectors(self.buffers.rows(root, &place, limits)?),
             ..Mesh::default()
         };
         let count = mesh.positions.len();
-        let mut own = |key: &str| -> Result<_> {
-            let Some(at) = attributes.get(key) else { return Ok(None) };
-            let rows = self.buffers.rows(root, &at, limits)?;
-            if rows.count == count {
-                return Ok(Some(rows));
-            }
-            findings.warning(
-                "attributes of another length",
-                || whole(&self.file),
-                || format!("{}: there are {} for {count} places; not used", at.pointer, rows.count),
-            );
-            Ok(None)
-        };
-        let normals = own("NORMAL")?;
-        let uvs = own("TEXCOORD_0")?;
-        let colors = own("COLOR_0")?;
-        let weights = (own("JOINTS_0")?, own("WEIGHTS_0")?);
-        mesh.normals = normals.map(|rows| rows.vectors()).unwrap_or_default().into();
+        let normals = self.rows(&attributes, "NORMAL", count, findings)?;
+        let uvs = self.rows::<2>(&attributes, "TEXCOORD_0", count, findings)?;
+        let colors = self.rows::<3>(&attributes, "COLOR_0", count, findings)?;
+        let joints = self.rows(&attributes, "JOINTS_0", count, findings)?;
+        let weights = (joints, self.rows(&attributes, "WEIGHTS_0", count, findings)?);
+        mesh.normals = normals.map(vectors).unwrap_or_default();
         // The second coordinate grows down the image here, and up everywhere else.
-        let up = |uv: glam::Vec2| glam::Vec2::new(uv.x, 1.0 - uv.y);
-        let pairs = uvs.map(|rows| rows.pairs()).unwrap_or_default();
-        mesh.uvs = pairs.into_iter().map(up).collect();
-        let is_bad = |c: &f32| !c.is_finite();
-        mesh.uvs.iter_mut().filter(|uv| !uv.is_finite()).for_each(|uv| *uv = glam::Vec2::ZERO);
+        let up = |[u, v]: [f32; 2]| {
+            let uv = Vec2::new(u, 1.0 - v);
+            if uv.is_finite() { uv } else { Vec2::ZERO }
+        };
+        mesh.uvs = uvs.unwrap_or_default().into_iter().map(up).collect();
         let imaged = surface.material.color.constant().is_none();
         if colors.is_some() && imaged {
             findings.warning(
@@ -101,40 +95,38 @@ impl Reader<'_> {
         if let Some(rows) = colors.filter(|_| !imaged) {
             // As the format says, linear whatever they are stored as; an alpha is not drawn.
             let tint = |c: Vec3| Rgb::new(c.x, c.y, c.z) * surface.color;
-            let sound = |c: Vec3| c.max(Vec3::ZERO);
-            let colors = rows.vectors().into_iter();
-            let colors =
-                colors.map(|c| if c.to_array().iter().any(is_bad) { Vec3::ONE } else { c });
-            mesh.colors = colors.map(|c| tint(sound(c))).collect();
+            let sound = |c: Vec3| if c.is_finite() { c.max(Vec3::ZERO) } else { Vec3::ONE };
+            mesh.colors = rows.into_iter().map(|c| tint(sound(c.into()))).collect();
         }
         if let (Some(pose), (Some(joints), Some(weights))) = (pose, weights) {
-            bend(&mut mesh, pose, &joints.quadruples(), &weights.quadruples());
+            bend(&mut mesh, pose, &joints, &weights);
         }
-        let numbers = match at.get("indices") {
-            Some(indices) => self.buffers.indices(root, &indices, limits)?,
-            None => (0..count as u32).collect(),
-        };
-        let (triangles, vertices) = (numbers.len() as u64 / 3, count as u64);
-        if !has_room(triangles, vertices, mesh.bytes(), limits, &self.file, findings) {
+        let mode = at.get("mode").map_or(Ok(4), |mode| mode.whole());
+        let indices = at.get("indices");
+        // Triangles that are told one by one, of which there may be many, are read as what they are.
+        let (mut triangles, mut others) = (Vec::new(), Vec::new());
+        match (&mode, indices) {
+            (Ok(4), Some(indices)) => triangles = self.buffers.indices(root, &indices, limits)?,
+            (Ok(4), None) => {
+                let corners = |i: u32| [3 * i, 3 * i + 1, 3 * i + 2];
+                triangles = (0..count as u32 / 3).map(corners).collect();
+            }
+            (_, Some(indices)) => others = self.buffers.indices(root, &indices, limits)?,
+            (_, None) => others = (0..count as u32).map(|i| [i]).collect(),
+        }
+        let (most, vertices) = (triangles.len().max(others.len() / 3) as u64, count as u64);
+        if !has_room(most, vertices, mesh.bytes(), limits, &self.file, findings) {
             return Ok(None);
         }
+        let mode = mode?;
+        let mut elements = match mode {
+            4 => Elements::Triangles(triangles),
+            _ => elements(mode, others.as_flattened())
+                .ok_or_else(|| at.fault(format!("{mode} is no mode of a primitive")))?,
+        };
+        drop(others);
         let unplaced = mesh.take_unplaced();
-        let placed = |i: u32| !unplaced.as_ref().is_some_and(|all| all[i as usize]);
-        let mode = at.get("mode").map_or(Ok(4), |mode| mode.whole())?;
-        let elements = elements(mode, &numbers)
-            .ok_or_else(|| at.fault(format!("{mode} is no mode of a primitive")))?;
-        let mut kept = Vec::with_capacity(elements.len());
-        let (mut outside, mut unsaid) = (0_u64, 0_u64);
-        for element in elements {
-            let corners = element.as_slice();
-            if corners.iter().any(|i| *i as usize >= count) {
-                outside += 1;
-            } else if corners.iter().all(|i| placed(*i)) {
-                kept.push(element);
-            } else {
-                unsaid += 1;
-            }
-        }
+        let [outside, unsaid] = elements.sift(count, unplaced.as_deref());
         if outside > 0 {
             let lenient = limits.lenient;
             let end = if lenient { "; left out" } else { "" };
@@ -162,7 +154,7 @@ impl Reader<'_> {
                 },
             );
         }
-        if kept.is_empty() {
+        if elements.is_empty() {
             findings.warning(
                 "empty primitives",
                 || whole(&self.file),
@@ -170,11 +162,32 @@ impl Reader<'_> {
             );
             return Ok(None);
         }
-        Ok(match mode {
-            0 => Some(self.points(&mesh, &kept).into()),
-            1..=3 => Some(lines(&mesh, &kept).into()),
-            _ => self.triangles(mesh, &kept, findings).map(Shape::from),
+        Ok(match elements {
+            Elements::Points(kept) => Some(self.points(&mesh, &kept).into()),
+            Elements::Lines(kept) => Some(lines(&mesh, &kept).into()),
+            Elements::Triangles(kept) => self.triangles(mesh, kept, findings).map(Shape::from),
         })
+    }
+
+    /// The numbers of an attribute, if there are as many as places.
+    fn rows<const N: usize>(
+        &self,
+        attributes: &At<'_>,
+        key: &str,
+        count: usize,
+        findings: &mut Findings,
+    ) -> Result<Option<Vec<[f32; N]>>> {
+        let Some(at) = attributes.get(key) else { return Ok(None) };
+        let rows = self.buffers.rows(&self.root, &at, self.limits)?;
+        if rows.len() == count {
+            return Ok(Some(rows));
+        }
+        findings.warning(
+            "attributes of another length",
+            || whole(&self.file),
+            || format!("{}: there are {} for {count} places; not used", at.pointer, rows.len()),
+        );
+        Ok(None)
     }
 
     /// Whether a primitive has places that are not packed: such as name no part of a buffer are all zeros.
@@ -184,23 +197,24 @@ impl Reader<'_> {
         Ok(places.get("bufferView").is_some() || places.get("sparse").is_some())
     }
 
-    fn triangles(&self, mut mesh: Mesh, kept: &[Element], findings: &mut Findings) -> Option<Mesh> {
-        let triangle = |element: &Element| match element {
-            Element::Triangle(corners) => *corners,
-            Element::Point([a]) | Element::Line([a, _]) => [*a; 3],
-        };
-        mesh.indices = kept.iter().map(triangle).collect();
+    fn triangles(
+        &self,
+        mut mesh: Mesh,
+        kept: Vec<[u32; 3]>,
+        findings: &mut Findings,
+    ) -> Option<Mesh> {
+        mesh.indices = kept.into();
         if mesh.normals.is_empty() {
             // The format wants them flat: a normal that no corner uses says so.
             mesh.normals = [Vec3::Z].into();
-            mesh.normal_indices = vec![[NO_INDEX; 3]; kept.len()].into();
+            mesh.normal_indices = vec![[NO_INDEX; 3]; mesh.indices.len()].into();
         }
         tidy(&mut mesh, 0, findings, &self.file);
         (!mesh.indices.is_empty()).then_some(mesh)
     }
 
-    fn points(&self, mesh: &Mesh, kept: &[Element]) -> Points {
-        let numbers = || kept.iter().map(|element| element.as_slice()[0] as usize);
+    fn points(&self, mesh: &Mesh, kept: &[[u32; 1]]) -> Points {
+        let numbers = || kept.iter().map(|[i]| *i as usize);
         let sphere = |p: Vec3| [p.x, p.y, p.z, self.radius.unwrap_or(0.0)];
         let mut points = Points {
             spheres: numbers().map(|i| sphere(mesh.positions[i])).collect(),
@@ -215,9 +229,8 @@ impl Reader<'_> {
 }
 
 /// Lines as capsules.
-fn lines(mesh: &Mesh, kept: &[Element]) -> Cylinders {
-    let ends = || kept.iter().map(Element::as_slice);
-    let places = ends().flatten().map(|i| mesh.positions[*i as usize]);
+fn lines(mesh: &Mesh, kept: &[[u32; 2]]) -> Cylinders {
+    let places = kept.iter().flatten().map(|i| mesh.positions[*i as usize]);
     let start = (Vec3::INFINITY, Vec3::NEG_INFINITY);
     let (low, high) = places.fold(start, |(low, high), p| (low.min(p), high.max(p)));
     let radius = (LINE * (high - low).as_dvec3().length()) as f32;
@@ -226,44 +239,77 @@ fn lines(mesh: &Mesh, kept: &[Element]) -> Cylinders {
         let p = mesh.positions[i as usize];
         [p.x, p.y, p.z, radius]
     };
-    let segments = ends().map(|e| [end(e[0]), end(e[e.len() - 1])]).collect();
+    let segments = kept.iter().map(|ends| ends.map(end)).collect();
     let color = |i: u32| mesh.colors.get(i as usize).copied();
-    let colors = ends().filter_map(|e| Some([color(e[0])?, color(e[e.len() - 1])?])).collect();
+    let colors = kept.iter().filter_map(|[a, b]| Some([color(*a)?, color(*b)?])).collect();
     Cylinders { segments, colors, guessed: Some(radius), ..Cylinders::default() }
 }
 
-/// The vertices of one thing that is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Element {
-    Point([u32; 1]),
-    Line([u32; 2]),
-    Triangle([u32; 3]),
+/// The vertices of each thing that is drawn.
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Elements {
+    Points(Vec<[u32; 1]>),
+    Lines(Vec<[u32; 2]>),
+    Triangles(Vec<[u32; 3]>),
 }
 
-impl Element {
-    fn as_slice(&self) -> &[u32] {
+impl Elements {
+    fn is_empty(&self) -> bool {
         match self {
-            Self::Point(corners) => corners,
-            Self::Line(corners) => corners,
-            Self::Triangle(corners) => corners,
+            Self::Points(all) => all.is_empty(),
+            Self::Lines(all) => all.is_empty(),
+            Self::Triangles(all) => all.is_empty(),
+        }
+    }
+
+    /// Takes those away that use a vertex beyond the `count` there are, or one whose place is no number: how
+    /// many of each kind there were.
+    fn sift(&mut self, count: usize, unplaced: Option<&[bool]>) -> [u64; 2] {
+        match self {
+            Self::Points(all) => sift(all, count, unplaced),
+            Self::Lines(all) => sift(all, count, unplaced),
+            Self::Triangles(all) => sift(all, count, unplaced),
         }
     }
 }
 
+fn sift<const N: usize>(
+    all: &mut Vec<[u32; N]>,
+    count: usize,
+    unplaced: Option<&[bool]>,
+) -> [u64; 2] {
+    let is_inside = |piece: &[u32]| {
+        let highest = piece.iter().fold(0, |highest: u32, i| highest.max(*i));
+        piece.is_empty() || (highest as usize) < count
+    };
+    if unplaced.is_none() && all.as_flattened().par_chunks(PIECE).all(is_inside) {
+        return [0; 2];
+    }
+    let (mut outside, mut unsaid) = (0, 0);
+    all.retain(|corners| {
+        let beyond = corners.iter().any(|i| *i as usize >= count);
+        let is_unplaced = |i: &u32| unplaced.is_some_and(|all| all[*i as usize]);
+        let nowhere = !beyond && corners.iter().any(is_unplaced);
+        outside += u64::from(beyond);
+        unsaid += u64::from(nowhere);
+        !beyond && !nowhere
+    });
+    [outside, unsaid]
+}
+
 /// What vertices in this order are; `None`: there is no such mode.
-fn elements(mode: u64, numbers: &[u32]) -> Option<Vec<Element>> {
-    let line = |pair: &[u32]| Element::Line([pair[0], pair[1]]);
+fn elements(mode: u64, numbers: &[u32]) -> Option<Elements> {
     Some(match mode {
-        0 => numbers.iter().map(|i| Element::Point([*i])).collect(),
-        1 => numbers.chunks_exact(2).map(line).collect(),
+        0 => Elements::Points(numbers.as_chunks().0.to_vec()),
+        1 => Elements::Lines(numbers.as_chunks().0.to_vec()),
         2 | 3 => {
             let closing = match (mode, numbers) {
-                (2, [first, .., last]) => Some(Element::Line([*last, *first])),
+                (2, [first, .., last]) => Some([*last, *first]),
                 _ => None,
             };
-            numbers.windows(2).map(line).chain(closing).collect()
+            Elements::Lines(numbers.array_windows().copied().chain(closing).collect())
         }
-        4 => numbers.chunks_exact(3).map(|t| Element::Triangle([t[0], t[1], t[2]])).collect(),
+        4 => Elements::Triangles(numbers.as_chunks().0.to_vec()),
         5 | 6 => {
             let mut faces = Faces::default();
             if mode == 5 {
@@ -271,21 +317,21 @@ fn elements(mode: u64, numbers: &[u32]) -> Option<Vec<Element>> {
             } else {
                 faces.push(numbers);
             }
-            faces.indices.into_iter().map(Element::Triangle).collect()
+            Elements::Triangles(faces.indices)
         }
         _ => return None,
     })
 }
 
 /// Moves the vertices of a skinned mesh to where its bones are.
-fn bend(mesh: &mut Mesh, Pose(bones): &Pose, joints: &[Vec4], weights: &[Vec4]) {
+fn bend(mesh: &mut Mesh, Pose(bones): &Pose, joints: &[[f32; 4]], weights: &[[f32; 4]]) {
     for (i, (joints, weights)) in joints.iter().zip(weights).enumerate() {
         let mut matrix = DMat4::ZERO;
         let mut sum = 0.0;
-        for (joint, weight) in joints.to_array().into_iter().zip(weights.to_array()) {
-            if let Some(bone) = bones.get(joint as usize).filter(|_| weight > 0.0) {
-                matrix += *bone * f64::from(weight);
-                sum += f64::from(weight);
+        for (joint, weight) in joints.iter().zip(weights) {
+            if let Some(bone) = bones.get(*joint as usize).filter(|_| *weight > 0.0) {
+                matrix += *bone * f64::from(*weight);
+                sum += f64::from(*weight);
             }
         }
         if sum <= 0.0 {
@@ -315,11 +361,15 @@ mod tests {
 
     #[test]
     fn every_mode_makes_its_elements() {
-        let count = |mode| elements(mode, &[0, 1, 2, 3, 4, 5]).map(|all| all.len());
+        let count = |mode| match elements(mode, &[0, 1, 2, 3, 4, 5])? {
+            Elements::Points(all) => Some(all.len()),
+            Elements::Lines(all) => Some(all.len()),
+            Elements::Triangles(all) => Some(all.len()),
+        };
         let counts = [0, 1, 2, 3, 4, 5, 6, 7].map(count);
         let expected = [6, 3, 6, 5, 2, 4, 4].map(Some);
         assert_eq!((&counts[..7], counts[7]), (&expected[..], None));
-        let fan = elements(6, &[9, 1, 2, 3]).unwrap_or_default();
-        assert_eq!(fan, [Element::Triangle([9, 1, 2]), Element::Triangle([9, 2, 3])]);
+        let fan = elements(6, &[9, 1, 2, 3]);
+        assert_eq!(fan, Some(Elements::Triangles(vec![[9, 1, 2], [9, 2, 3]])));
     }
 }

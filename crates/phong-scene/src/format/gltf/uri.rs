@@ -1,15 +1,22 @@
 //! What URIs name: bytes of their own, and files.
 
+use super::bytes::Bytes;
 use super::json::{At, Result};
 use crate::source::{Source, trouble};
 
-/// What a URI names: the bytes that it holds itself, or those of a file.
-pub(super) fn load(uri: &At<'_>, path: &str, source: &dyn Source, length: u64) -> Result<Vec<u8>> {
+/// What a URI names: the bytes that it holds itself, or those of a file, which may be `kept` open.
+pub(super) fn load(
+    uri: &At<'_>,
+    path: &str,
+    source: &dyn Source,
+    length: u64,
+    kept: bool,
+) -> Result<Bytes> {
     let text = uri.text()?;
     if let Some(data) = text.strip_prefix("data:") {
         let (kind, data) = data.split_once(',').unwrap_or_default();
         let bytes = if kind.ends_with(";base64") { base64(data) } else { Some(unescaped(data)) };
-        return bytes.ok_or_else(|| uri.fault("it is no base64"));
+        return bytes.map(Bytes::Held).ok_or_else(|| uri.fault("it is no base64"));
     }
     let name = unescaped(text);
     let name = String::from_utf8_lossy(&name);
@@ -17,7 +24,8 @@ pub(super) fn load(uri: &At<'_>, path: &str, source: &dyn Source, length: u64) -
     let file = if name.starts_with('/') { name.into_owned() } else { format!("{folder}{name}") };
     let cannot = |error| uri.fault(format!("`{file}` cannot be read: {}", trouble(&error)));
     let blob = source.open(&file).map_err(cannot)?;
-    blob.read_whole(length).map_err(cannot)
+    let length = blob.len().min(length);
+    Bytes::of(blob, 0, length, kept).map_err(cannot)
 }
 
 /// Text with `%20` and the like as what they stand for.
