@@ -78,6 +78,9 @@ impl Bounds {
 /// Values that are looked through as a piece.
 const PIECE: usize = 1 << 12;
 
+/// How far around its likely place an index is looked for, before it is everywhere.
+const NEAR: usize = 1 << 14;
+
 impl Mesh {
     /// The smallest box that holds every triangle; positions that no triangle uses do not count.
     pub fn bounds(&self) -> Bounds {
@@ -109,7 +112,12 @@ impl Mesh {
             u32::try_from(start + number).ok()
         };
         let corners = self.indices.as_flattened();
-        (0..6).all(|side| on_side(side).is_some_and(|number| is_among(number, corners)))
+        let is_used = |number: u32| {
+            // Positions mostly lie in the order of their use.
+            let about = number as usize * corners.len() / self.positions.len();
+            is_among(number, corners, about)
+        };
+        (0..6).all(|side| on_side(side).is_some_and(is_used))
     }
 
     /// The box of all corners.
@@ -125,11 +133,13 @@ impl Mesh {
     }
 }
 
-/// Whether `number` is one of `all`.
-fn is_among(number: u32, all: &[u32]) -> bool {
+/// Whether `number` is one of `all`, perhaps about the middle of so many.
+fn is_among(number: u32, all: &[u32], about: usize) -> bool {
     // Pieces without a branch for each.
     let is_in = |piece: &[u32]| piece.iter().fold(false, |any, &n| any | (n == number));
-    all.par_chunks(PIECE).any(is_in)
+    let near = about.saturating_sub(NEAR)..(about + NEAR).min(all.len());
+    all.get(near).is_some_and(|near| near.chunks(PIECE).any(is_in))
+        || all.par_chunks(PIECE).any(is_in)
 }
 
 impl Points {

@@ -28,10 +28,9 @@ pub(super) fn thinnest(scene: &Scene) -> Option<(DVec3, f64)> {
         spread += DMat3::from_cols(d * d.x, d * d.y, d * d.z);
     }
     let axes = axes_of(spread);
-    let extents = axes.map(|axis| {
-        let [there, back] = scene.reach([axis, -axis]);
-        there + back
-    });
+    let [x, y, z] = axes;
+    let reach = scene.reach([x, y, z, -x, -y, -z]);
+    let extents = [0, 1, 2].map(|i| reach[i] + reach[i + 3]);
     let largest = extents.into_iter().fold(0.0, f64::max);
     let least = (0..3).min_by(|a, b| extents[*a].total_cmp(&extents[*b]))?;
     (largest > 0.0 && largest.is_finite()).then(|| (axes[least], extents[least] / largest))

@@ -24,6 +24,10 @@ impl Scene {
 
     /// Makes spheres and lines whose radius was guessed large enough to be seen.
     pub(super) fn enlarge_guessed(&mut self) {
+        let of_groups = self.groups.iter().flat_map(|group| &group.objects);
+        if !self.objects.iter().chain(of_groups).any(Object::is_guessed) {
+            return;
+        }
         let Camera { kind, eye, .. } = self.camera;
         let rows = f64::from(self.image.size[1].max(1));
         let pixel = match kind {
@@ -70,6 +74,15 @@ impl Scene {
 }
 
 impl Object {
+    /// Whether it has a radius that was guessed.
+    fn is_guessed(&self) -> bool {
+        match &self.shape {
+            Shape::Points(points) => points.guessed.is_some(),
+            Shape::Cylinders(lines) => lines.guessed.is_some(),
+            _ => false,
+        }
+    }
+
     /// The same of one object, where a pixel is so large.
     fn enlarge_guessed(&mut self, pixel: f64) {
         let [sphere, line] = LEAST.map(|least| {

@@ -1,9 +1,14 @@
 //! What files hold and a [`Mesh`] must not: normals without a direction, triangles without area.
 
+#![expect(clippy::needless_bitwise_bool, reason = "a branch for each number would cost more")]
+
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use super::{Field, Mesh, NO_INDEX, Points};
+
+/// Values that are looked through as a piece.
+const PIECE: usize = 1 << 12;
 
 impl Mesh {
     /// Takes the normals of length 0 away, whose corners get the geometric normal, and brings
@@ -17,7 +22,11 @@ impl Mesh {
             *n = unit.map_or(Vec3::ZERO, DVec3::as_vec3);
             u64::from(unit.is_none())
         };
-        let zeros = self.normals.par_iter_mut().with_min_len(1 << 12).map(mend).sum();
+        let mend_all = |piece: &mut [Vec3]| {
+            let sound = piece.iter().fold(true, |all, n| all & n.length_squared().is_normal());
+            if sound { 0 } else { piece.iter_mut().map(mend).sum::<u64>() }
+        };
+        let zeros = self.normals.par_chunks_mut(PIECE).map(mend_all).sum();
         if zeros > 0 {
             if self.normal_indices.is_empty() {
                 self.normal_indices.clone_from(&self.indices);
@@ -38,7 +47,11 @@ impl Mesh {
     /// how many there were.
     pub(crate) fn drop_collapsed(&mut self) -> u64 {
         let collapsed = |&[a, b, c]: &[u32; 3]| a == b || b == c || c == a;
-        let count = self.indices.par_iter().with_min_len(1 << 12).filter(|t| collapsed(t)).count();
+        let count = |piece: &[[u32; 3]]| {
+            let one = |&[a, b, c]: &[u32; 3]| u64::from((a == b) | (b == c) | (c == a));
+            piece.iter().map(one).sum::<u64>()
+        };
+        let count: u64 = self.indices.par_chunks(PIECE).map(count).sum();
         if count == 0 {
             return 0;
         }
@@ -47,7 +60,7 @@ impl Mesh {
         retain(&mut self.normal_indices, &keep);
         retain(&mut self.uv_indices, &keep);
         retain(&mut self.face_materials, &keep);
-        count as u64
+        count
     }
 
     /// Whether there are triangles, and none of them has an area: then nothing of it can be seen.
@@ -76,7 +89,8 @@ impl Mesh {
 impl Mesh {
     /// Which positions are no numbers; they become 0, for something to leave out.
     pub(crate) fn take_unplaced(&mut self) -> Option<Vec<bool>> {
-        let all = self.positions.par_iter().with_min_len(1 << 12).all(|p| p.is_finite());
+        let placed = |piece: &[Vec3]| piece.iter().fold(true, |all, p| all & p.is_finite());
+        let all = self.positions.par_chunks(PIECE).all(placed);
         if all {
             return None;
         }
