@@ -93,6 +93,8 @@ struct Recipe {
     occlusion: u32,
     /// How much of what is farthest fades, and to which colour; `None`: nothing does.
     fog: Option<(f64, Rgb)>,
+    /// Where fading begins, as a share of the model's depth.
+    fog_start: f64,
     outline: Option<Outline>,
 }
 
@@ -109,6 +111,8 @@ impl Scene {
             color: None,
             occlusion: 0,
             fog: None,
+            // The corners of the box are empty: what is there is nearer its middle.
+            fog_start: 0.25,
             outline: None,
         };
         let lines =
@@ -190,7 +194,13 @@ impl Scene {
                 lights.push(light("key light", [-0.4, 0.5, 1.0], 0.5, 0.0));
                 shadowless(&mut lights);
                 lights[1].shadows = true;
-                Recipe { factors: [0.2, 0.8, 0.3, 55.0], fog: Some((0.6, Rgb::WHITE)), ..plain }
+                Recipe {
+                    factors: [0.2, 0.8, 0.3, 55.0],
+                    fog: Some((0.6, Rgb::WHITE)),
+                    // PyMOL's `fog_start`: the front of a molecule does not fade.
+                    fog_start: 0.45,
+                    ..plain
+                }
             }
             NamedLook::Technical => {
                 lights.push(light("key light", [-0.7, 0.9, 0.8], 0.5, 0.0));
@@ -231,7 +241,8 @@ impl Scene {
             distance: OcclusionDistance::Auto,
         });
         self.outline = recipe.outline;
-        self.fog = recipe.fog.and_then(|(strength, color)| self.fade(strength, color));
+        self.fog =
+            recipe.fog.and_then(|(strength, color)| self.fade(strength, color, recipe.fog_start));
         for material in &mut self.materials {
             dress(material, recipe);
         }
@@ -248,8 +259,9 @@ impl Scene {
         }
     }
 
-    /// Fog that begins where the model does, and has this share at its far end; `None`: there is no end.
-    fn fade(&self, strength: f64, color: Rgb) -> Option<Fog> {
+    /// Fog that begins after this share of the model's depth, and has its strength at the far end; `None`: there
+    /// is no end.
+    fn fade(&self, strength: f64, color: Rgb, start: f64) -> Option<Fog> {
         let bounds = self.bounds();
         let Camera { eye, look_at, .. } = self.camera;
         let forward = (look_at - eye).try_normalize()?;
@@ -259,8 +271,7 @@ impl Scene {
         let along = bounds.corners().map(|corner| (corner - eye).dot(forward));
         let [near, far] = [f64::min, f64::max].map(|least| along.into_iter().reduce(least));
         let (near, far) = (near?.max(0.0), far?);
-        // The corners of the box are empty: what is there is nearer its middle.
-        let start = near + 0.25 * (far - near);
+        let start = near + start * (far - near);
         (far > start).then_some(Fog {
             kind: FogKind::Linear { start, end: far },
             color: Some(color),
