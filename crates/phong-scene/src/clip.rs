@@ -52,7 +52,9 @@ impl Clip {
 
     /// The objects that it cuts.
     pub fn cut_objects(&self) -> CutObjects<'_> {
-        CutObjects { names: self.objects.iter().map(String::as_str).collect() }
+        let mut names = BTreeSet::new();
+        names.extend(self.objects.iter().map(String::as_str));
+        CutObjects { names }
     }
 }
 

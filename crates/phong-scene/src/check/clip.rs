@@ -21,7 +21,8 @@ pub(super) fn names(scene: &Scene, say: &mut dyn FnMut(Diagnostic)) {
     }
     let names = || scene.objects.iter().map(|object| object.name.as_str());
     let asked = scene.clips.iter().any(|clip| !clip.objects.is_empty());
-    let all: BTreeSet<&str> = names().filter(|_| asked).collect();
+    let mut all: BTreeSet<&str> = BTreeSet::new();
+    all.extend(names().filter(|_| asked));
     for clip in &scene.clips {
         if let Cap::Of(material) = clip.cap
             && material.0 as usize >= scene.materials.len()

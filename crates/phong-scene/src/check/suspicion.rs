@@ -56,7 +56,8 @@ fn without_coordinates(scene: &Scene, say: &mut dyn FnMut(Diagnostic)) {
         if !mesh.uvs.is_empty() {
             continue;
         }
-        let numbers: BTreeSet<u32> = object.material_numbers().collect();
+        let mut numbers: BTreeSet<u32> = BTreeSet::new();
+        numbers.extend(object.material_numbers());
         let asked = |number: &u32| asked.get(*number as usize).copied().flatten();
         let Some(texture) = numbers.iter().find_map(asked) else { continue };
         let texture = quoted(texture);
@@ -99,10 +100,12 @@ fn unseen(scene: &Scene, bounds: &[Bounds], say: &mut dyn FnMut(Diagnostic)) {
         Shape::Instance(group) => Some(group),
         _ => None,
     };
-    let groups_seen: BTreeSet<GroupId> = (scene.objects.iter().zip(bounds))
-        .filter(|(_, bounds)| !is_unseen(bounds))
-        .filter_map(|(object, _)| group_of(object))
-        .collect();
+    let mut groups_seen: BTreeSet<GroupId> = BTreeSet::new();
+    groups_seen.extend(
+        (scene.objects.iter().zip(bounds))
+            .filter(|(_, bounds)| !is_unseen(bounds))
+            .filter_map(|(object, _)| group_of(object)),
+    );
     let unseen: Vec<&Object> = (unseen.into_iter())
         .filter(|object| group_of(object).is_none_or(|group| !groups_seen.contains(&group)))
         .collect();

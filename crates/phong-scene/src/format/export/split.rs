@@ -15,7 +15,8 @@ pub(crate) fn split_all(objects: Vec<Object>, account: &mut Account) -> Vec<Obje
 fn split(mut object: Object, account: &mut Account) -> Vec<Object> {
     let Shape::Mesh(mesh) = &mut object.shape else { return vec![object] };
     let faces = std::mem::take(&mut mesh.face_materials);
-    let used: BTreeSet<u32> = faces.iter().copied().collect();
+    let mut used: BTreeSet<u32> = BTreeSet::new();
+    used.extend(faces.iter().copied());
     if let [only] = used.iter().copied().collect::<Vec<_>>()[..] {
         object.material = MaterialId(only);
     }

@@ -54,7 +54,10 @@ pub(super) fn drawn<'a>(
     let mut open: Vec<(usize, DAffine3)> = Vec::new();
     if let Some(scene) = scene {
         let named = scene.list("nodes")?;
-        let numbers = named.iter().map(At::index).collect::<Result<BTreeSet<_>>>()?;
+        let mut numbers = BTreeSet::new();
+        for node in &named {
+            numbers.insert(node.index()?);
+        }
         let within = within(&parents, &numbers);
         for node in named {
             let number = node.index()?;

@@ -29,7 +29,8 @@ pub(crate) fn write_obj(
     account.carry("triangle", merged.mesh.indices.len());
     account.carry("object", merged.objects.len());
 
-    let used: BTreeSet<u32> = merged.mesh.face_materials.iter().copied().collect();
+    let mut used: BTreeSet<u32> = BTreeSet::new();
+    used.extend(merged.mesh.face_materials.iter().copied());
     let mut names = BTreeSet::new();
     let mut text = String::new();
     for number in used {

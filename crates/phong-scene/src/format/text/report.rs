@@ -120,7 +120,9 @@ impl Findings {
                 });
             }
         }
-        told.sort_by_key(|d| d.span.as_ref().map_or((0, 0), |s| (s.place.line, s.place.column)));
+        crate::sort_by_key(&mut told, |d| {
+            d.span.as_ref().map_or((0, 0), |s| (s.place.line, s.place.column))
+        });
         out.append(&mut told);
         out.append(&mut more);
     }

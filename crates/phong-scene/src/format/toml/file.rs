@@ -319,7 +319,8 @@ impl Reader<'_> {
             _ => None,
         });
         // Several textures may show one image.
-        let each: BTreeMap<_, _> = texels.map(|texels| (Arc::as_ptr(texels), &**texels)).collect();
+        let mut each: BTreeMap<_, _> = BTreeMap::new();
+        each.extend(texels.map(|texels| (Arc::as_ptr(texels), &**texels)));
         Texels::left(self.limits, each.into_values())
     }
 

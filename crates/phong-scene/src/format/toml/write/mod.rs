@@ -359,7 +359,8 @@ impl Writer<'_> {
             Kind::Tables(table) => Some((key.name, table)),
             _ => None,
         });
-        let tables: BTreeMap<_, _> = known.collect();
+        let mut tables: BTreeMap<_, _> = BTreeMap::new();
+        tables.extend(known);
         for mut object in objects {
             let kind = object.shape.kind();
             let Some(table) = tables.get(kind) else { continue };
@@ -495,7 +496,8 @@ impl Materials {
 
     fn say_used<'o>(&mut self, objects: impl Iterator<Item = &'o Object>) {
         let real = objects.filter(|object| !matches!(object.shape, Shape::Instance(_)));
-        self.used = real.map(|object| object.material.0).collect();
+        self.used.clear();
+        self.used.extend(real.map(|object| object.material.0));
     }
 
     /// Whether the reader makes this material by itself: the last, called default, nothing but
