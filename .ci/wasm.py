@@ -29,8 +29,8 @@ CHROMIUM = "/usr/bin/chromium"
 ROOT = Path(__file__).resolve().parent.parent
 SCENES = sorted((ROOT / "scenes").glob("*.toml"))
 SETS = ["--set", "image.size=[320, 180]", "--set", "image.samples=4"]
-LARGEST = 1_040_000  # bytes of the first part of a module, gzipped: what is loaded before anything is seen
-LARGEST_REST = 730_000  # bytes of the rest, gzipped
+LARGEST = 1_120_000  # bytes of the first part of a module, gzipped: what is loaded before anything is seen
+LARGEST_REST = 745_000  # bytes of the rest, gzipped
 POLICY = (
     "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' blob: data:; "
     "connect-src 'self'; worker-src 'self'; base-uri 'self'; form-action 'none'; frame-ancestors 'none'"
@@ -222,7 +222,7 @@ def in_chromium(browser, address, faults):
 def walk(browser, address, faults):
     """The page of static files: how soon it shows something, by hand, and without a network."""
     firsts = []
-    for _ in range(3):
+    for _ in range(5):
         context, page = open_page(browser, address, faults)
         ASKED.clear()
         wait(page, "document.getElementById('progress').value > 0")
@@ -268,7 +268,7 @@ def walk(browser, address, faults):
     wait(page, f"studio.look.picture > {before} && studio.done === studio.look.picture")
     page.screenshot(path=FOLDER / "2-offline.png")
     context.close()
-    return sorted(firsts)[1]
+    return sorted(firsts)[2]
 
 
 def frames(browser, address, faults):
@@ -323,7 +323,7 @@ def without_vectors(playwright, address, faults, expected):
     wait(page, "studio.look")
     page.click("#stop")
     modules = {path.rpartition("/")[2] for path in ASKED if ".wasm" in path}
-    assert modules == {"phong-plain_bg.wasm"}, modules
+    assert "phong-plain_bg.wasm" in modules and not any("simd" in name for name in modules), modules
     for scene in [scene for scene in SCENES if scene.stem in ("two-balls", "glass")]:
         made = page.evaluate(DRAW, [scene.name, [320, 180], 4])
         files = [base64.b64decode(made[kind]) for kind in ("png", "exr")]
@@ -368,7 +368,7 @@ def main():
         print(f"Chromium, 2 workers: {len(SCENES)} scenes in {seconds:.1f} s")
         print(f"two balls at 960 × 540: {turns:.0f} turns a second, each with its first pass")
         first = walk(browser, f"{root}/two/balls/", faults)
-        print(f"from the address to the first picture: median of 3 {first:.0f} ms")
+        print(f"from the address to the first picture: median of 5 {first:.0f} ms")
         frames(browser, f"{root}/run/", faults)
         too_large(browser, f"{root}/two/balls/", faults)
         browser.close()
