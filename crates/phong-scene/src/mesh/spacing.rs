@@ -7,6 +7,9 @@ use super::Points;
 /// Distances taken at most: what a hundred points among a million cost.
 const DISTANCES: usize = 1 << 27;
 
+/// Points that are asked for at once.
+const LANES: usize = 8;
+
 impl Points {
     /// Gives all points the radius at which neighbours just touch: half the median distance between
     /// a point and its nearest neighbour.
@@ -39,17 +42,25 @@ pub(crate) fn radius_that_touches(spheres: &[[f32; 4]]) -> f32 {
     let extent = span(0).max(span(1)).max(span(2));
     // In units of the cloud's size, squares neither vanish nor overflow.
     let scale = if extent > 0.0 && extent.is_finite() { extent.recip() } else { 1.0 };
+    // Points asked for lie side by side by axis, so that each point of the file is held against eight at once.
+    let lanes = |eight: &[[f32; 3]]| {
+        let of = |axis: usize| std::array::from_fn(|k| eight[k.min(eight.len() - 1)][axis]);
+        [of(0), of(1), of(2)]
+    };
+    let eights: Vec<[[f32; LANES]; 3]> = queries.chunks(LANES).map(lanes).collect();
     let nearest = spheres
         .par_chunks(1 << 14)
         .map(|part| {
-            let nearest = |q: &[f32; 3]| {
-                part.iter().fold(f32::INFINITY, |least, s| {
-                    let d = [0, 1, 2].map(|axis| (s[axis] - q[axis]) * scale);
-                    let square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-                    if square > 0.0 && square < least { square } else { least }
+            let nearest = |[x, y, z]: &[[f32; LANES]; 3]| {
+                part.iter().fold([f32::INFINITY; LANES], |least, s| {
+                    std::array::from_fn(|k| {
+                        let d = [s[0] - x[k], s[1] - y[k], s[2] - z[k]].map(|d| d * scale);
+                        let square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+                        if square > 0.0 && square < least[k] { square } else { least[k] }
+                    })
                 })
             };
-            queries.iter().map(nearest).collect::<Vec<_>>()
+            eights.iter().flat_map(nearest).take(queries.len()).collect::<Vec<_>>()
         })
         .reduce_with(|a, b| a.iter().zip(&b).map(|(a, b)| a.min(*b)).collect());
     let mut found: Vec<f32> =
