@@ -8,7 +8,7 @@ use std::array::from_fn;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use super::{Bounds, bounds_of_groups};
+use super::{Bounds, PIECE, bounds_of_groups};
 use crate::mesh::{Caps, Cylinders, Mesh, Points};
 use crate::scene::{Object, Scene};
 use crate::shape::{Shape, disc, farther, farthest};
@@ -61,9 +61,16 @@ impl Mesh {
         let (min, max) = self.extremes();
         // A position outside the box belongs to no triangle.
         let within = |p: &&Vec3| p.cmpge(min).all() && p.cmple(max).all();
-        let reach = |p: &Vec3| along.map(|n| p.as_dvec3().dot(n));
-        let positions = self.positions.par_iter().with_min_len(1 << 12).filter(within).map(reach);
-        let reach = positions.reduce(|| [f64::NEG_INFINITY; N], farther);
+        let nowhere = [f64::NEG_INFINITY; N];
+        let reach = |far: [f64; N], p: &Vec3| {
+            let p = p.as_dvec3();
+            from_fn(|i| {
+                let along = p.dot(along[i]);
+                if along > far[i] { along } else { far[i] }
+            })
+        };
+        let of_piece = |piece: &[Vec3]| piece.iter().filter(within).fold(nowhere, reach);
+        let reach = self.positions.par_chunks(PIECE).map(of_piece).reduce(|| nowhere, farther);
         from_fn(|i| reach[i] + self.origin.dot(along[i]))
     }
 }
