@@ -417,6 +417,7 @@ pub(crate) fn look(input: &mut Input, args: &ViewArgs) -> Result<(), Failure> {
                 }
             }
         }
+        scene.fit_guessed();
     }
     let camera = &input.scene.camera;
     let forward = camera.look_at - camera.eye;

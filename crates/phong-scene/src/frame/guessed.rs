@@ -22,6 +22,16 @@ impl Scene {
         }
     }
 
+    /// Makes spheres and lines of a glTF file's scene whose radius was guessed as large as its camera and its
+    /// picture's size need them, where these have changed since it was read: the file may bring its own camera,
+    /// and is then not framed anew. Of other scenes nothing changes.
+    pub fn fit_guessed(&mut self) {
+        if self.is_of_gltf() {
+            self.restore_guessed();
+            self.enlarge_guessed();
+        }
+    }
+
     /// Makes spheres and lines whose radius was guessed large enough to be seen.
     pub(super) fn enlarge_guessed(&mut self) {
         let of_groups = self.groups.iter().flat_map(|group| &group.objects);
@@ -157,6 +167,22 @@ mod tests {
         meant.set_radius(meant.guessed);
         let scene = framed(vec![line(1.0), meant.into()], Vec::new(), 64);
         assert!(radius(&scene.objects[1]) < 2e-6, "what was meant stays");
+    }
+
+    #[test]
+    fn lines_of_gltf_with_its_own_camera_are_as_thick_as_a_picture_of_another_size_needs() {
+        let mut scene = framed(vec![line(100.0)], Vec::new(), 540);
+        let before = radius(&scene.objects[0]);
+        scene.image.size = [54; 2];
+        scene.fit_guessed();
+        assert_eq!(radius(&scene.objects[0]), before);
+        scene.objects[0].place.file = "a.gltf".into();
+        scene.fit_guessed();
+        let thick = radius(&scene.objects[0]);
+        assert!((thick / before - 10.0).abs() < 0.01, "{before} {thick}");
+        scene.image.size = [540; 2];
+        scene.fit_guessed();
+        assert_eq!(radius(&scene.objects[0]), before);
     }
 
     #[test]

@@ -188,17 +188,20 @@ impl Scene {
 
     /// Whether up is known: Y is up in glTF, and molecules have no up.
     fn has_no_other_up(&self) -> bool {
-        let is_gltf = |object: &Object| {
-            ending(&object.place.file).is_some_and(|ending| {
-                ["gltf", "glb"].iter().any(|known| ending.eq_ignore_ascii_case(known))
-            })
-        };
         let is_molecule = |object: &Object| match &object.shape {
             Shape::Points(points) => points.guessed.is_none(),
             Shape::Cylinders(_) => true,
             _ => false,
         };
-        self.objects.first().is_some_and(is_gltf) || self.objects.iter().all(is_molecule)
+        self.is_of_gltf() || self.objects.iter().all(is_molecule)
+    }
+
+    /// Whether it is that of a glTF file, which may bring its own camera.
+    fn is_of_gltf(&self) -> bool {
+        let ending = self.objects.first().and_then(|object| ending(&object.place.file));
+        ending.is_some_and(|ending| {
+            ["gltf", "glb"].iter().any(|known| ending.eq_ignore_ascii_case(known))
+        })
     }
 
     /// The camera that looks from a side and has everything in the picture, with a margin.
