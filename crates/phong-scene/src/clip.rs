@@ -52,9 +52,7 @@ impl Clip {
 
     /// The objects that it cuts.
     pub fn cut_objects(&self) -> CutObjects<'_> {
-        let mut names = BTreeSet::new();
-        names.extend(self.objects.iter().map(String::as_str));
-        CutObjects { names }
+        CutObjects { names: self.objects.iter().map(String::as_str).collect() }
     }
 }
 

@@ -34,7 +34,6 @@ mod maps;
 mod material;
 mod mesh;
 mod molecule;
-mod order;
 mod outline;
 mod scene;
 mod shape;
@@ -80,7 +79,6 @@ pub use material::{
     NormalFormat, OpacityMode, ShadowRule, Shadowing, Tint, Viewer, WardForm,
 };
 pub use mesh::{Caps, Cylinders, Field, Mesh, NO_INDEX, Points, Shared};
-pub use order::{sort_by, sort_by_key};
 pub use outline::Outline;
 pub use scene::{Background, FilterKind, Group, Image, Object, Reading, Scene};
 pub use shape::{GroupId, Shape};

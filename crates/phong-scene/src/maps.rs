@@ -36,8 +36,12 @@ impl Scene {
     /// The colour scales that materials use: maps of numbers, and gradients, in the order of the textures.
     #[must_use]
     pub fn color_scales(&self) -> Vec<ColorScale<'_>> {
-        let mut used: BTreeSet<u32> = BTreeSet::new();
-        used.extend(self.materials.iter().flat_map(Material::textured).map(|(_, by)| by.texture.0));
+        let used: BTreeSet<u32> = self
+            .materials
+            .iter()
+            .flat_map(Material::textured)
+            .map(|(_, by)| by.texture.0)
+            .collect();
         used.into_iter().filter_map(|number| self.color_scale(number)).collect()
     }
 
@@ -173,15 +177,13 @@ pub fn properties_shown<'t>(
     is_used: impl Fn(usize) -> bool,
     textures: &'t [Texture],
 ) -> Vec<(&'t str, usize)> {
-    let mut used: BTreeSet<u32> = BTreeSet::new();
-    used.extend(
-        materials
-            .iter()
-            .enumerate()
-            .filter(|(number, _)| is_used(*number))
-            .flat_map(|(_, material)| material.textured())
-            .map(|(_, by)| by.texture.0),
-    );
+    let used: BTreeSet<u32> = materials
+        .iter()
+        .enumerate()
+        .filter(|(number, _)| is_used(*number))
+        .flat_map(|(_, material)| material.textured())
+        .map(|(_, by)| by.texture.0)
+        .collect();
     let mut shown: Vec<(&str, usize)> = Vec::new();
     for number in used.into_iter().map(|number| number as usize) {
         if let Some(TextureKind::Map { of, .. }) = textures.get(number).map(|texture| &texture.kind)
@@ -307,8 +309,8 @@ pub(crate) fn check(scene: &Scene, say: &mut dyn FnMut(Diagnostic)) {
             say(Diagnostic::warning(message, at(&texture.place)).with_help(help));
         }
     }
-    let mut of_objects: BTreeSet<u32> = BTreeSet::new();
-    of_objects.extend(scene.all_objects().flat_map(Object::material_numbers));
+    let of_objects: BTreeSet<u32> =
+        scene.all_objects().flat_map(Object::material_numbers).collect();
     let is_used = |number: usize| of_objects.contains(&(number as u32));
     let shown = properties_shown(&scene.materials, is_used, &scene.textures);
     if let Some((name, number)) = shown.get(Field::MOST) {

@@ -166,7 +166,7 @@ impl<'a> Layout<'a> {
             .zip(inks)
             .collect::<Vec<_>>();
         // What points away from the viewer lies below what points towards him.
-        phong::scene::sort_by(&mut arrows, |(a, _), (b, _)| b.2.total_cmp(&a.2));
+        arrows.sort_by(|(a, _), (b, _)| b.2.total_cmp(&a.2));
         let mut paints = Vec::new();
         let width = 0.17 * self.letters;
         for ((axis, name, _), ink) in arrows {

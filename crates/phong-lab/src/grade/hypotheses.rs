@@ -394,7 +394,7 @@ pub(super) fn swapped(scene: &Scene, right: &Prepared, wrong: &[bool]) -> Vec<Hy
             ways.push((vec![material; own.len()], "all objects are of one material".to_owned()));
         }
     }
-    phong::scene::sort_by(&mut ways, Ord::cmp);
+    ways.sort();
     ways.dedup_by(|a, b| a.0 == b.0);
     ways.retain(|(way, _)| *way != own);
     ways.into_iter()

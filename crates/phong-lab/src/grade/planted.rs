@@ -102,7 +102,7 @@ impl Planted {
         {
             choices.push(seen.remove(other).0);
         }
-        phong::scene::sort_by_key(&mut choices, |mistake| mistake.place());
+        choices.sort_by_key(|mistake| mistake.place());
         let values = draw(&right, &hypotheses[which]);
         Ok(Some(Self { right, hypotheses, mistake, choices, values }))
     }

@@ -376,7 +376,7 @@ fn pairs(judge: &Judge, changes: &[Hypothesis], ways: &[(&'static Mistake, Trace
         tried.extend(seen.par_iter().filter_map(also).collect::<Vec<_>>());
     }
     // One mistake may be made in many ways: each two causes are told once.
-    phong::scene::sort_by(&mut tried, |a, b| a.tally.score().total_cmp(&b.tally.score()));
+    tried.sort_by(|a, b| a.tally.score().total_cmp(&b.tally.score()));
     let mut told: Vec<String> = Vec::new();
     tried.retain(|one| {
         let new = !told.contains(&one.cause());

@@ -32,7 +32,7 @@ const CANDIDATES: usize = 5;
 /// What is to be said; how far the picture is off is for the caller to say.
 pub(super) fn verdict(library: &Library, search: Search, agrees: bool) -> Grade {
     let Search { mut tried, objects } = search;
-    phong::scene::sort_by(&mut tried, |a, b| a.tally.score().total_cmp(&b.tally.score()));
+    tried.sort_by(|a, b| a.tally.score().total_cmp(&b.tally.score()));
     // Each cause is told in its best way.
     let mut told: Vec<String> = Vec::new();
     let (explaining, others): (Vec<Tried>, Vec<Tried>) =
@@ -50,7 +50,7 @@ pub(super) fn verdict(library: &Library, search: Search, agrees: bool) -> Grade 
     let fewest = best_ways[..equals].iter().map(Tried::count).min().unwrap_or(0);
     let more: Vec<Tried> = best_ways.extract_if(..equals, |one| one.count() > fewest).collect();
     equals -= more.len();
-    phong::scene::sort_by_key(&mut best_ways[..equals], Tried::place);
+    best_ways[..equals].sort_by_key(Tried::place);
     let confidence = match best_ways.first().filter(|_| equals > 0) {
         Some(best) => confidence(best, best_ways.get(equals), equals),
         None => f64::from(u8::from(agrees)),

@@ -21,8 +21,7 @@ pub(super) fn names(scene: &Scene, say: &mut dyn FnMut(Diagnostic)) {
     }
     let names = || scene.objects.iter().map(|object| object.name.as_str());
     let asked = scene.clips.iter().any(|clip| !clip.objects.is_empty());
-    let mut all: BTreeSet<&str> = BTreeSet::new();
-    all.extend(names().filter(|_| asked));
+    let all: BTreeSet<&str> = names().filter(|_| asked).collect();
     for clip in &scene.clips {
         if let Cap::Of(material) = clip.cap
             && material.0 as usize >= scene.materials.len()

@@ -27,7 +27,7 @@ pub(super) fn check(scene: &Scene, say: &mut dyn FnMut(Diagnostic)) {
     for (number, object) in scene.objects.iter().enumerate() {
         faces_of(number, &object.shape, object.transform, &mut faces);
     }
-    crate::sort_by(&mut faces, |a, b| a.offset.total_cmp(&b.offset));
+    faces.sort_by(|a, b| a.offset.total_cmp(&b.offset));
     let mut told: Vec<(usize, usize)> = Vec::new();
     for (i, a) in faces.iter().enumerate() {
         for b in faces[i + 1..].iter().take(MOST_NEIGHBOURS) {

@@ -56,8 +56,7 @@ fn without_coordinates(scene: &Scene, say: &mut dyn FnMut(Diagnostic)) {
         if !mesh.uvs.is_empty() {
             continue;
         }
-        let mut numbers: BTreeSet<u32> = BTreeSet::new();
-        numbers.extend(object.material_numbers());
+        let numbers: BTreeSet<u32> = object.material_numbers().collect();
         let asked = |number: &u32| asked.get(*number as usize).copied().flatten();
         let Some(texture) = numbers.iter().find_map(asked) else { continue };
         let texture = quoted(texture);
@@ -100,12 +99,10 @@ fn unseen(scene: &Scene, bounds: &[Bounds], say: &mut dyn FnMut(Diagnostic)) {
         Shape::Instance(group) => Some(group),
         _ => None,
     };
-    let mut groups_seen: BTreeSet<GroupId> = BTreeSet::new();
-    groups_seen.extend(
-        (scene.objects.iter().zip(bounds))
-            .filter(|(_, bounds)| !is_unseen(bounds))
-            .filter_map(|(object, _)| group_of(object)),
-    );
+    let groups_seen: BTreeSet<GroupId> = (scene.objects.iter().zip(bounds))
+        .filter(|(_, bounds)| !is_unseen(bounds))
+        .filter_map(|(object, _)| group_of(object))
+        .collect();
     let unseen: Vec<&Object> = (unseen.into_iter())
         .filter(|object| group_of(object).is_none_or(|group| !groups_seen.contains(&group)))
         .collect();

@@ -65,7 +65,7 @@ pub(crate) fn radius_that_touches(spheres: &[[f32; 4]]) -> f32 {
         .reduce_with(|a, b| a.iter().zip(&b).map(|(a, b)| a.min(*b)).collect());
     let mut found: Vec<f32> =
         nearest.unwrap_or_default().into_iter().filter(|d| d.is_finite()).collect();
-    crate::sort_by(&mut found, f32::total_cmp);
+    found.sort_by(f32::total_cmp);
     let radius = found.get(found.len() / 2).map_or(1.0, |square| 0.5 * square.sqrt() / scale);
     if radius.is_normal() { radius } else { 1.0 }
 }

@@ -104,8 +104,7 @@ impl Words {
         }
         let word = String::from_utf8_lossy(word);
         if self.known.len() < self.names.len() {
-            self.known.clear();
-            self.known.extend((0..).zip(&self.names).map(|(i, name)| (name.clone(), i)));
+            self.known = (0..).zip(&self.names).map(|(i, name)| (name.clone(), i)).collect();
         }
         if let Some(number) = self.known.get(&*word) {
             return *number;

@@ -154,11 +154,10 @@ fn give_images_back(scene: &mut Scene, own: &Scene) {
         place.clone_from(own_place);
         texels.clone_from(own_texels);
     }
-    let mut own_images: BTreeMap<String, (&String, &Arc<Texels>)> = BTreeMap::new();
-    own_images.extend(images);
+    let images: BTreeMap<String, (&String, &Arc<Texels>)> = images.collect();
     for texture in &mut scene.textures {
         if let TextureKind::Image { file, texels, .. } = &mut texture.kind
-            && let Some((own_file, own_texels)) = own_images.get(file)
+            && let Some((own_file, own_texels)) = images.get(file)
         {
             file.clone_from(own_file);
             texels.clone_from(own_texels);

@@ -46,7 +46,7 @@ pub(super) fn read(bytes: &[u8], max_bytes: u64) -> Result<Picture, ReadError> {
 /// The order in which a block's coefficients are stored: each diagonal in turn, from the corner.
 fn zigzag() -> [usize; 64] {
     let mut order: Vec<usize> = (0..64).collect();
-    crate::scene::sort_by_key(&mut order, |&i| {
+    order.sort_by_key(|&i| {
         let (row, column) = (i / 8, i % 8);
         let along = if (row + column) % 2 == 0 { column } else { row };
         (row + column, along)

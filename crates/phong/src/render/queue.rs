@@ -39,7 +39,7 @@ impl Queue {
                 Task { pass, tile }
             })
             .collect();
-        crate::scene::sort_by_key(&mut next, |task| (task.pass, task.tile));
+        next.sort_by_key(|task| (task.pass, task.tile));
         Self { next: next.into(), missing, abandoned: false }
     }
 

@@ -6,7 +6,7 @@
 
 use glam::{DMat3, DVec3};
 use phong_bvh::{Canonical, Primitives, Solid};
-use phong_scene::{cofactor, sort_by};
+use phong_scene::cofactor;
 
 use crate::geometry::Geometry;
 use crate::material::Material;
@@ -99,7 +99,7 @@ impl Coincidences {
         key: impl Fn(&T) -> f64,
         coincides: impl Fn(&T, &T) -> bool,
     ) {
-        sort_by(things, |(a, ..), (b, ..)| key(a).total_cmp(&key(b)));
+        things.sort_by(|(a, ..), (b, ..)| key(a).total_cmp(&key(b)));
         let largest = things.iter().map(|(thing, ..)| key(thing).abs()).fold(1.0, f64::max);
         for (i, (a, object, rank)) in things.iter().enumerate() {
             let near = |(b, ..): &&(T, usize, Rank)| key(b) - key(a) <= 4.0 * NEAR * largest;

@@ -6,7 +6,6 @@
 
 use glam::{DVec3, Vec3};
 use phong_bvh::{Hit, Primitives, Ray, World};
-use phong_scene::sort_by;
 
 use crate::geometry::Geometry;
 use crate::material::Material;
@@ -47,7 +46,7 @@ impl Fixture {
         // counts.
         let first = |dir: Vec3| f64::from(world.intersect(&Ray::new(at, dir)).t);
         let mut around = [Vec3::X, Vec3::Y, Vec3::Z, -Vec3::X, -Vec3::Y, -Vec3::Z].map(first);
-        sort_by(&mut around, f64::total_cmp);
+        around.sort_by(f64::total_cmp);
         // In the open it is as far as everything, and no farther than a near eye.
         let to_all = world.bounds().map_or(f64::INFINITY, |[low, high]| {
             (high - low).length() + at.distance((low + high) / 2.0)

@@ -15,8 +15,7 @@ pub(crate) fn split_all(objects: Vec<Object>, account: &mut Account) -> Vec<Obje
 fn split(mut object: Object, account: &mut Account) -> Vec<Object> {
     let Shape::Mesh(mesh) = &mut object.shape else { return vec![object] };
     let faces = std::mem::take(&mut mesh.face_materials);
-    let mut used: BTreeSet<u32> = BTreeSet::new();
-    used.extend(faces.iter().copied());
+    let used: BTreeSet<u32> = faces.iter().copied().collect();
     if let [only] = used.iter().copied().collect::<Vec<_>>()[..] {
         object.material = MaterialId(only);
     }

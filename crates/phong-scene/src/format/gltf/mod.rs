@@ -455,12 +455,13 @@ impl<'a> Scene<'a, '_> {
         let at = root.item("skins", skin.index()?).map_err(|f| skin.fault(f.message))?;
         // What there is to say of them has been said.
         let said = &mut Findings::default();
-        let mut worlds: BTreeMap<usize, DAffine3> = BTreeMap::new();
-        for node in nodes::drawn(root, (&self.reader.file, said))? {
-            if let Some(Ok(number)) = node.at.pointer.rsplit('/').next().map(str::parse) {
-                worlds.insert(number, node.to_world);
-            }
-        }
+        let worlds: BTreeMap<usize, DAffine3> = nodes::drawn(root, (&self.reader.file, said))?
+            .into_iter()
+            .filter_map(|node| {
+                let number = node.at.pointer.rsplit('/').next()?.parse().ok()?;
+                Some((number, node.to_world))
+            })
+            .collect();
         let inverse = match at.get("inverseBindMatrices") {
             Some(index) => {
                 let Reader { buffers, limits, .. } = &self.reader;

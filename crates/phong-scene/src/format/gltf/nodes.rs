@@ -54,10 +54,7 @@ pub(super) fn drawn<'a>(
     let mut open: Vec<(usize, DAffine3)> = Vec::new();
     if let Some(scene) = scene {
         let named = scene.list("nodes")?;
-        let mut numbers = BTreeSet::new();
-        for node in &named {
-            numbers.insert(node.index()?);
-        }
+        let numbers = named.iter().map(At::index).collect::<Result<BTreeSet<_>>>()?;
         let within = within(&parents, &numbers);
         for node in named {
             let number = node.index()?;

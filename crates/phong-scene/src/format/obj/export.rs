@@ -29,8 +29,7 @@ pub(crate) fn write_obj(
     account.carry("triangle", merged.mesh.indices.len());
     account.carry("object", merged.objects.len());
 
-    let mut used: BTreeSet<u32> = BTreeSet::new();
-    used.extend(merged.mesh.face_materials.iter().copied());
+    let used: BTreeSet<u32> = merged.mesh.face_materials.iter().copied().collect();
     let mut names = BTreeSet::new();
     let mut text = String::new();
     for number in used {

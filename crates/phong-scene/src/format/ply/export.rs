@@ -47,8 +47,8 @@ pub(crate) fn write_ply(
         !automatic && scene.materials.get(*m as usize).is_some_and(|m| !is_default(m))
     };
     let held: Vec<_> = scene.all_objects().filter(|object| holds(&object.shape)).collect();
-    let mut materials: BTreeSet<u32> = BTreeSet::new();
-    materials.extend(held.iter().flat_map(|object| object.material_numbers()));
+    let materials: BTreeSet<u32> =
+        held.iter().flat_map(|object| object.material_numbers()).collect();
     let own: Vec<_> = materials.iter().filter(|m| own_color(m)).collect();
     let colors = !own.is_empty() || held.iter().any(|object| object.shape.has_colors());
     if !own.is_empty() {

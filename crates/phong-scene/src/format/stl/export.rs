@@ -24,8 +24,7 @@ pub(crate) fn write_stl(
     say_unfolded(&scene, account);
     say_fields(&scene, account);
     let held: Vec<_> = scene.all_objects().filter(|object| is_triangles(&object.shape)).collect();
-    let mut used: BTreeSet<u32> = BTreeSet::new();
-    used.extend(held.iter().flat_map(|object| object.material_numbers()));
+    let used: BTreeSet<u32> = held.iter().flat_map(|object| object.material_numbers()).collect();
     let own = |m: &u32| !(options.bare && *m == 0);
     let own: Vec<_> =
         used.iter().filter(|m| own(m)).filter_map(|m| scene.materials.get(*m as usize)).collect();

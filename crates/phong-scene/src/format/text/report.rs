@@ -120,9 +120,7 @@ impl Findings {
                 });
             }
         }
-        crate::sort_by_key(&mut told, |d| {
-            d.span.as_ref().map_or((0, 0), |s| (s.place.line, s.place.column))
-        });
+        told.sort_by_key(|d| d.span.as_ref().map_or((0, 0), |s| (s.place.line, s.place.column)));
         out.append(&mut told);
         out.append(&mut more);
     }

@@ -139,9 +139,7 @@ impl Reader {
             }
             options.push((self.written(name.to_owned(), at.start..at.end), text));
         }
-        crate::sort_by_key(&mut options, |(name, _)| {
-            (name.span.place.line, name.span.place.column)
-        });
+        options.sort_by_key(|(name, _)| (name.span.place.line, name.span.place.column));
         options
     }
 
@@ -152,7 +150,7 @@ impl Reader {
         };
         let mut found = Vec::new();
         paths(table, "", 0, &mut found);
-        crate::sort_by_key(&mut found, |(_, at, _)| *at);
+        found.sort_by_key(|(_, at, _)| *at);
         let mut all: Vec<Parameter> = Vec::with_capacity(found.len());
         for (path, at, value) in found {
             if let Some(first) = all.iter().find(|first| first.path.text == path) {

@@ -319,8 +319,7 @@ impl Reader<'_> {
             _ => None,
         });
         // Several textures may show one image.
-        let mut each: BTreeMap<_, _> = BTreeMap::new();
-        each.extend(texels.map(|texels| (Arc::as_ptr(texels), &**texels)));
+        let each: BTreeMap<_, _> = texels.map(|texels| (Arc::as_ptr(texels), &**texels)).collect();
         Texels::left(self.limits, each.into_values())
     }
 

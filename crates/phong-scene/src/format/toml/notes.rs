@@ -155,7 +155,7 @@ impl Notes {
 
     /// All of it, in the order of the text, includes at their place; then how many more there are.
     pub(super) fn into_diagnostics(mut self) -> Vec<Diagnostic> {
-        crate::sort_by(&mut self.said, |(a, _), (b, _)| a.cmp(b));
+        self.said.sort_by(|(a, _), (b, _)| a.cmp(b));
         let mut all: Vec<_> = self.said.into_iter().map(|(_, diagnostic)| diagnostic).collect();
         let [warnings, errors] = self.untold;
         let place = Place { file: Arc::clone(&self.texts[0].file), ..Place::default() };

@@ -226,7 +226,7 @@ impl<'a> Reader<'a> {
             self.say_missing(document, head);
             self.settings_not_written(document, head, path);
         }
-        crate::sort_by_key(&mut items, |(spot, _)| spot.start);
+        items.sort_by_key(|(spot, _)| spot.start);
         // Files that stand before the maps that show something of them must be read with it; first what
         // materials of the same text use, for a file has the first few only.
         let mut used = BTreeSet::new();
@@ -580,7 +580,7 @@ impl<'a> Reader<'a> {
                 None => wrong(value, quoted(key.get_ref())),
             }
         }
-        crate::sort_by_key(&mut tables, |(_, _, spot)| spot.start);
+        tables.sort_by_key(|(_, _, spot)| spot.start);
         tables
     }
 }

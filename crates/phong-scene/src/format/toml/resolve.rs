@@ -89,8 +89,7 @@ impl Reader<'_> {
         });
         if let Some(scene) = &mut scene {
             let default = default_needed.then_some(default);
-            let mut used: BTreeSet<_> = BTreeSet::new();
-            used.extend(resolver.named.into_iter().flatten().chain(default));
+            let used: BTreeSet<_> = resolver.named.into_iter().flatten().chain(default).collect();
             let used = |number: usize| used.contains(&MaterialId(number as u32));
             say_unused(
                 &named,

@@ -96,7 +96,7 @@ fn mend(file: u32, notes: &mut Notes) -> Mended {
         lost.insert(section.start);
         errors.push(told(error, text, 0));
     }
-    crate::sort_by_key(&mut errors, |(range, ..)| range.start);
+    errors.sort_by_key(|(range, ..)| range.start);
     for (i, (range, message, help)) in errors.into_iter().take(MOST).enumerate() {
         let message = if i + 1 == MOST && count > MOST {
             format!("{message} ({} more syntax errors are not shown)", count - MOST)

@@ -164,10 +164,11 @@ impl TextureNames {
         textures: &[Texture],
         notes: &mut Notes,
     ) -> Material {
-        let mut spots: BTreeMap<_, _> = BTreeMap::new();
-        spots.extend(
-            material.textured().into_iter().map(|(key, by)| (key, &self.0[by.texture.0 as usize])),
-        );
+        let spots: BTreeMap<_, _> = material
+            .textured()
+            .into_iter()
+            .map(|(key, by)| (key, &self.0[by.texture.0 as usize]))
+            .collect();
         let number = |TextureId(at): TextureId| named.find(&self.0[at as usize].name);
         let settled = material.renumber_textures(|id| TextureId(number(id).unwrap_or(0)));
         let all_there = spots.values().all(|TextureName { name, .. }| named.find(name).is_some());

@@ -100,7 +100,7 @@ fn channels<'a>(picture: &'a Finished<'_>) -> Vec<Channel<'a>> {
     if film.layer(LayerKind::Alpha).is_none() {
         add("A".to_owned(), None, 1, 0);
     }
-    crate::scene::sort_by(&mut list, |a, b| a.name.cmp(&b.name));
+    list.sort_by(|a, b| a.name.cmp(&b.name));
     list
 }
 

@@ -359,8 +359,7 @@ impl Writer<'_> {
             Kind::Tables(table) => Some((key.name, table)),
             _ => None,
         });
-        let mut tables: BTreeMap<_, _> = BTreeMap::new();
-        tables.extend(known);
+        let tables: BTreeMap<_, _> = known.collect();
         for mut object in objects {
             let kind = object.shape.kind();
             let Some(table) = tables.get(kind) else { continue };
@@ -496,8 +495,7 @@ impl Materials {
 
     fn say_used<'o>(&mut self, objects: impl Iterator<Item = &'o Object>) {
         let real = objects.filter(|object| !matches!(object.shape, Shape::Instance(_)));
-        self.used.clear();
-        self.used.extend(real.map(|object| object.material.0));
+        self.used = real.map(|object| object.material.0).collect();
     }
 
     /// Whether the reader makes this material by itself: the last, called default, nothing but
