@@ -152,7 +152,16 @@ impl Names {
             let (digits, length) = place(&text[at..])?;
             Some((at, digits, length))
         });
-        let Some((at, digits, length)) = places.next() else { return Ok(plain(name.to_owned())) };
+        let Some((at, digits, length)) = places.next() else {
+            if let Some(other) = foreign_place(text) {
+                let better = text.replacen(other, "%04d", 1);
+                return Err(Failure::usage(format!(
+                    "{other} in {text} is no place for a picture's number"
+                ))
+                .with_help(format!("write %d or %04d, like -o {better}")));
+            }
+            return Ok(plain(name.to_owned()));
+        };
         if places.next().is_some() {
             return Err(Failure::usage(format!("{text} has more than one place for a number"))
                 .with_help("write %d or %04d once"));
@@ -212,6 +221,21 @@ fn place(text: &str) -> Option<(usize, usize)> {
     }
 }
 
+/// What other programs write for a number, like `{}`, `{:04}` or `####`: nobody calls one file so.
+fn foreign_place(text: &str) -> Option<&str> {
+    let braced = text.match_indices('{').find_map(|(at, _)| {
+        let braced = &text[at..=at + text[at..].find('}')?];
+        let inner = braced[1..braced.len() - 1].trim_start_matches(':');
+        let inner = inner.strip_suffix(['d', 'i', 'n']).unwrap_or(inner);
+        (inner == "frame" || inner.bytes().all(|b| b.is_ascii_digit())).then_some(braced)
+    });
+    let marks = text.find("##").map(|at| {
+        let rest = &text[at..];
+        &rest[..rest.find(|letter| letter != '#').unwrap_or(rest.len())]
+    });
+    braced.or(marks)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -228,6 +252,16 @@ mod tests {
         assert_eq!(name("100%.png", 3), "100%.png");
         assert_eq!(name("%s-%5d.png", 3), "%s-%5d.png");
         assert!(Names::parse(Path::new("%d-%d.png")).is_err());
+    }
+
+    #[test]
+    fn places_of_other_programs_are_told_from_names() {
+        let found = ["f-{}.png", "{:04}", "{:03d}.exr", "a-{n}.gif", "f-####.png", "{frame}.png"];
+        let places = ["{}", "{:04}", "{:03d}", "{n}", "####", "{frame}"];
+        assert_eq!(found.map(foreign_place), places.map(Some));
+        for name in ["{a}.png", "a#1.png", "}{.png", "{{.png", "{1", "é{ü}.png"] {
+            assert_eq!(foreign_place(name), None, "{name}");
+        }
     }
 
     #[test]

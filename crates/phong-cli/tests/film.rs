@@ -141,6 +141,7 @@ fn what_no_film_can_be_is_refused_with_a_way_out() {
         ("-o a.exr", ["do not fit into a.exr", "-o a-%04d.exr is a file for each"]),
         ("-o a.pfm --resume", ["do not fit into a.pfm", "a-%04d.pfm"]),
         ("-o %d-%d.png", ["more than one place", "write %d or %04d once"]),
+        ("-o f-{}.png", ["{} in f-{}.png is no place", "-o f-%04d.png"]),
         ("-o -", ["standard output", "-o a-%04d.png"]),
         ("-o %d.pfm --resume", ["PFM files do not say what they are of", "PNG or EXR"]),
         ("-o %d.svg --resume", ["SVG files do not say what they are of", "PNG or EXR"]),
