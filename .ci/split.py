@@ -3,8 +3,7 @@
 
 MODULE keeps what every scene needs. What few do is moved to REST: letters and their drawing, models of other programs,
 images, cuts, occlusion, files that are written, grades. REST is fetched when one of its functions is called for the first time.
-No function is changed, so the bits are the same. Binaryen's `wasm-split` does it; this says which functions go, and in
-both parts they are put in an order that packs well (`order.py`).
+No function is changed, so the bits are the same. Binaryen's `wasm-split` does it; this says which functions go.
 """
 
 import re
@@ -12,8 +11,6 @@ import subprocess
 import sys
 from collections import defaultdict
 from pathlib import Path
-
-from order import number, ordered, sections, written
 
 MODULE, REST = Path(sys.argv[1]), Path(sys.argv[2])
 # The font, which nothing but functions of the rest reads: it is part of that.
@@ -33,6 +30,26 @@ SELDOM = re.compile(
     r"|phong_scene::format::(gltf|tachyon|ply|obj|off|nff|stl|cif|gro|pdb|xyz|lammps|atoms|dcd|mtl|frames)"
     r"|phong::(image::(exr|jpeg|picture|png::write|write)|part::(join|tone|Part|write)|geometry::tangents))\b"
 )
+
+
+def number(data, at):
+    """A number of LEB128, and where the next thing is."""
+    value = shift = 0
+    while True:
+        byte = data[at]
+        value |= (byte & 127) << shift
+        at, shift = at + 1, shift + 7
+        if byte < 128:
+            return value, at
+
+
+def sections(data):
+    """The sections of a module: number, first byte, and the first behind it."""
+    at = 8
+    while at < len(data):
+        length, start = number(data, at + 1)
+        yield data[at], start, start + length
+        at = start + length
 
 
 def functions(data):
@@ -89,6 +106,16 @@ def seldom(module):
         fresh = {name for name, by in callers.items() if name not in gone and name not in held and by <= gone}
         gone |= fresh
     return sorted(gone & set(names.values()))
+
+
+def written(value):
+    """A number as LEB128."""
+    out = bytearray()
+    while True:
+        value, low = value >> 7, value & 127
+        out.append(low | (128 if value else 0))
+        if not value:
+            return bytes(out)
 
 
 def with_exports(data, change):
@@ -166,8 +193,8 @@ def main():
         return [*numbered, *tables]
 
     module, place = without_font(with_exports(part.read_bytes(), back))
-    MODULE.write_bytes(ordered(module))
-    REST.write_bytes(ordered(with_font(REST.read_bytes(), place)))
+    MODULE.write_bytes(module)
+    REST.write_bytes(with_font(REST.read_bytes(), place))
     part.unlink()
     names.unlink()
 
