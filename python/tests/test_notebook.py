@@ -330,7 +330,8 @@ def test_interrupting_a_kernel_stops_a_picture_in_a_fifth_of_a_second(tmp_path: 
             "try:\n    phong.render(scene, size=(1920, 1080), samples=4096, progress=False)\n"
             "except KeyboardInterrupt:\n    raised = time.monotonic()\n    raise"
         )
-        request = client.execute(cell)
+        # Or the kernel may refuse what it is asked for right after the error.
+        request = client.execute(cell, stop_on_error=False)
         while client.get_iopub_msg(timeout=60)["content"].get("text") != "begun\n":
             pass
         time.sleep(0.5)
