@@ -34,8 +34,7 @@ impl Scene {
 
     /// Makes spheres and lines whose radius was guessed large enough to be seen.
     pub(super) fn enlarge_guessed(&mut self) {
-        let of_groups = self.groups.iter().flat_map(|group| &group.objects);
-        if !self.objects.iter().chain(of_groups).any(Object::is_guessed) {
+        if !self.all_objects().any(|object| object.shape.guessed().is_some()) {
             return;
         }
         let Camera { kind, eye, .. } = self.camera;
@@ -84,15 +83,6 @@ impl Scene {
 }
 
 impl Object {
-    /// Whether it has a radius that was guessed.
-    fn is_guessed(&self) -> bool {
-        match &self.shape {
-            Shape::Points(points) => points.guessed.is_some(),
-            Shape::Cylinders(lines) => lines.guessed.is_some(),
-            _ => false,
-        }
-    }
-
     /// The same of one object, where a pixel is so large.
     fn enlarge_guessed(&mut self, pixel: f64) {
         let [sphere, line] = LEAST.map(|least| {

@@ -46,11 +46,8 @@ impl Mesh {
     /// Takes the triangles away that use a vertex twice, and with them nothing that can be seen;
     /// how many there were.
     pub(crate) fn drop_collapsed(&mut self) -> u64 {
-        let collapsed = |&[a, b, c]: &[u32; 3]| a == b || b == c || c == a;
-        let count = |piece: &[[u32; 3]]| {
-            let one = |&[a, b, c]: &[u32; 3]| u64::from((a == b) | (b == c) | (c == a));
-            piece.iter().map(one).sum::<u64>()
-        };
+        let collapsed = |&[a, b, c]: &[u32; 3]| (a == b) | (b == c) | (c == a);
+        let count = |piece: &[[u32; 3]]| piece.iter().map(|t| u64::from(collapsed(t))).sum::<u64>();
         let count: u64 = self.indices.par_chunks(PIECE).map(count).sum();
         if count == 0 {
             return 0;

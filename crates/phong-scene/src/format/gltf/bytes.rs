@@ -50,20 +50,13 @@ impl Bytes {
 
     /// So many bytes from one on, all of which are there.
     pub(super) fn part(&self, from: u64, length: usize) -> io::Result<Cow<'_, [u8]>> {
-        let gone = || io::Error::new(io::ErrorKind::UnexpectedEof, GONE);
-        match self {
-            Self::Held(bytes) => {
-                let rest = bytes.get(from as usize..).and_then(|rest| rest.get(..length));
-                rest.map(Cow::Borrowed).ok_or_else(gone)
-            }
-            Self::Filed { blob, start, .. } => {
-                let mut part = Vec::new();
-                part.try_reserve_exact(length)?;
-                part.resize(length, 0);
-                let read = blob.read_full(&mut part, start + from)?;
-                if read == length { Ok(Cow::Owned(part)) } else { Err(gone()) }
-            }
+        if let Self::Held(bytes) = self {
+            return held(bytes, from, length).map(Cow::Borrowed);
         }
+        let mut room = Vec::new();
+        room.try_reserve_exact(length)?;
+        self.piece(from, length, &mut room)?;
+        Ok(Cow::Owned(room))
     }
 
     /// The same, in a room for what must be read from a file.
@@ -73,14 +66,19 @@ impl Bytes {
         length: usize,
         room: &'a mut Vec<u8>,
     ) -> io::Result<&'a [u8]> {
-        let piece = match self {
-            Self::Held(bytes) => bytes.get(from as usize..).and_then(|rest| rest.get(..length)),
+        match self {
+            Self::Held(bytes) => held(bytes, from, length),
             Self::Filed { blob, start, .. } => {
                 room.resize(length, 0);
                 let read = blob.read_full(room, start + from)?;
-                room.get(..read).filter(|_| read == length)
+                held(&room[..read], 0, length)
             }
-        };
-        piece.ok_or_else(|| io::Error::new(io::ErrorKind::UnexpectedEof, GONE))
+        }
     }
+}
+
+/// So many of some bytes, from one on.
+fn held(bytes: &[u8], from: u64, length: usize) -> io::Result<&[u8]> {
+    let part = bytes.get(from as usize..).and_then(|rest| rest.get(..length));
+    part.ok_or_else(|| io::Error::new(io::ErrorKind::UnexpectedEof, GONE))
 }
