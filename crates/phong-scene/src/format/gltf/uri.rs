@@ -1,5 +1,9 @@
 //! What URIs name: bytes of their own, and files.
 
+use base64::Engine;
+use base64::alphabet::STANDARD;
+use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
+
 use super::bytes::Bytes;
 use super::json::{At, Result};
 use crate::source::{Source, trouble};
@@ -46,26 +50,23 @@ fn unescaped(text: &str) -> Vec<u8> {
     plain
 }
 
-/// The bytes that base64 stands for; `None`: it is none.
+/// The bytes that base64 stands for, of either alphabet, with spaces or without its end; `None`: it is none.
 fn base64(text: &str) -> Option<Vec<u8>> {
-    let mut bytes = Vec::with_capacity(text.len() / 4 * 3);
-    let (mut bits, mut count) = (0_u32, 0);
-    for byte in text.bytes().filter(|b| !b.is_ascii_whitespace() && *b != b'=') {
-        let value = match byte {
-            b'A'..=b'Z' => byte - b'A',
-            b'a'..=b'z' => byte - b'a' + 26,
-            b'0'..=b'9' => byte - b'0' + 52,
-            b'+' | b'-' => 62,
-            b'/' | b'_' => 63,
-            _ => return None,
-        };
-        bits = bits << 6 | u32::from(value);
-        count += 6;
-        if count >= 8 {
-            count -= 8;
-            bytes.push((bits >> count) as u8);
-        }
-    }
+    let config = GeneralPurposeConfig::new()
+        .with_decode_allow_trailing_bits(true)
+        .with_decode_padding_mode(DecodePaddingMode::RequireNone);
+    let letter = |byte: u8| match byte {
+        b'-' => b'+',
+        b'_' => b'/',
+        other => other,
+    };
+    let said = text.bytes().filter(|b| !b.is_ascii_whitespace() && *b != b'=');
+    let mut letters: Vec<u8> = said.map(letter).collect();
+    // One letter alone is no byte; with another it is one too many.
+    let is_alone = letters.len() % 4 == 1;
+    letters.extend(is_alone.then_some(b'A'));
+    let mut bytes = GeneralPurpose::new(&STANDARD, config).decode(letters).ok()?;
+    bytes.truncate(bytes.len() - usize::from(is_alone));
     Some(bytes)
 }
 
