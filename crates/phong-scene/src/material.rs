@@ -161,12 +161,15 @@ pub struct Material<N = Param<f32>, C = Param<Rgb>> {
 /// A material that is the same all over its surface.
 pub type ConstantMaterial = Material<f32, Rgb>;
 
+/// The diffuse colour of what has none.
+pub(crate) const PLAIN: Rgb = Rgb::grey(0.8);
+
 impl Default for ConstantMaterial {
     fn default() -> Self {
         Self {
             name: "default".to_owned(),
             model: Model::Phong,
-            color: Rgb::grey(0.8),
+            color: PLAIN,
             ambient_color: None,
             specular_color: Some(Rgb::WHITE),
             k_a: 0.1,

@@ -6,7 +6,7 @@ use crate::color::Rgb;
 use crate::diagnostic::Span;
 use crate::format::text::Findings;
 use crate::limits::LARGEST;
-use crate::material::{ConstantMaterial, Dialect, Material, Model};
+use crate::material::{ConstantMaterial, Dialect, Material, Model, PLAIN};
 
 /// What the statements behind one `newmtl` say.
 #[derive(Debug)]
@@ -119,7 +119,7 @@ impl Draft {
         let constant = ConstantMaterial {
             name: self.name.clone(),
             model: if highlight { Model::BlinnPhong } else { Model::Lambert },
-            color: diffuse.unwrap_or(Rgb::grey(0.8)),
+            color: diffuse.unwrap_or(PLAIN),
             ambient_color: ambient,
             specular_color: Some(if highlight { k_s } else { Rgb::WHITE }),
             k_a: opacity * if self.ambient.is_some() { 1.0 } else { 0.1 },

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::color::{Rgb, are_bytes, srgb_decode};
 use crate::format::text::{Findings, whole};
-use crate::material::ConstantMaterial;
+use crate::material::PLAIN;
 
 /// What stands for a colour that a line does not have.
 const NO_COLOR: Rgb = Rgb::grey(f32::NAN);
@@ -99,8 +99,7 @@ impl Colors {
         }
         let linear = |c: f32| if bytes { srgb_decode(f64::from(c) / 255.0) as f32 } else { c };
         for color in &mut stored {
-            *color =
-                if is_color(color) { color.map(linear) } else { ConstantMaterial::default().color };
+            *color = if is_color(color) { color.map(linear) } else { PLAIN };
         }
         stored
     }

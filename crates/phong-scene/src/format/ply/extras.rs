@@ -5,7 +5,7 @@ use glam::Vec2;
 use super::header::{Element, Type};
 use super::vertices::Transfer;
 use crate::color::Rgb;
-use crate::material::ConstantMaterial;
+use crate::material::PLAIN;
 use crate::mesh::{Mesh, NO_INDEX};
 
 /// What a property of faces is used for.
@@ -145,11 +145,10 @@ impl Extras {
             self.images.resize(after, if held { number as u32 } else { 0 });
         }
         if plan.has(Use::Color(0)) {
-            let none = ConstantMaterial::default().color;
-            self.colors.resize(before, none);
+            self.colors.resize(before, PLAIN);
             let color = plan.transfer.linear(&row.color[..3]);
             self.wrong += u64::from(color.is_none());
-            self.colors.resize(after, color.unwrap_or(none));
+            self.colors.resize(after, color.unwrap_or(PLAIN));
             self.transparent |= plan.has(Use::Color(3)) && row.color[3] != plan.opaque;
         }
     }
@@ -174,7 +173,7 @@ impl Extras {
             self.images.append(&mut later.images);
         }
         if !later.colors.is_empty() {
-            self.colors.resize(before, ConstantMaterial::default().color);
+            self.colors.resize(before, PLAIN);
             self.colors.append(&mut later.colors);
         }
     }

@@ -71,7 +71,7 @@ use super::text::{Findings, whole};
 use super::triangles::{any_left, cut, tell_small, tidy};
 use crate::diagnostic::Diagnostic;
 use crate::fragment::Fragment;
-use crate::material::{ConstantMaterial, MaterialId};
+use crate::material::{MaterialId, PLAIN};
 use crate::mesh::{Shared, collapse_faces};
 use crate::shape::Shape;
 use crate::source::trouble;
@@ -272,7 +272,7 @@ impl Body<'_> {
             mesh.colors = Shared::default();
         }
         if !extras.colors.is_empty() {
-            extras.colors.resize(mesh.indices.len(), ConstantMaterial::default().color);
+            extras.colors.resize(mesh.indices.len(), PLAIN);
             mesh.color_faces(&extras.colors);
         }
         tell_small(faces.dropped, &mut self.findings, self.file);
