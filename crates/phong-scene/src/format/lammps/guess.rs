@@ -74,6 +74,7 @@ impl<'a> Sample<'a> {
             5 => ("it", "atomic"),
             6 if self.is_type(2) && !self.is_label(1) => ("imt", "bond"),
             6 => ("itq", "charge"),
+            7 if fractional(2) && self.is_volume(2, 4) => ("it--", "peri"),
             7 if fractional(2) => ("itd-", "sphere"),
             // Flags whether an atom is an ellipsoid or a body.
             7 if !self.is_type(2) && self.is_flag(2) => ("it--", "ellipsoid"),
@@ -145,7 +146,7 @@ impl<'a> Sample<'a> {
     fn inside(&self, start: usize) -> usize {
         let Some(bounds) = self.bounds else { return self.rows.len() };
         let is_inside = |row: &&Vec<&[u8]>| {
-            let place = DVec3::from([0, 1, 2].map(|i| number(row[start + i])));
+            let place = vector(row, start);
             place.cmpge(bounds.min).all() && place.cmple(bounds.max).all()
         };
         self.rows.iter().filter(is_inside).count()
@@ -189,14 +190,27 @@ impl<'a> Sample<'a> {
         self.column(i).all(|word| word == b"0" || word == b"1")
     }
 
+    /// Whether a column holds the volume that each point of a grid fills, whose places begin in another: the
+    /// cube of the way from the first to its nearest.
+    fn is_volume(&self, i: usize, start: usize) -> bool {
+        let mut places = self.rows.iter().map(|row| vector(row, start));
+        let first = places.next().unwrap_or_default();
+        let way = places.map(|place| place.distance(first)).fold(f64::INFINITY, f64::min);
+        self.numbers(i).all(|volume| (volume / (way * way * way) - 1.0).abs() < 0.01)
+    }
+
     /// Whether three columns hold directions of length 1, or nothing.
     fn is_direction(&self, start: usize) -> bool {
         self.rows.iter().all(|row| {
-            let direction = DVec3::from([0, 1, 2].map(|i| number(row[start + i])));
-            let length = direction.length();
+            let length = vector(row, start).length();
             length == 0.0 || (length - 1.0).abs() < 1e-3
         })
     }
+}
+
+/// Three numbers of a row.
+fn vector(row: &[&[u8]], start: usize) -> DVec3 {
+    DVec3::from([0, 1, 2].map(|i| number(row[start + i])))
 }
 
 /// A word as a number; NaN if it is none.
@@ -254,6 +268,11 @@ mod tests {
         assert_eq!(surely("1 1 2 -0.8 1.5 2.5 3.5\n"), "imtq");
         assert_eq!(surely("1 1 2 -0.8 1.5 2.5 3.5 0 1 0 # water\n"), "imtq");
         assert_eq!(surely("1 1 1.0 1.0 1.5 2.5 3.5\n"), "itd-");
+        // A volume is the cube of the way to the nearest.
+        let grid =
+            "1 1 0.008 2.2 1.5 2.5 3.5\n2 1 0.008 2.2 1.9 2.5 3.5\n3 1 0.008 2.2 1.5 2.7 3.5\n";
+        assert_eq!(surely(grid), "it--");
+        assert_eq!(surely(&grid.replace("0.008", "0.2")), "itd-");
         assert_eq!(surely("1 1 0 1.0 1.5 2.5 3.5\n2 1 1 1.0 1.5 2.5 3.5\n"), "it--");
         let refused = guessed("1 1 2 -0.8 1.5 2.5 3.5 0.5 1 0\n").expect_err("no style");
         assert!(refused.contains("10 columns"), "{refused}");
