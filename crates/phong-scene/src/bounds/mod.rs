@@ -7,7 +7,7 @@ mod reach;
 use glam::{DAffine3, DVec3, Vec3};
 use rayon::prelude::*;
 
-use crate::mesh::{Mesh, Points};
+use crate::mesh::{Mesh, PIECE, Points};
 use crate::scene::{Group, Object, Scene};
 use crate::shape::Shape;
 
@@ -74,9 +74,6 @@ impl Bounds {
         })
     }
 }
-
-/// Values that are looked through as a piece.
-const PIECE: usize = 1 << 12;
 
 /// How far around its likely place an index is looked for, before it is everywhere.
 const NEAR: usize = 1 << 14;
@@ -148,7 +145,7 @@ impl Points {
         let (min, max) = self
             .spheres
             .par_iter()
-            .with_min_len(1 << 12)
+            .with_min_len(PIECE)
             .fold(empty, |(min, max), &[x, y, z, radius]| {
                 let center = Vec3::new(x, y, z);
                 (min.min(center - radius), max.max(center + radius))

@@ -8,8 +8,8 @@ use std::array::from_fn;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use super::{Bounds, PIECE, bounds_of_groups};
-use crate::mesh::{Caps, Cylinders, Mesh, Points};
+use super::{Bounds, bounds_of_groups};
+use crate::mesh::{Caps, Cylinders, Mesh, PIECE, Points};
 use crate::scene::{Object, Scene};
 use crate::shape::{Shape, disc, farther, farthest};
 
@@ -82,7 +82,7 @@ impl Points {
             let center = Vec3::new(x, y, z).as_dvec3();
             from_fn(|i| center.dot(along[i]) + f64::from(radius) * lengths[i])
         };
-        let spheres = self.spheres.par_iter().with_min_len(1 << 12).map(reach);
+        let spheres = self.spheres.par_iter().with_min_len(PIECE).map(reach);
         let reach = spheres.reduce(|| [f64::NEG_INFINITY; N], farther);
         from_fn(|i| reach[i] + self.origin.dot(along[i]))
     }
@@ -100,7 +100,7 @@ impl Cylinders {
             };
             farther(end(a, r), end(b, r_to))
         };
-        let segments = self.segments.par_iter().with_min_len(1 << 12).map(reach);
+        let segments = self.segments.par_iter().with_min_len(PIECE).map(reach);
         let reach = segments.reduce(|| [f64::NEG_INFINITY; N], farther);
         from_fn(|i| reach[i] + self.origin.dot(along[i]))
     }

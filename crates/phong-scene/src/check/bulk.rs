@@ -8,11 +8,8 @@ use rayon::prelude::*;
 use super::fault::{Faults, not_held};
 use crate::color::Rgb;
 use crate::limits::{LARGEST, Range};
-use crate::mesh::{Caps, Cylinders, Field, Mesh, NO_INDEX, Points};
+use crate::mesh::{Caps, Cylinders, Field, Mesh, NO_INDEX, PIECE, Points};
 use crate::wording::quoted;
-
-/// Items that one task looks through.
-const PIECE: usize = 1 << 12;
 
 /// Judges a mesh, whose faces may be of so many materials.
 pub(super) fn mesh(mesh: &Mesh, materials: usize, faults: &mut Faults) {

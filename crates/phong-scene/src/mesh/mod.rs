@@ -35,6 +35,9 @@ use crate::color::Rgb;
 /// In `normal_indices` and `uv_indices`: this corner has none (the geometric normal; (0, 0)).
 pub const NO_INDEX: u32 = u32::MAX;
 
+/// Values of an array that one thread looks through before another takes the next.
+pub(crate) const PIECE: usize = 1 << 12;
+
 /// Indexed triangles. Every index is in range and every number finite.
 #[derive(Clone, Debug, Default)]
 pub struct Mesh {

@@ -5,7 +5,7 @@ use std::ops::Range;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use super::{Mesh, NO_INDEX, Shared};
+use super::{Mesh, NO_INDEX, PIECE, Shared};
 
 /// Vertices that one task smooths.
 const GROUP: usize = 1 << 12;
@@ -104,7 +104,7 @@ impl Mesh {
         self.normals.reserve_exact(total);
         self.normals.extend(groups.iter().flatten());
         drop(groups);
-        slots.par_iter_mut().zip(self.indices.par_iter()).with_min_len(1 << 12).for_each(
+        slots.par_iter_mut().zip(self.indices.par_iter()).with_min_len(PIECE).for_each(
             |(slots, corners)| {
                 for (slot, &corner) in slots.iter_mut().zip(corners) {
                     let number = faces[*slot as usize];
@@ -126,7 +126,7 @@ impl Mesh {
             let [a, b, c] = corners.map(|i| self.positions[i as usize].as_dvec3() * scale);
             (b - a).cross(c - a).as_vec3()
         };
-        self.indices.par_iter().with_min_len(1 << 12).map(face).collect()
+        self.indices.par_iter().with_min_len(PIECE).map(face).collect()
     }
 }
 

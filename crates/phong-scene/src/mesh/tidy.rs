@@ -5,10 +5,7 @@
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use super::{Field, Mesh, NO_INDEX, Points};
-
-/// Values that are looked through as a piece.
-const PIECE: usize = 1 << 12;
+use super::{Field, Mesh, NO_INDEX, PIECE, Points};
 
 impl Mesh {
     /// Takes the normals of length 0 away, whose corners get the geometric normal, and brings
@@ -32,7 +29,7 @@ impl Mesh {
                 self.normal_indices.clone_from(&self.indices);
             }
             let normals = &self.normals;
-            self.normal_indices.par_iter_mut().with_min_len(1 << 12).for_each(|corners| {
+            self.normal_indices.par_iter_mut().with_min_len(PIECE).for_each(|corners| {
                 for index in corners {
                     if normals.get(*index as usize).is_some_and(|n| *n == Vec3::ZERO) {
                         *index = NO_INDEX;
@@ -70,7 +67,7 @@ impl Mesh {
             let (ab, ac) = (b - a, c - a);
             ab.cross(ac).length() <= least * ab.length() * ac.length()
         };
-        let indices = self.indices.par_iter().with_min_len(1 << 12);
+        let indices = self.indices.par_iter().with_min_len(PIECE);
         !self.indices.is_empty() && indices.all(on_a_line)
     }
 
@@ -101,7 +98,7 @@ impl Mesh {
         let (vertices, triangles) = (self.positions.len(), self.indices.len());
         let all = |indices: &[[u32; 3]], count: usize, optional: bool| {
             let held = |&i: &u32| (i as usize) < count || optional && i == NO_INDEX;
-            indices.par_iter().with_min_len(1 << 12).all(|corners| corners.iter().all(held))
+            indices.par_iter().with_min_len(PIECE).all(|corners| corners.iter().all(held))
         };
         let kind = |indices: &[[u32; 3]], count: usize| match indices.len() {
             0 => count == 0 || count >= vertices,
@@ -130,7 +127,7 @@ pub(crate) fn collapse_faces(
     bad: impl Fn(u32) -> bool + Sync,
 ) -> [u64; 2] {
     let is_bad = |triangle: &[u32; 3]| triangle.iter().any(|&corner| bad(corner));
-    if !indices.par_iter().with_min_len(1 << 12).any(is_bad) {
+    if !indices.par_iter().with_min_len(PIECE).any(is_bad) {
         return [0; 2];
     }
     let (mut faces, mut triangles) = (0, 0);

@@ -13,14 +13,11 @@ use crate::format::faces::Faces;
 use crate::format::text::{Findings, whole};
 use crate::format::triangles::{has_room, tidy};
 use crate::limits::Limits;
-use crate::mesh::{Cylinders, Mesh, NO_INDEX, Points};
+use crate::mesh::{Cylinders, Mesh, NO_INDEX, PIECE, Points};
 use crate::shape::Shape;
 
 /// The radius of lines, as a share of how large they are together.
 const LINE: f64 = 0.002;
-
-/// Indices that are looked through as a piece.
-const PIECE: usize = 1 << 14;
 
 /// What all primitives are read with.
 pub(super) struct Reader<'a> {

@@ -16,7 +16,7 @@ use crate::diagnostic::{Diagnostic, Severity, Span};
 use crate::format::input::Input;
 use crate::format::text::Findings;
 use crate::material::Material;
-use crate::mesh::{Field, Mesh, Points};
+use crate::mesh::{Field, Mesh, PIECE, Points};
 
 /// Which properties are used, for what.
 #[derive(Clone, Debug)]
@@ -394,9 +394,6 @@ fn is_color(color: &Rgb) -> bool {
 fn are_all<T>(values: &[T], sound: impl Fn(&T) -> bool) -> bool {
     values.iter().fold(true, |all, value| all & sound(value))
 }
-
-/// Values that are looked through without a branch.
-const PIECE: usize = 1 << 12;
 
 /// Vertices to be filled in; what the file has none of is empty.
 #[derive(Debug)]
