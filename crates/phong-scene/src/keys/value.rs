@@ -151,55 +151,32 @@ impl Stored for MapRange {
     }
 }
 
-impl Stored for OcclusionDistance {
-    fn value(&self) -> Option<Value> {
-        Some(match *self {
-            Self::Auto => Value::Word("auto"),
-            Self::Units(distance) => Value::Number(distance),
-        })
-    }
+/// What is `"auto"` or a number.
+macro_rules! stored_or_auto {
+    ($($type:ident: $of:ident;)+) => {$(
+        impl Stored for $type {
+            fn value(&self) -> Option<Value> {
+                Some(match *self {
+                    Self::Auto => Value::Word("auto"),
+                    Self::$of(number) => Value::Number(number),
+                })
+            }
 
-    fn of(value: Value) -> Option<Self> {
-        match value {
-            Value::Word(_) => Some(Self::Auto),
-            Value::Number(distance) => Some(Self::Units(distance)),
-            _ => None,
+            fn of(value: Value) -> Option<Self> {
+                match value {
+                    Value::Word(_) => Some(Self::Auto),
+                    Value::Number(number) => Some(Self::$of(number)),
+                    _ => None,
+                }
+            }
         }
-    }
+    )+};
 }
 
-impl Stored for BarLength {
-    fn value(&self) -> Option<Value> {
-        Some(match *self {
-            Self::Auto => Value::Word("auto"),
-            Self::Units(length) => Value::Number(length),
-        })
-    }
-
-    fn of(value: Value) -> Option<Self> {
-        match value {
-            Value::Word(_) => Some(Self::Auto),
-            Value::Number(length) => Some(Self::Units(length)),
-            _ => None,
-        }
-    }
-}
-
-impl Stored for Exposure {
-    fn value(&self) -> Option<Value> {
-        Some(match *self {
-            Self::Auto => Value::Word("auto"),
-            Self::Stops(stops) => Value::Number(stops),
-        })
-    }
-
-    fn of(value: Value) -> Option<Self> {
-        match value {
-            Value::Word(_) => Some(Self::Auto),
-            Value::Number(stops) => Some(Self::Stops(stops)),
-            _ => None,
-        }
-    }
+stored_or_auto! {
+    OcclusionDistance: Units;
+    BarLength: Units;
+    Exposure: Stops;
 }
 
 /// An f32 as the number of fewest digits that is rounded to it.
