@@ -168,9 +168,11 @@ fn document(
     Ok(fragment.map_err(|fault| tell(findings, true, file, fault)).ok())
 }
 
-/// Where the text of a binary file lies, and the bytes behind it, if there are any; or what is wrong with it.
-#[expect(clippy::type_complexity, reason = "two kinds of trouble")]
-fn chunks(blob: &dyn Blob) -> io::Result<std::result::Result<(Range<u64>, Range<u64>), String>> {
+/// Where the text of a binary file lies, and the bytes behind it, if there are any.
+type Chunks = (Range<u64>, Range<u64>);
+
+/// The chunks of a binary file; or what is wrong with it.
+fn chunks(blob: &dyn Blob) -> io::Result<std::result::Result<Chunks, String>> {
     let there = blob.len();
     let word = |at: u64| -> io::Result<Option<[u8; 4]>> {
         let mut bytes = [0; 4];
