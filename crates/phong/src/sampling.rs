@@ -54,24 +54,25 @@ impl Sampler {
 
     #[inline(always)]
     fn scrambled(&self, purpose: Use) -> [f32; 2] {
-        self.keys(purpose).pair(self.index)
-    }
-
-    /// What all samples of a pixel have in common, for one use.
-    #[inline(always)]
-    fn keys(&self, purpose: Use) -> Keys {
-        let dimension = match purpose {
-            Use::Pixel => 0,
-            Use::Lens => 1,
-            Use::Light(number) => 2 + number,
-            Use::Around => u32::MAX,
-        };
-        let index = hash(self.key ^ hash(dimension ^ 0x9e37_79b9));
-        Keys { index, x: hash(index ^ 0x68bc_21eb), y: hash(index ^ 0x02e5_be93) }
+        Keys::new(self.key, purpose.mixed()).pair(self.index)
     }
 }
 
-/// What the samples of a pixel are scrambled with.
+impl Use {
+    /// A number for each, far apart.
+    #[inline(always)]
+    fn mixed(self) -> u32 {
+        let dimension = match self {
+            Self::Pixel => 0,
+            Self::Lens => 1,
+            Self::Light(number) => 2 + number,
+            Self::Around => u32::MAX,
+        };
+        hash(dimension ^ 0x9e37_79b9)
+    }
+}
+
+/// What the samples of a pixel are scrambled with, for one use.
 #[derive(Clone, Copy, Debug)]
 struct Keys {
     index: u32,
@@ -80,6 +81,12 @@ struct Keys {
 }
 
 impl Keys {
+    #[inline(always)]
+    fn new(pixel: u32, purpose: u32) -> Self {
+        let index = hash(pixel ^ purpose);
+        Self { index, x: hash(index ^ 0x68bc_21eb), y: hash(index ^ 0x02e5_be93) }
+    }
+
     #[inline(always)]
     fn pair(self, index: u32) -> [f32; 2] {
         // Scrambling the index as a number sends every aligned block of a power of two of
@@ -140,6 +147,22 @@ impl Samplers8 {
     }
 }
 
+/// [`Samplers8::pair`] of each. The loop does nothing else, so that the processor works on several at a time; those of
+/// the same pixels, which follow one another, share what they have in common.
+#[inline(always)]
+pub(crate) fn pairs(samplers: &[Samplers8], purpose: Use, to: &mut Vec<[[f32; 8]; 2]>) {
+    to.resize(samplers.len(), [[0.5; 8]; 2]);
+    let Some(mut last) = samplers.first() else { return };
+    let mut places = Places8::new(last, purpose);
+    for (samplers, to) in samplers.iter().zip(to) {
+        if samplers.key != last.key {
+            places = Places8::new(samplers, purpose);
+            last = samplers;
+        }
+        *to = places.at(samplers.index);
+    }
+}
+
 /// Several places for each of eight samples.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(32))]
@@ -172,8 +195,9 @@ impl Places8 {
         let Samplers8 { key, centred, .. } = *samplers;
         let mut places = Self { index: key, x: key, y: key, centred };
         if !centred {
-            for lane in 0..8 {
-                let Keys { index, x, y } = samplers.get(lane).keys(purpose);
+            let purpose = purpose.mixed();
+            for (lane, &key) in key.iter().enumerate() {
+                let Keys { index, x, y } = Keys::new(key, purpose);
                 (places.index[lane], places.x[lane], places.y[lane]) = (index, x, y);
             }
         }

@@ -12,7 +12,7 @@ use super::shadow_rays::{Starts, aim};
 use crate::light::{Light, LightSample, Reach};
 use crate::math::Dir3;
 use crate::math::lanes::{Lanes3, direction, dot, get, load3, scale, set, store3};
-use crate::sampling::{Samplers8, Use};
+use crate::sampling::{Samplers8, Use, pairs};
 use crate::terms::{Term, Terms};
 use crate::view::Fixture;
 use crate::witness::{LightContribution, Witness};
@@ -21,6 +21,8 @@ use crate::witness::{LightContribution, Witness};
 #[derive(Default)]
 pub(super) struct LightSamples {
     samples: Vec<LightSample8>,
+    /// The places of a soft light that they are of, in the unit square.
+    places: Vec<[[f32; 8]; 2]>,
     /// The rays that are needed to find out whether the light is visible.
     shadow_rays: Vec<Rays8>,
     /// Whether they are put to where they start, which is the same for all lights.
@@ -86,7 +88,7 @@ impl Integrator<'_> {
         to: &mut LightSamples,
     ) -> u64 {
         let light = &self.scene.lights()[number];
-        let LightSamples { samples, shadow_rays, started, blocked, hits, left } = to;
+        let LightSamples { samples, places, shadow_rays, started, blocked, hits, left } = to;
         left.clear();
         samples.resize(rays.len(), LightSample8::NONE);
         shadow_rays.resize(rays.len(), Rays8::NONE);
@@ -105,6 +107,7 @@ impl Integrator<'_> {
             interactions,
             samplers,
             samples,
+            places,
             shadow_rays,
         });
         if self.scene.has_filters() {
@@ -230,6 +233,7 @@ struct SampleLight<'a> {
     interactions: &'a Interactions,
     samplers: &'a [Samplers8],
     samples: &'a mut [LightSample8],
+    places: &'a mut Vec<[[f32; 8]; 2]>,
     shadow_rays: &'a mut [Rays8],
 }
 
@@ -239,7 +243,10 @@ impl Kernel for SampleLight<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> u64 {
         let Self { light, fixture, purpose, casts, interactions, .. } = self;
-        let Self { samplers, samples, shadow_rays, .. } = self;
+        let Self { samplers, samples, places, shadow_rays, .. } = self;
+        if light.soft {
+            pairs(samplers, purpose, places);
+        }
         let brightest = f32x8::splat(simd, light.brightest());
         let mut count = 0;
         let Interactions { hits, surfaces, shading, .. } = interactions;
@@ -253,8 +260,8 @@ impl Kernel for SampleLight<'_> {
             if hits.met == 0 {
                 continue;
             }
-            let place = light.soft.then(|| samplers[i].pair(purpose));
-            let reach = light.reach8(simd, &surface.p, place.as_ref());
+            let place = light.soft.then(|| &places[i]);
+            let reach = light.reach8(simd, &surface.p, place);
             let mut above = is_above(reach.l, load3(simd, &shading.n));
             if casts {
                 // Smooth meshes have no horizon but N's: what else is below meets the mesh.
