@@ -7,6 +7,7 @@ use phong_bvh::{Lanes, Ray, Rays8, whole};
 use phong_scene::CameraKind;
 
 use crate::math::{Dir3, wide};
+use crate::sampling::concentric_disc;
 use crate::texture::Cone;
 
 /// A camera set up in f64, in the world.
@@ -127,7 +128,7 @@ impl Camera {
         let (width, height) = (f64::from(size[0]), f64::from(size[1]));
         let dir = match self.kind {
             CameraKind::Perspective { .. } | CameraKind::Orthographic { .. } => {
-                let lens = self.has_lens().then(|| concentric_disc(lens.map(f64::from)));
+                let lens = self.has_lens().then(|| concentric_disc(lens).map(f64::from));
                 let [x, y] = on_screen(place.to_array(), size);
                 let [origin, dir] = self.projective([x, y], lens);
                 return Some([origin, dir].map(DVec3::from_array));
@@ -192,7 +193,13 @@ impl Camera {
         to: &mut Rays8,
     ) {
         let [low_lens, high_lens] = match lens {
-            Some(lens) => concentric_disc8(simd, lens).map(Some),
+            Some(lens) => {
+                let [u, v] = lens;
+                let place = [f32x8::load_array_ref(simd, u), f32x8::load_array_ref(simd, v)];
+                let [x, y] = concentric_disc(place);
+                let (x, y) = (x.widen(), y.widen());
+                [Some([x.0, y.0]), Some([x.1, y.1])]
+            }
             None => [None, None],
         };
         let [low_o, low] = self.projective([x[0], y[0]], low_lens);
@@ -277,27 +284,6 @@ pub(crate) fn across_screen<F: Lanes<Scalar = f64>>(x: F, [width, height]: [u32;
 #[inline(always)]
 pub(crate) fn up_screen<F: Lanes<Scalar = f64>>(y: F, [_, height]: [u32; 2]) -> F {
     (y * -2.0 + f64::from(height)) / f64::from(height)
-}
-
-/// A point of the unit disc from one of the unit square, areas kept (Shirley and Chiu 1997).
-/// (½, ½) is the middle.
-#[inline(always)]
-pub(crate) fn concentric_disc<F: Lanes<Scalar = f64>>([u, v]: [F; 2]) -> [F; 2] {
-    let (a, b) = (u * 2.0 + -1.0, v * 2.0 + -1.0);
-    let across = a.abs().gt(b.abs());
-    // In the quarters above and below, x and y change their parts.
-    let (r, other) = (F::select(across, a, b), F::select(across, b, a));
-    let zero = r.splat(0.0);
-    let turn = F::select(r.abs().gt(zero), other / r, zero) * std::f64::consts::FRAC_PI_4;
-    let (sin, cos) = wide::sin_cos_of_eighth(turn);
-    [r * F::select(across, cos, sin), r * F::select(across, sin, cos)]
-}
-
-/// [`concentric_disc`] of eight points, four by four.
-#[inline(always)]
-pub(crate) fn concentric_disc8<S: Simd>(simd: S, [u, v]: &[[f32; 8]; 2]) -> [[f64x4<S>; 2]; 2] {
-    let (u, v) = (f32x8::load_array_ref(simd, u).widen(), f32x8::load_array_ref(simd, v).widen());
-    [concentric_disc([u.0, v.0]), concentric_disc([u.1, v.1])]
 }
 
 #[cfg(test)]
@@ -440,23 +426,6 @@ mod tests {
         let panorama = Camera::new(&camera(CameraKind::Panorama));
         let behind = panorama.seen_at(DVec3::new(0.0, 0.0, 9.0), SIZE).unwrap();
         assert_eq!(behind.x % 40.0, 0.0);
-    }
-
-    #[test]
-    fn the_disc_is_filled_evenly_from_its_middle_to_its_rim() {
-        assert_eq!(concentric_disc([0.5, 0.5]), [0.0, 0.0]);
-        let n = 100;
-        let mut within = 0;
-        for i in 0..n * n {
-            let at = |k: usize| (k as f64 + 0.5) / f64::from(n as u32);
-            let [x, y] = concentric_disc([at(i % n), at(i / n)]);
-            assert!(x * x + y * y < 1.0);
-            within += u32::from(x * x + y * y < 0.49);
-        }
-        assert!((f64::from(within) / f64::from((n * n) as u32) - 0.49).abs() < 0.005);
-        let [x, y] = concentric_disc([1.0, 0.75]);
-        let (sin, cos) = wide::sin_cos(std::f64::consts::FRAC_PI_8);
-        assert!((x - cos).abs() < 1e-15 && (y - sin).abs() < 1e-15);
     }
 
     #[test]

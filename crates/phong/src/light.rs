@@ -8,10 +8,10 @@ use glam::{DVec3, Vec3};
 use phong_bvh::{Lanes, halves};
 use phong_scene::{LightKind, Rgb};
 
-use crate::camera::{concentric_disc, concentric_disc8};
 use crate::math::lanes::{add, dot, normalize, scale, select3, splat3, sub};
 use crate::math::{Dir3, wide};
-use area::{Area, Chosen, choose_of_disc, choose_of_sphere};
+use crate::sampling::concentric_disc;
+use area::{Area, Chosen};
 use mesh::LuminousMesh;
 
 /// The share of its way by which the surface of a light may lie behind another and still be seen: one that is
@@ -75,16 +75,6 @@ impl LightSample {
         let (color, specular_color) = (self.color * left, self.specular_color * left);
         Self { color, specular_color, ..*self }
     }
-}
-
-/// Which point of a light is looked for.
-enum Aim<F> {
-    /// Its middle.
-    Middle,
-    /// That of a place in the unit disc.
-    Place([F; 2]),
-    /// That which this is the way to.
-    Way([F; 3]),
 }
 
 /// How a light reaches a point, or eight: without colours.
@@ -264,18 +254,8 @@ impl Light {
         if let Kind::Mesh { attenuation, mesh } = &self.kind {
             return mesh.reach(*attenuation, p, place);
         }
-        let toward = self.toward(p.to_array());
-        let middle = toward.map(|v| v as f32);
-        let aim = match self.rectangle() {
-            Some(rectangle) => {
-                Aim::Way(rectangle.choose(toward, place.map(f64::from)).map(|v| v as f32))
-            }
-            None if self.soft => {
-                Aim::Place(concentric_disc(place.map(f64::from)).map(|v| v as f32))
-            }
-            None => Aim::Middle,
-        };
-        let Reach { l, distance, share } = self.arrive(middle, aim);
+        let toward = self.toward(p.to_array()).map(|v| v as f32);
+        let Reach { l, distance, share } = self.arrive(toward, self.soft.then_some(place));
         (l != [0.0; 3]).then(|| Reach { l: Dir3::from_unit(Vec3::from(l)), distance, share })
     }
 
@@ -292,20 +272,9 @@ impl Light {
             return mesh.reach8(simd, *attenuation, p, place);
         }
         let [low, high] = self.toward8(simd, p);
-        let aim = match (self.rectangle(), place) {
-            (_, None) => Aim::Middle,
-            (Some(rectangle), Some([u, v])) => {
-                let u = f32x8::load_array_ref(simd, u).widen();
-                let v = f32x8::load_array_ref(simd, v).widen();
-                let low = rectangle.choose(low, [u.0, v.0]);
-                Aim::Way(narrow(low, rectangle.choose(high, [u.1, v.1])))
-            }
-            (None, Some(place)) => {
-                let [low, high] = concentric_disc8(simd, place);
-                Aim::Place([low[0].narrow(high[0]), low[1].narrow(high[1])])
-            }
-        };
-        self.arrive(narrow(low, high), aim)
+        let place =
+            place.map(|[u, v]| [f32x8::load_array_ref(simd, u), f32x8::load_array_ref(simd, v)]);
+        self.arrive(narrow(low, high), place)
     }
 
     /// [`Light::toward`] from eight points, four by four.
@@ -314,13 +283,6 @@ impl Light {
         let ([x, x_high], [y, y_high], [z, z_high]) =
             (halves(simd, &p[0]), halves(simd, &p[1]), halves(simd, &p[2]));
         [self.toward([x, y, z]), self.toward([x_high, y_high, z_high])]
-    }
-
-    fn rectangle(&self) -> Option<&area::Rectangle> {
-        match &self.kind {
-            Kind::Area { area: Area::Rectangle(rectangle), .. } => Some(rectangle),
-            _ => None,
-        }
     }
 
     /// The way from one point, or several, to where the light is; of a distant one unspecified.
@@ -334,10 +296,14 @@ impl Light {
         }
     }
 
-    /// How it reaches one point, or eight, given the way to where the light is; `l` is 0 where the light
-    /// is.
+    /// How it reaches one point, or eight, given the way to where the light is, and of a soft light a place in
+    /// the unit square; `l` is 0 where the light is.
     #[inline(always)]
-    fn arrive<F: Lanes<Scalar = f32>>(&self, mut toward: [F; 3], aim: Aim<F>) -> Reach<[F; 3], F> {
+    fn arrive<F: Lanes<Scalar = f32>>(
+        &self,
+        mut toward: [F; 3],
+        place: Option<[F; 2]>,
+    ) -> Reach<[F; 3], F> {
         let width = toward[0];
         match &self.kind {
             // It is reached point by point.
@@ -347,16 +313,17 @@ impl Light {
             }
             Kind::Distant { to_light, half_angle_tan } => {
                 let mut l = splat3(width, to_light.to_array());
-                if let Aim::Place(place) = aim {
-                    l = normalize(add(l, across(width.splat(*half_angle_tan), l, place)));
+                if let Some(place) = place {
+                    let aside = across(width.splat(*half_angle_tan), l, concentric_disc(place));
+                    l = normalize(add(l, aside));
                 }
                 Reach { l, distance: width.splat(f32::INFINITY), share: width.splat(1.0) }
             }
             Kind::Point { attenuation, radius, cone, .. } => {
                 let middle = toward;
-                if let Aim::Place(place) = aim {
+                if let Some(place) = place {
                     let axis = normalize(toward);
-                    let aside = across(width.splat(*radius), axis, place);
+                    let aside = across(width.splat(*radius), axis, concentric_disc(place));
                     // Where the light is there is no way aside.
                     let (zero, length) = (width.splat(0.0), dot(axis, axis));
                     let aside = select3(zero.lt(length), aside, [zero; 3]);
@@ -370,15 +337,9 @@ impl Light {
                 Reach { l, distance, share: self.within(middle, share) }
             }
             Kind::Area { attenuation, area, .. } => {
-                let chosen = match (area, aim) {
-                    (Area::Sphere { radius }, Aim::Place(place)) => {
-                        choose_of_sphere(*radius, toward, place)
-                    }
-                    (&Area::Disc { facing, radius }, Aim::Place(place)) => {
-                        choose_of_disc((facing, radius), toward, place)
-                    }
-                    (_, Aim::Way(way)) => Chosen { toward: way, weight: width.splat(1.0) },
-                    _ => Chosen { toward, weight: width.splat(1.0) },
+                let chosen = match place {
+                    Some(place) => area.choose(toward, place),
+                    None => Chosen { toward, weight: width.splat(1.0) },
                 };
                 let Reach { l, distance, share } = arrival(chosen.toward, *attenuation);
                 let mut share = share * chosen.weight;

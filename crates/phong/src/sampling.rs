@@ -5,6 +5,10 @@
 //! Hash-based Owen Scrambling*, 2020). Any power of two of samples is stratified in every
 //! elementary interval. One sample is the middle of everything.
 
+use phong_bvh::Lanes;
+
+use crate::math::lanes::sin_cos_of_eighth;
+
 /// What the coordinates of a pair are used for. Every use has its own, uncorrelated pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Use {
@@ -219,6 +223,20 @@ impl Places8 {
     }
 }
 
+/// A point of the unit disc from one of the unit square, areas kept (Shirley and Chiu 1997).
+/// (½, ½) is the middle.
+#[inline(always)]
+pub(crate) fn concentric_disc<F: Lanes<Scalar = f32>>([u, v]: [F; 2]) -> [F; 2] {
+    let (a, b) = (u * 2.0 - 1.0, v * 2.0 - 1.0);
+    let across = a.abs().gt(b.abs());
+    // In the quarters above and below, x and y change their parts.
+    let (r, other) = (F::select(across, a, b), F::select(across, b, a));
+    let zero = r.splat(0.0);
+    let turn = F::select(r.abs().gt(zero), other / r, zero) * std::f32::consts::FRAC_PI_4;
+    let (sin, cos) = sin_cos_of_eighth(turn);
+    [r * F::select(across, cos, sin), r * F::select(across, sin, cos)]
+}
+
 /// The 24 highest bits as a number in [0, 1).
 #[inline(always)]
 fn unit(bits: u32) -> f32 {
@@ -267,6 +285,7 @@ fn hash(mut x: u32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::sin_cos;
 
     fn points(count: u32, purpose: Use) -> Vec<[f32; 2]> {
         (0..count).map(|i| Sampler::new([3, 7], i, count, 1).pair(purpose)).collect()
@@ -352,6 +371,23 @@ mod tests {
                 assert_eq!([u[i], v[i]], own(i).at(7).pair(Use::Pixel));
             }
         }
+    }
+
+    #[test]
+    fn the_disc_is_filled_evenly_from_its_middle_to_its_rim() {
+        assert_eq!(concentric_disc([0.5_f32; 2]), [0.0; 2]);
+        let n = 100_u16;
+        let at = |k: u16| (f32::from(k) + 0.5) / f32::from(n);
+        let mut within = 0;
+        for i in 0..n * n {
+            let [x, y] = concentric_disc([at(i % n), at(i / n)]);
+            assert!(x * x + y * y < 1.0);
+            within += u16::from(x * x + y * y < 0.49);
+        }
+        assert!((f32::from(within) / f32::from(n * n) - 0.49).abs() < 0.005);
+        let [x, y] = concentric_disc([1.0, 0.75]);
+        let (sin, cos) = sin_cos(std::f32::consts::FRAC_PI_8);
+        assert!((x - cos).abs() < 1e-7 && (y - sin).abs() < 1e-7);
     }
 
     #[test]

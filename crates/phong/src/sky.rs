@@ -222,9 +222,9 @@ mod tests {
             let sky = daylight(turbidity);
             let (mut sum, n) = (0.0, 60_u32);
             for i in 0..n * n {
-                let (u, v) = (f64::from(i % n) + 0.5, f64::from(i / n) + 0.5);
-                let [x, z] = crate::camera::concentric_disc([u / f64::from(n), v / f64::from(n)]);
-                let dir = DVec3::new(x, (1.0 - x * x - z * z).sqrt(), z).as_vec3();
+                let place = [i % n, i / n].map(|k| (k as f32 + 0.5) / n as f32);
+                let [x, z] = crate::sampling::concentric_disc(place);
+                let dir = Vec3::new(x, (1.0 - x * x - z * z).sqrt(), z);
                 sum += f64::from(sky.radiance(dir).luminance());
             }
             let mean = sum / f64::from(n * n);

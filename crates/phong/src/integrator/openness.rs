@@ -14,10 +14,9 @@ use super::Integrator;
 use super::bundle::Radiance8;
 use super::interactions::{Interactions, is_above};
 use super::shadow_rays::Starts;
-use crate::camera::concentric_disc8;
 use crate::light::across;
 use crate::math::lanes::{Lanes3, add, get, load3, normalize, scale, set, store3};
-use crate::sampling::{Samplers8, Use};
+use crate::sampling::{Samplers8, Use, concentric_disc};
 use crate::sky::Sky;
 use crate::terms::Term;
 use crate::view::Occlusion;
@@ -226,8 +225,9 @@ impl Kernel for Spread<'_> {
             let (n, front) = (load3(simd, &shading.n), load3(simd, &shading.front));
             let smooth = mask32x8::from_bitmask(simd, shading.smooth.into());
             for (number, to) in numbers.clone().zip(to) {
-                let [low, high] = concentric_disc8(simd, &places.at(number, samples));
-                let [u, v] = [low[0].narrow(high[0]), low[1].narrow(high[1])];
+                let [u, v] = places.at(number, samples);
+                let place = [f32x8::load_array(simd, u), f32x8::load_array(simd, v)];
+                let [u, v] = concentric_disc(place);
                 let up = one - u * u - v * v;
                 let up = up.simd_gt(zero).select(up, zero).sqrt();
                 let dir = normalize(add(across(one, n, [u, v]), scale(up, n)));

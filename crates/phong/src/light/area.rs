@@ -7,8 +7,8 @@ use glam::{DVec3, Vec3};
 use phong_bvh::{Lanes, lanes::cross};
 
 use super::across;
-use crate::math::lanes::{add, dot, normalize, scale, select3, splat3, sub};
-use crate::math::wide;
+use crate::math::lanes::{add, dot, normalize, scale, select3, sin_cos_of_eighth, splat3, sub};
+use crate::sampling::concentric_disc;
 
 /// The surface of a light, about its middle.
 #[derive(Clone, Debug)]
@@ -28,9 +28,9 @@ pub(super) enum Area {
 #[derive(Clone, Debug)]
 pub(super) struct Rectangle {
     /// Along its width, its height, and the way it faces; unit and perpendicular to one another.
-    axes: [DVec3; 3],
+    axes: [Vec3; 3],
     /// Half its width and half its height.
-    half: [f64; 2],
+    half: [f32; 2],
 }
 
 impl Area {
@@ -38,8 +38,8 @@ impl Area {
         let facing = direction.normalize_or(DVec3::NEG_Y);
         let up =
             phong_scene::LightKind::upright(facing, up).unwrap_or(facing.any_orthonormal_vector());
-        let axes = [facing.cross(up), up, facing];
-        Self::Rectangle(Rectangle { axes, half: size.map(|size| 0.5 * size) })
+        let axes = [facing.cross(up), up, facing].map(DVec3::as_vec3);
+        Self::Rectangle(Rectangle { axes, half: size.map(|size| (0.5 * size) as f32) })
     }
 
     pub(super) fn disc(direction: DVec3, radius: f64) -> Self {
@@ -54,8 +54,9 @@ impl Area {
     /// The way it faces; `None`: it shines all around.
     pub(super) fn facing(&self) -> Option<Vec3> {
         match self {
-            Self::Rectangle(Rectangle { axes: [.., facing], .. }) => Some(facing.as_vec3()),
-            Self::Disc { facing, .. } => Some(*facing),
+            Self::Rectangle(Rectangle { axes: [.., facing], .. }) | Self::Disc { facing, .. } => {
+                Some(*facing)
+            }
             Self::Sphere { .. } => None,
         }
     }
@@ -67,10 +68,10 @@ impl Area {
         let (zero, none) = (dir[0].splat(0.0), dir[0].splat(f32::INFINITY));
         match self {
             Self::Rectangle(Rectangle { axes: [width, height, facing], half }) => {
-                let (t, from_middle) = meet_plane(facing.as_vec3(), toward, dir);
-                let x = dot(from_middle, splat3(zero, width.as_vec3().to_array())).abs();
-                let y = dot(from_middle, splat3(zero, height.as_vec3().to_array())).abs();
-                let (across, up) = (zero.splat(half[0] as f32), zero.splat(half[1] as f32));
+                let (t, from_middle) = meet_plane(*facing, toward, dir);
+                let x = dot(from_middle, splat3(zero, width.to_array())).abs();
+                let y = dot(from_middle, splat3(zero, height.to_array())).abs();
+                let (across, up) = (zero.splat(half[0]), zero.splat(half[1]));
                 F::select(x.gt(across) | y.gt(up), none, t)
             }
             Self::Disc { facing, radius } => {
@@ -106,6 +107,27 @@ fn meet_plane<F: Lanes<Scalar = f32>>(facing: Vec3, toward: [F; 3], dir: [F; 3])
     (F::select(seen, t, none), sub(scale(F::select(seen, t, zero), dir), toward))
 }
 
+impl Area {
+    /// A point of it, seen from where `toward` leads to its middle, by a `place` of the unit square.
+    #[inline(always)]
+    pub(super) fn choose<F: Lanes<Scalar = f32>>(
+        &self,
+        toward: [F; 3],
+        place: [F; 2],
+    ) -> Chosen<F> {
+        match self {
+            Self::Rectangle(rectangle) => {
+                let one = place[0].splat(1.0);
+                Chosen { toward: rectangle.choose(toward, place), weight: one }
+            }
+            &Self::Disc { facing, radius } => {
+                choose_of_disc((facing, radius), toward, concentric_disc(place))
+            }
+            Self::Sphere { radius } => choose_of_sphere(*radius, toward, concentric_disc(place)),
+        }
+    }
+}
+
 /// A point of a light that was chosen, seen from a point.
 pub(super) struct Chosen<F> {
     /// The way to it.
@@ -119,121 +141,102 @@ impl Rectangle {
     /// `place` is of the unit square.
     ///
     /// After Ureña, Fajardo and King, *An Area-Preserving Parametrization for Spherical Rectangles*, 2013;
-    /// their angles are kept as points of the unit circle, so that one arc tangent is enough.
+    /// their angles are kept as points of the plane, so that one arc tangent is enough.
     #[inline(always)]
-    pub(super) fn choose<F: Lanes<Scalar = f64>>(&self, toward: [F; 3], place: [F; 2]) -> [F; 3] {
-        /// Below this solid angle a spherical rectangle is a flat one to rounding.
-        const FLAT: f64 = 1e-8;
-        let (zero, one) = (place[0].splat(0.0), place[0].splat(1.0));
-        let [right, up, facing] = self.axes;
-        let (x, y, z) = (along(toward, right), along(toward, up), along(toward, facing));
+    fn choose<F: Lanes<Scalar = f32>>(&self, toward: [F; 3], place: [F; 2]) -> [F; 3] {
+        /// A spherical rectangle of a smaller solid angle is filled as a flat one: rounding would show.
+        const FLAT: f32 = 1e-4;
+        let (half, one) = (place[0].splat(0.5), place[0].splat(1.0));
         let [half_width, half_height] = self.half;
-        let (x0, x1) = (x - half_width, x + half_width);
-        let (y0, y1) = (y - half_height, y + half_height);
-        // How far its plane is, and never 0; the sign is that of the paper.
-        let depth = -z.abs().at_least(1e-12 * (half_width + half_height));
+        let right = splat3(one, self.axes[0].to_array());
+        let up = splat3(one, self.axes[1].to_array());
+        let facing = splat3(one, self.axes[2].to_array());
+        let (x, y, depth) = (dot(toward, right), dot(toward, up), dot(toward, facing).abs());
+        // In a unit that no length is greater than, so that their products stay in range.
+        let unit = x.abs() + y.abs() + depth + (half_width + half_height);
+        let share = one / unit;
+        let (x0, x1) = ((x - half_width) * share, (x + half_width) * share);
+        let (y0, y1) = ((y - half_height) * share, (y + half_height) * share);
+        // How far its plane is, and never 0.
+        let depth = (depth * share).at_least(1e-7);
         let square = depth * depth;
-        // Normals of the planes through the edges: (0, a, b) for those along x, (c, 0, d) for those along y.
-        let (c1, d1) = edge_normal(depth, square, x1);
-        let (c3, d3) = edge_normal(depth, square, x0);
-        let (a0, b0) = edge_normal(depth, square, y0);
-        let (a2, b2) = edge_normal(depth, square, y1);
-        let (b0, d3) = (-b0, -d3);
-        let (a2, c1) = (-a2, -c1);
-        let (g0, g1) = (between_edges([a0, b0], [c1, d1]), between_edges([a2, b2], [c1, d1]));
-        let (g2, g3) = (between_edges([a2, b2], [c3, d3]), between_edges([a0, b0], [c3, d3]));
-        let far = times(g2, g3);
-        let solid_angle = turn(times(times(g0, g1), far));
-        // The angle of the paper's slice: k + u S, with k = −(g2 + g3).
-        let [cos, sin] = times([far[0], -far[1]], on_circle(place[0] * solid_angle));
-        let slope = (cos * b0 - b2) / sin;
-        let size = one / (slope * slope + b0 * b0).sqrt();
-        let cu = F::select(slope.gt(zero), size, -size);
-        let rest = (one - cu * cu).at_least(1e-30).sqrt();
-        let xu = within(-(cu * depth) / rest, x0, x1);
-        let distance = (xu * xu + square).sqrt();
-        let h0 = y0 / (xu * xu + square + y0 * y0).sqrt();
-        let h1 = y1 / (xu * xu + square + y1 * y1).sqrt();
+        // The paper's angles at the four corners, whose sum is 2π more than the solid angle.
+        let right_corners =
+            times([y0 * x1, at_corner(depth, x1, y0)], [-(y1 * x1), at_corner(depth, x1, y1)]);
+        let left_corners =
+            times([y1 * x0, at_corner(depth, x0, y1)], [-(y0 * x0), at_corner(depth, x0, y0)]);
+        let solid_angle = turn(times(right_corners, left_corners));
+        // The angle of the paper's slice: that of the left corners taken from a share of the solid angle.
+        let [cos, sin] =
+            times([left_corners[0], -left_corners[1]], on_circle(place[0] * solid_angle));
+        // The slope of the plane that ends the slice, by the distance of the lower edge.
+        let lower = square + y0 * y0;
+        let slope = -(cos * y0 + (square + x0 * x0) * lower * y1) / sin;
+        let steep = (slope.abs() - depth) * (slope.abs() + depth);
+        let aside = depth * (lower / steep.at_least(1e-30)).sqrt();
+        let xu = within(F::select(slope.gt(slope.splat(0.0)), aside, -aside), x0, x1);
+        let square = xu * xu + square;
+        let h0 = y0 / (square + y0 * y0).sqrt();
+        let h1 = y1 / (square + y1 * y1).sqrt();
         let h = h0 + place[1] * (h1 - h0);
-        let yv = within(h * distance / (one - h * h).at_least(1e-30).sqrt(), y0, y1);
-        let flat = solid_angle.lt(zero.splat(FLAT));
-        let xu = F::select(flat, x0 + place[0] * (2.0 * half_width), xu);
-        let yv = F::select(flat, y0 + place[1] * (2.0 * half_height), yv);
-        let middle = place[0].eq(zero.splat(0.5)) & place[1].eq(zero.splat(0.5));
-        let (xu, yv) = (F::select(middle, x, xu), F::select(middle, y, yv));
-        [
-            xu * right.x + yv * up.x + z * facing.x,
-            xu * right.y + yv * up.y + z * facing.y,
-            xu * right.z + yv * up.z + z * facing.z,
-        ]
+        let yv = within(h * (square / (one - h * h).at_least(1e-30)).sqrt(), y0, y1);
+        // From its middle; from the middle of all places there is no way.
+        let flat = solid_angle.lt(one * FLAT) | (place[0].eq(half) & place[1].eq(half));
+        let across = F::select(flat, (place[0] - 0.5) * (2.0 * half_width), xu * unit - x);
+        let along = F::select(flat, (place[1] - 0.5) * (2.0 * half_height), yv * unit - y);
+        add(toward, add(scale(across, right), scale(along, up)))
     }
 }
 
-/// How far a way leads along an axis.
+/// How far a corner is, times the distance of the plane that it is in.
 #[inline(always)]
-fn along<F: Lanes<Scalar = f64>>(way: [F; 3], axis: DVec3) -> F {
-    way[0] * axis.x + way[1] * axis.y + way[2] * axis.z
+fn at_corner<F: Lanes<Scalar = f32>>(depth: F, x: F, y: F) -> F {
+    depth * (x * x + y * y + depth * depth).sqrt()
 }
 
-/// The two numbers that a normal of the plane through an edge has: `edge` is where that is, `square` the square
-/// of `depth`.
+/// The sum of the angles of two points of the plane, as that of a third.
 #[inline(always)]
-fn edge_normal<F: Lanes<Scalar = f64>>(depth: F, square: F, edge: F) -> (F, F) {
-    let length = (square + edge * edge).sqrt();
-    (depth / length, edge / length)
-}
-
-/// The angle between the planes of (0, a, b) and (c, 0, d): cosine and sine.
-#[inline(always)]
-fn between_edges<F: Lanes<Scalar = f64>>([a, b]: [F; 2], [c, d]: [F; 2]) -> [F; 2] {
-    let (p, q, r) = (a * d, b * c, a * c);
-    [-(b * d), (p * p + q * q + r * r).sqrt()]
-}
-
-/// The sum of two angles, each by its cosine and sine.
-#[inline(always)]
-fn times<F: Lanes<Scalar = f64>>([a, b]: [F; 2], [c, d]: [F; 2]) -> [F; 2] {
+fn times<F: Lanes<Scalar = f32>>([a, b]: [F; 2], [c, d]: [F; 2]) -> [F; 2] {
     [a * c - b * d, a * d + b * c]
 }
 
 /// The nearest number between two.
 #[inline(always)]
-fn within<F: Lanes<Scalar = f64>>(v: F, low: F, high: F) -> F {
+fn within<F: Lanes<Scalar = f32>>(v: F, low: F, high: F) -> F {
     let v = v.max(low);
     F::select(v.gt(high), high, v)
 }
 
-/// The angle of a point of the unit circle, given by cosine and sine, in [0, 2π); a hair below 0 is 0.
+/// The angle of a point of the plane, in [0, 2π); a hair below 0 is 0.
 #[inline(always)]
-fn turn<F: Lanes<Scalar = f64>>([cos, sin]: [F; 2]) -> F {
-    use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
-    let zero = cos.splat(0.0);
-    let (x, y) = (cos.abs(), sin.abs());
-    let steep = y.gt(x);
-    let (low, high) = (F::select(steep, x, y), F::select(steep, y, x));
-    let slope = low / high;
+fn turn<F: Lanes<Scalar = f32>>([x, y]: [F; 2]) -> F {
+    use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+    let zero = x.splat(0.0);
+    let (a, b) = (x.abs(), y.abs());
+    let steep = b.gt(a);
+    let (low, high) = (F::select(steep, a, b), F::select(steep, b, a));
     // Beyond the tangent of π/8 it is counted from π/4.
-    let large = slope.gt(zero.splat(0.414_213_562_373_095));
-    let t = F::select(large, (low - high) / (low + high), slope);
+    let large = low.gt(high * 0.414_213_57);
+    let t = F::select(large, low - high, low) / F::select(large, low + high, high);
     let square = t * t;
-    // The series of the arc tangent, to 1e-11 of it.
-    let mut sum = zero.splat(1.0 / 25.0);
-    for k in (0..12).rev() {
+    // The series of the arc tangent, to rounding.
+    let mut sum = zero.splat(1.0 / 17.0);
+    for k in (0..8_u8).rev() {
         let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
-        sum = sum * square + sign / f64::from(2 * k + 1);
+        sum = sum * square + sign / f32::from(2 * k + 1);
     }
     let angle = sum * t + F::select(large, zero.splat(FRAC_PI_4), zero);
     let angle = F::select(steep, -angle + FRAC_PI_2, angle);
-    let angle = F::select(cos.lt(zero), -angle + PI, angle);
-    let rounding = angle.lt(zero.splat(1e-9));
-    let angle = F::select(sin.lt(zero), -angle + 2.0 * PI, angle);
-    F::select(sin.lt(zero) & rounding, zero, angle)
+    let angle = F::select(x.lt(zero), -angle + PI, angle);
+    let rounding = angle.lt(zero.splat(1e-5));
+    let angle = F::select(y.lt(zero), -angle + 2.0 * PI, angle);
+    F::select(y.lt(zero) & rounding, zero, angle)
 }
 
 /// Cosine and sine of an angle from 0 to 2π.
 #[inline(always)]
-fn on_circle<F: Lanes<Scalar = f64>>(angle: F) -> [F; 2] {
-    let (mut sin, mut cos) = wide::sin_cos_of_eighth(angle * 0.125);
+fn on_circle<F: Lanes<Scalar = f32>>(angle: F) -> [F; 2] {
+    let (mut sin, mut cos) = sin_cos_of_eighth(angle * 0.125);
     for _ in 0..3 {
         (sin, cos) = (sin * cos * 2.0, cos * cos - sin * sin);
     }
@@ -348,7 +351,6 @@ fn per_sector<F: Lanes<Scalar = f32>>(q: F) -> F {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::camera::concentric_disc;
 
     const FACING: DVec3 = DVec3::NEG_Z;
     /// Points to the light's middle: straight, aslant, near, far, grazing, and so near that it fills half of
@@ -390,34 +392,34 @@ mod tests {
         for toward in TOWARD {
             let points = grid(300).map(|[u, v]| [(u - 0.5) * width, (v - 0.5) * height]);
             let expected = mean_of_area(toward, points);
-            let ways = grid(40).map(|place| DVec3::from_array(rectangle.choose(toward, place)));
+            let middle = toward.map(|v| v as f32);
+            let ways = grid(40).map(|place| {
+                Vec3::from(rectangle.choose(middle, place.map(|v| v as f32))).as_dvec3()
+            });
+            let slack = 1e-6 * DVec3::from_array(toward).length();
             let mut mean = DVec3::ZERO;
             for way in ways {
                 let aside = way - DVec3::from_array(toward);
-                assert!(aside.x.abs() <= width / 2.0 + 1e-9, "{toward:?}: {aside}");
-                assert!(aside.y.abs() <= height / 2.0 + 1e-9 && aside.z.abs() < 1e-9);
+                assert!(aside.x.abs() <= width / 2.0 + slack, "{toward:?}: {aside}");
+                assert!(aside.y.abs() <= height / 2.0 + slack && aside.z.abs() <= slack);
                 mean += way.normalize_or_zero() / 1600.0;
             }
             assert!(mean.distance(expected) < 2e-3, "{toward:?}: {mean} instead of {expected}");
-            assert_eq!(rectangle.choose(toward, [0.5; 2]), toward, "its middle");
+            assert_eq!(rectangle.choose(middle, [0.5; 2]), middle, "its middle");
         }
     }
 
     #[test]
     fn a_rectangle_far_away_is_filled_as_a_flat_one() {
-        let Area::Rectangle(rectangle) = Area::rectangle(FACING, Some(DVec3::Y), [1e-3, 2e-3])
-        else {
+        let Area::Rectangle(rectangle) = Area::rectangle(FACING, Some(DVec3::Y), [1.0, 2.0]) else {
             panic!("a rectangle");
         };
-        for distance in [0.5, 5.0, 50.0, 1e4] {
+        for distance in [90.0_f32, 200.0, 5000.0] {
             let toward = [0.3 * distance, 0.0, distance];
             let [x, y, _] = rectangle.choose(toward, [0.25, 0.75]);
             // Facing −Z with +Y up, the width runs along −X.
-            let [x, y] = [(x - toward[0]) / 1e-3, (y - toward[1]) / 2e-3];
-            assert!(
-                (x.abs() - 0.25).abs() < 1e-3 && (y - 0.25).abs() < 1e-3,
-                "{distance}: {x} {y}"
-            );
+            let [x, y] = [(x - toward[0]).abs(), (y - toward[1]) / 2.0];
+            assert!((x - 0.25).abs() < 1e-3 && (y - 0.25).abs() < 1e-3, "{distance}: {x} {y}");
         }
     }
 
@@ -425,11 +427,13 @@ mod tests {
     fn places_of_a_disc_are_even_over_its_solid_angle() {
         let radius = 0.5;
         for toward in TOWARD {
-            let on = |place: [f64; 2]| concentric_disc(place).map(|v| radius * v);
+            let on = |place: [f64; 2]| {
+                concentric_disc(place.map(|v| v as f32)).map(|v| radius * f64::from(v))
+            };
             let expected = mean_of_area(toward, grid(400).map(on));
             let (mut mean, mut weights) = (DVec3::ZERO, 0.0);
             for place in grid(60) {
-                let place = concentric_disc(place).map(|v| v as f32);
+                let place = concentric_disc(place.map(|v| v as f32));
                 let toward = toward.map(|v| v as f32);
                 let facing = FACING.as_vec3();
                 let Chosen { toward: way, weight } =
@@ -453,7 +457,7 @@ mod tests {
             let edge = (1.0 - 1.0 / (distance * distance)).sqrt();
             let mut mean = 0.0;
             for place in grid(60) {
-                let place = concentric_disc(place).map(|v| v as f32);
+                let place = concentric_disc(place.map(|v| v as f32));
                 let Chosen { toward: way, .. } = choose_of_sphere(1.0, toward, place);
                 let cos = normalize(way)[0] * 0.6 + normalize(way)[2] * 0.8;
                 assert!(f64::from(cos) > edge - 1e-6);

@@ -27,6 +27,17 @@ pub(crate) fn mirror<F: Lanes<Scalar = f32>>(n: [F; 3], l: [F; 3]) -> [F; 3] {
     [twice * n[0] - l[0], twice * n[1] - l[1], twice * n[2] - l[2]]
 }
 
+/// Sine and cosine of up to an eighth of a turn, `|x| ≤ π/4`: their series, to rounding.
+#[inline(always)]
+pub(crate) fn sin_cos_of_eighth<F: Lanes<Scalar = f32>>(x: F) -> (F, F) {
+    let square = x * x;
+    let sin = square * (1.0 / 362_880.0) - 1.0 / 5_040.0;
+    let sin = ((sin * square + 1.0 / 120.0) * square - 1.0 / 6.0) * square + 1.0;
+    let cos = square * (1.0 / 40_320.0) - 1.0 / 720.0;
+    let cos = ((cos * square + 1.0 / 24.0) * square - 0.5) * square + 1.0;
+    (sin * x, cos)
+}
+
 /// Three coordinates, eight of each.
 pub(crate) type Lanes3 = [[f32; 8]; 3];
 
@@ -76,6 +87,18 @@ pub(crate) fn direction(lanes: &Lanes3, lane: usize) -> Dir3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::wide;
+
+    #[test]
+    fn the_series_of_an_eighth_are_sine_and_cosine() {
+        for i in -1000_i16..=1000 {
+            let x = f32::from(i) / 1000.0 * std::f32::consts::FRAC_PI_4;
+            let (sin, cos) = sin_cos_of_eighth(x);
+            let exact = wide::sin_cos(f64::from(x));
+            assert!((f64::from(sin) - exact.0).abs() < 1.2e-7, "{x}");
+            assert!((f64::from(cos) - exact.1).abs() < 1.2e-7, "{x}");
+        }
+    }
 
     #[test]
     fn eight_directions_have_the_bits_of_one_the_extreme_ones_too() {
