@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import json
 import os
 import pickle
 import signal
@@ -16,7 +17,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from drawing import dressed
+from drawing import covered, dressed
 
 import phong
 
@@ -264,3 +265,26 @@ def test_what_makes_up_a_look_is_said_in_python_and_each_part_is_seen(tmp_path: 
         assert phong.render(other, **options) != whole
     phong.convert(scene, tmp_path / "scene.toml")
     assert phong.render(phong.Scene.read(tmp_path / "scene.toml"), **options) == whole
+
+
+def test_points_of_a_gltf_file_with_a_camera_are_as_large_as_the_picture_needs(
+    tmp_path: Path,
+) -> None:
+    places = np.array([[-1, 0, 0], [1, 0, 0], [0, 0.5, 0]], dtype="<f4")
+    (tmp_path / "places.bin").write_bytes(places.tobytes())
+    document = {
+        "asset": {"version": "2.0"},
+        "buffers": [{"uri": "places.bin", "byteLength": 36}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "mode": 0}]}],
+        "cameras": [{"type": "perspective", "perspective": {"yfov": 0.7, "znear": 0.1}}],
+        "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0, 0, 2000]}],
+        "scenes": [{"nodes": [0, 1]}],
+    }
+    path = tmp_path / "points.gltf"
+    path.write_text(json.dumps(document))
+    scene = phong.Scene.read(path)
+    for size in ((320, 160), (64, 32)):
+        pixels = phong.render(scene, size=size, samples=1).to_srgb8()
+        assert covered(pixels) * size[0] * size[1] > 10

@@ -269,6 +269,7 @@ impl Snapshot {
             if self.automatic.lights {
                 scene.light();
             }
+            scene.fit_guessed();
             return (scene, Vec::new());
         };
         let image = scene.image.clone();
@@ -286,6 +287,7 @@ impl Snapshot {
         if self.automatic.lights {
             scene.lights = framed.lights;
         }
+        scene.fit_guessed();
         (scene, said)
     }
 
@@ -297,16 +299,17 @@ impl Snapshot {
     pub(crate) fn prepare(self, image: Image, max_bytes: Option<u64>) -> Result<Ready, ViewError> {
         let asked = (image.size, image.background);
         let Compiled { geometry, stale, last } = &self.compiled;
+        // Points and lines whose radius was guessed are as thick as the picture needs them.
+        let guessed = self.scene.all_objects().any(|object| object.shape.guessed().is_some());
+        let is_sized = guessed || self.framing.is_some();
         if let Some((known, ready)) = last
-            && (self.framing.is_none() || known.0 == asked.0)
+            && (!is_sized || known.0 == asked.0)
             && known.1 == asked.1
         {
             return Ok(ready.clone());
         }
         let (scene, mut warnings) = self.framed(image);
         let version = self.version;
-        // Points and lines whose radius was guessed are as thick as the picture needs them.
-        let guessed = scene.all_objects().any(|object| object.shape.guessed().is_some());
         let fresh = *stale || guessed || geometry.is_none();
         let geometry = match geometry {
             Some(geometry) if !fresh => Arc::clone(geometry),
