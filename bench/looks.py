@@ -2,12 +2,13 @@
 """What a look costs: CPU time of a picture with it over that of the same picture without.
 
     cargo build --release && python3 bench/looks.py [textures,area,many,occlusion,cut,outline,bonds] [--ply dragon.ply.gz]
-                                                    [--runs 5] [--phong PHONG] [--tachyon TACHYON]
+                                                    [--runs 5] [--phong PHONG] [--tachyon TACHYON] [--ovito PYTHON]
 
     textures    a mesh with an image as colour and another as normals; goal 1.4 at most
-    area        a rectangle, disc or sphere as light; goal 1.3 of a point light at most
+    area        a rectangle, disc or sphere as light; goal 1.3 of a point light at most; a box that glows, of twelve triangles
     many        64 lights that end (`range`, a spot's edge) over one of them, and over 64 that do not; goal: far less than 64
-    occlusion   64 rays of ambient occlusion; with Tachyon, how many times as long that takes: goal 5 at least
+    occlusion   64 rays of ambient occlusion; with Tachyon, how many times as long that takes: goal 5 at least; with a Python
+                that has OVITO, how long OSPRay takes for 16 samples, each of which meets the light around once: goal 2 at least
     cut         a `[[clip]]` through the mesh or the spheres
     outline     an `[outline]`
     bonds       a million bonds over as many balls that hide as much; goal 1.25 at most
@@ -94,6 +95,8 @@ def area(folder, ply):
             toward = "direction = [5, -6, -5]\n" if kind in ("rectangle", "disc") else ""
             light = f'\n[[light]]\nkind = "{kind}"\nposition = [-5, 7, 5]\n{toward}{keys}'
             texts[f"{name}, {kind}"] = text + light
+        box = '\n[[box]]\nname = "lamp"\nmin = [-5.5, 6.5, 4.5]\nmax = [-4.5, 7.5, 5.5]\n'
+        texts[f"{name}, mesh"] = text + box + '\n[[light]]\nkind = "mesh"\nobject = "lamp"\n'
     return texts
 
 
@@ -184,6 +187,7 @@ def main():
     parser.add_argument("--threads", type=int, default=os.cpu_count(), help="default: all")
     parser.add_argument("--phong", default=str(ROOT / "target/release/phong"), help="the program")
     parser.add_argument("--tachyon", default=shutil.which("tachyon"), help="Tachyon, for ambient occlusion")
+    parser.add_argument("--ovito", help="a Python that has OVITO, for OSPRay's ambient occlusion")
     parser.add_argument("--folder", type=Path, default=ROOT / "target/looks", help="where scenes and pictures go")
     options = parser.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
@@ -204,12 +208,17 @@ def main():
                     *(options.tachyon, str(options.folder / f"{name}.dat"), "-numthreads", str(options.threads), "-shade_phong"),
                     *("-format", "PNG", "-aasamples", "0", "-add_skylight", "0.5", "-skylight_samples", "64", "-o", str(picture)),
                 ]
+        if case == "occlusion" and options.ovito:
+            for name in ("spheres-100k", "mesh"):
+                peer, picture = ROOT / "bench/ospray_peer.py", options.folder / f"{name}.ospray.png"
+                lines[f"{name}, OSPRay"] = [options.ovito, str(peer), str(options.folder / f"{name}.toml"), str(picture), "16"]
         least = dict.fromkeys(lines, float("inf"))
         for _ in range(options.runs):
             for name, line in lines.items():
                 least[name] = min(least[name], measure(line)[1])
         for name, seconds in least.items():
-            other = name.replace("Tachyon", "occlusion") if "Tachyon" in name else base_of(name, list(texts))
+            is_peer = name not in texts
+            other = f"{name.partition(', ')[0]}, occlusion" if is_peer else base_of(name, list(texts))
             print(f"| {case} | {name} | {seconds:.2f} | {seconds / least[other]:.2f} of {other} |", flush=True)
 
 

@@ -1,9 +1,9 @@
-"""Draws a benchmark scene with OVITO's OSPRay: `python3 ospray_peer.py SCENE.toml OUT.png`.
+"""Draws a benchmark scene with OVITO's OSPRay: `python3 ospray_peer.py SCENE.toml OUT.png [SAMPLES]`.
 
-Reads the scene that bench/scenes.py writes for phong, with its PLY, and draws the same view at one sample a pixel, in
-one pass, not denoised. What differs is less work for OSPRay: OVITO has no point light, so of the two lights it draws the
-distant one, with hard shadows; materials are its own. Paths end at what the camera sees, and what is ambient in phong
-is a dim light all around, met by chance: dark where it is hidden, grainy where it is not.
+Reads the scene that bench/scenes.py writes for phong, with its PLY, and draws the same view at one sample a pixel, or
+as many as are asked for, in one pass, not denoised. What differs is less work for OSPRay: OVITO has no point light, so
+of the two lights it draws the distant one, with hard shadows; materials are its own. Paths end at what the camera sees,
+and what is ambient in phong is a dim light all around, met by chance: dark where it is hidden, grainy where it is not.
 """
 
 import math
@@ -61,6 +61,7 @@ def smooth(path, color):
 
 def main():
     source, target = Path(sys.argv[1]), sys.argv[2]
+    samples = int(sys.argv[3]) if len(sys.argv) > 3 else 1
     written = tomllib.loads(source.read_text())
     data = DataCollection()
     for cloud in written.get("points", []):
@@ -79,7 +80,7 @@ def main():
     view.fov = math.radians(camera["fov"])
     sun = -unit(next(light["direction"] for light in written["light"] if light["kind"] == "distant"))
     renderer = OSPRayRenderer(
-        samples_per_pixel=1,
+        samples_per_pixel=samples,
         refinement_iterations=1,
         denoising_enabled=False,
         pixel_filter=0,
