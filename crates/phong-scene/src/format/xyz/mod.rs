@@ -9,7 +9,7 @@
 //! | `Lattice="…"`, `Origin="…"` | the cell |
 //! | other columns | numbers that can be drawn by, called `column 5`, … |
 //! | a title behind the count, and rows of `number name x y z type bonds…` | atoms as Tinker writes them, whose bonds are those of their distances |
-//! | no count at all | points `x y z`, `x y z value`, `x y z r g b` or `x y z value r g b`; one line of words before them names the columns |
+//! | no count at all | points `x y z`, `x y z value`, `x y z r g b` or `x y z value r g b`, or atoms `symbol x y z`; there may be one line of words before them |
 //!
 //! An atom whose place is NaN or beyond 1e18 is left out and counted. A file of fewer atoms than it
 //! says is an error, unless it is read leniently.
@@ -58,7 +58,7 @@ fn atoms(
     let word = cursor.word();
     let tinker = tinker_rows(&cursor);
     if !is_integer(word) || cursor.more() && tinker.is_none() {
-        return points::read(blob, file, input, first, findings);
+        return points::read(blob, file, input, first, drawing, findings);
     }
     let count = Decimal::scan(word).and_then(Decimal::to_integer).unwrap_or(-1);
     let Ok(count) = u64::try_from(count) else {

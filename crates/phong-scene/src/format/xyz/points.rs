@@ -1,37 +1,51 @@
-//! Files of points without a count, which go by the name of XYZ too.
+//! Files of points or atoms without a count, which go by the name of XYZ too.
 
 use std::io;
 use std::sync::Arc;
 
+use super::plain;
+use crate::elements::number_of_label;
 use crate::format::atoms::{Layout, Slot, Table};
 use crate::format::input::Input;
 use crate::format::text::{Cursor, Decimal, Findings};
-use crate::molecule::{Column, Molecule};
+use crate::molecule::{Column, Drawing, Molecule};
 use crate::source::Blob;
 
-/// Reads the points that begin at `cursor`, or behind one line of words.
+/// Reads the points or atoms that begin at `cursor`, or behind one line of words.
 pub(super) fn read(
     blob: &dyn Blob,
     file: &Arc<str>,
     input: &Input<'_>,
     mut cursor: Cursor<'_>,
+    drawing: &Drawing,
     findings: &mut Findings,
 ) -> io::Result<Option<Molecule>> {
     let first = cursor.clone();
-    let mut row = values(&cursor);
-    if row.len() < 3 {
+    if layout(&cursor, drawing).is_none() {
         cursor.next_line();
-        row = values(&cursor);
     }
-    if row.len() < 3 {
+    let Some(layout) = layout(&cursor, drawing) else {
         let message = || {
-            "the file is no XYZ: it begins neither with a count of atoms nor with points `x y z`"
+            "the file is no XYZ: it begins neither with a count of atoms nor with points `x y z` or atoms `C x y z`"
                 .to_owned()
         };
         findings.error("other files", || first.here(file), message);
         return Ok(None);
-    }
+    };
     let (start, line) = (cursor.at() as u64, cursor.line);
+    let table =
+        Table { blob, file, limits: input.limits, start, line, count: None, layout, shares: false };
+    Ok(Some(table.read(findings)?.0))
+}
+
+/// The layout that a line shows; `None`: it is neither of a point nor of an atom.
+fn layout(cursor: &Cursor<'_>, drawing: &Drawing) -> Option<Layout> {
+    let row = values(cursor);
+    if row.len() < 3 {
+        let mut place = cursor.clone();
+        number_of_label(place.word())?;
+        return (values(&place).len() >= 3).then(|| plain(&mut cursor.clone(), drawing));
+    }
     let mut slots = vec![Slot::Place(0), Slot::Place(1), Slot::Place(2)];
     let mut columns = Vec::new();
     let are_bytes =
@@ -49,10 +63,7 @@ pub(super) fn read(
     if colored {
         slots.extend([0, 1, 2].map(Slot::Color));
     }
-    let layout = Layout { slots, columns, bytes };
-    let table =
-        Table { blob, file, limits: input.limits, start, line, count: None, layout, shares: false };
-    Ok(Some(table.read(findings)?.0))
+    Some(Layout { slots, columns, bytes })
 }
 
 /// The numbers of a line that holds nothing else.
