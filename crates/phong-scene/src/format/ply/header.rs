@@ -36,7 +36,8 @@ impl Type {
     fn from_name(name: &[u8]) -> Option<Self> {
         Some(match name {
             b"char" | b"int8" => Self::I8,
-            b"uchar" | b"uint8" => Self::U8,
+            // As pyntcloud writes what is true or false.
+            b"uchar" | b"uint8" | b"bool" => Self::U8,
             b"short" | b"int16" => Self::I16,
             b"ushort" | b"uint16" => Self::U16,
             b"int" | b"int32" => Self::I32,
