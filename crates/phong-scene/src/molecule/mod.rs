@@ -119,6 +119,11 @@ impl Cell {
         })
     }
 
+    /// Whether it is the cube of 1 Å, which stands for none in files of structures without a cell.
+    pub(crate) fn stands_for_none(&self) -> bool {
+        self.edges.iter().zip(DVec3::AXES).all(|(edge, axis)| edge.distance(axis) < 1e-3)
+    }
+
     /// The place that shares along the edges stand for.
     pub(crate) fn place(&self, shares: DVec3) -> DVec3 {
         let [a, b, c] = self.edges;

@@ -121,7 +121,7 @@ fn follow(
             sphere[0] = f32::NAN;
         }
     }
-    molecule.cell = frame.cell.or(molecule.cell);
+    molecule.cell = frame.cell.filter(|cell| !cell.stands_for_none()).or(molecule.cell);
     let one = input.topology.is_none();
     let said = if lost > 0 {
         let message =

@@ -189,8 +189,7 @@ impl Block {
         let lengths = [number("length_a")?, number("length_b")?, number("length_c")?];
         let angles = ["angle_alpha", "angle_beta", "angle_gamma"];
         let angles = angles.map(|angle| number(angle).unwrap_or(90.0));
-        let none = lengths == [1.0; 3];
-        Cell::of_angles(lengths, angles).filter(|_| !none)
+        Cell::of_angles(lengths, angles)
     }
 
     fn finish(mut self, file: &Arc<str>, findings: &mut Findings) -> Option<Molecule> {
@@ -229,7 +228,7 @@ impl Block {
             return None;
         }
         let mut molecule = sites.finish(cell, file, findings);
-        molecule.cell = cell;
+        molecule.cell = cell.filter(|cell| !cell.stands_for_none());
         Some(molecule)
     }
 }

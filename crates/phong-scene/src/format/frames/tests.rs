@@ -110,6 +110,17 @@ fn a_trajectory_is_read_in_either_order_of_bytes_with_cells_and_fixed_atoms() {
 }
 
 #[test]
+fn the_cube_of_one_angstrom_that_stands_for_none_is_no_cell() {
+    let changes = [changes(), vec![Change::parse("molecule.1.cell=true").unwrap()]].concat();
+    for (length, is_cell) in [(9.0, true), (1.0, false)] {
+        let cell = Some([length, 0.0, length, 0.0, 0.0, length]);
+        let files = files(Written { cell, ..PLAIN }.file());
+        let reading = read_changed("dir/a.xyz", None, &files, &Limits::default(), &changes);
+        assert_eq!(reading.scene.is_some(), is_cell, "{:?}", reading.diagnostics);
+    }
+}
+
+#[test]
 fn frames_of_an_xtc_are_read_one_by_one_up_to_the_one_that_is_broken() {
     let xtc = include_bytes!("../../../tests/trajectories/waters.xtc");
     let atoms = include_bytes!("../../../tests/trajectories/waters.xyz");

@@ -5,7 +5,7 @@
 //! | columns 1–5, 6–10, 11–15 | the residue's number and name, the atom's name |
 //! | the coordinates | in nanometres, ten times that in Å; how wide they are is told by how far their points are apart |
 //! | velocities | in nanometres a picosecond, as they are: the columns `vx`, `vy` and `vz`, read where they are asked for |
-//! | the last line | the cell: three lengths, or nine numbers |
+//! | the last line | the cell: three lengths, or nine numbers; none, where it is the cube of 1 Å |
 //! | later frames | not drawn, which is told |
 //!
 //! Elements are those that the atoms' names begin with; `Me` is a methyl group in one, drawn as carbon. A file of fewer atoms than it says is an error,
@@ -203,5 +203,7 @@ fn cell_of(line: Fixed<'_>) -> Option<Cell> {
         _ => return None,
     };
     let cell = Cell { origin: DVec3::ZERO, edges };
-    (n.iter().all(|n| n.is_finite()) && cell.thickness() > 0.0).then_some(cell)
+    let sound =
+        n.iter().all(|n| n.is_finite()) && cell.thickness() > 0.0 && !cell.stands_for_none();
+    sound.then_some(cell)
 }

@@ -208,6 +208,5 @@ fn cell_of(line: Fixed<'_>) -> Option<Cell> {
     let number = |start, end| line.number(start, end);
     let lengths = [number(6, 15)?, number(15, 24)?, number(24, 33)?];
     let angles = [number(33, 40)?, number(40, 47)?, number(47, 54)?];
-    let none = lengths == [1.0; 3] || lengths == [0.0; 3];
-    Cell::of_angles(lengths, angles).filter(|_| !none)
+    Cell::of_angles(lengths, angles).filter(|cell| !cell.stands_for_none())
 }
