@@ -21,8 +21,8 @@ const WATER: [&str; 15] = [
 ];
 
 /// Names of the sites of water models which hold a charge, and are no atoms: of four sites, of five.
-const SITE: [&str; 12] =
-    ["MW", "MW1", "M", "OM", "EP", "EPW", "EP1", "EP2", "LP", "LP1", "LP2", "LPA"];
+const SITE: [&str; 14] =
+    ["MW", "MW1", "M", "M1", "M2", "OM", "EP", "EPW", "EP1", "EP2", "LP", "LP1", "LP2", "LPA"];
 
 /// Names of ions that stand alone.
 const ION: [&str; 30] = [
