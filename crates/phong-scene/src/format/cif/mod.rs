@@ -223,9 +223,13 @@ impl Block {
             findings.note("symmetry", || whole(file), message);
         }
         if fractional && cell.is_none() {
-            let message = || "the places are shares of a cell, but the file says none".to_owned();
-            findings.error("cells", || whole(file), message);
-            return None;
+            let message = "the places are shares of a cell, but the file says none";
+            if !sites.are_lengths() {
+                findings.error("cells", || whole(file), || message.to_owned());
+                return None;
+            }
+            let message = || format!("{message}: they are taken as Å, as Open Babel writes them");
+            findings.warning("cells", || whole(file), message);
         }
         let mut molecule = sites.finish(cell, file, findings);
         molecule.cell = cell.filter(|cell| !cell.stands_for_none());

@@ -266,6 +266,11 @@ impl Sites {
         }
     }
 
+    /// Whether its places, which the file calls shares of a cell, are lengths: shares are hardly beyond 2.
+    pub(super) fn are_lengths(&self) -> bool {
+        self.places.iter().any(|place| place.abs().max_element() > 2.0)
+    }
+
     /// The atoms, put where they are in the cell.
     pub(super) fn finish(
         self,
