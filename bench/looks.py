@@ -88,6 +88,9 @@ def textures(folder, ply):
 
 def area(folder, ply):
     kinds = {"point": "", "rectangle": "width = 2\nheight = 1\n", "disc": "radius = 0.8\n", "sphere": "radius = 0.8\n"}
+    corners = "".join(f"{x} {y} {z}\n" for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5))
+    sides = "4 0 1 3 2\n4 4 6 7 5\n4 0 4 5 1\n4 2 3 7 6\n4 0 2 6 4\n4 1 5 7 3\n"
+    (folder / "lamp.off").write_text(f"OFF\n8 6 12\n{corners}{sides}")
     texts = {}
     for name, samples in (("slide", 16), ("mesh", 4)):
         text = LIGHT.sub("", base(name, folder, ply)[1]).replace("samples = 1", f"samples = {samples}")
@@ -95,8 +98,8 @@ def area(folder, ply):
             toward = "direction = [5, -6, -5]\n" if kind in ("rectangle", "disc") else ""
             light = f'\n[[light]]\nkind = "{kind}"\nposition = [-5, 7, 5]\n{toward}{keys}'
             texts[f"{name}, {kind}"] = text + light
-        box = '\n[[box]]\nname = "lamp"\nmin = [-5.5, 6.5, 4.5]\nmax = [-4.5, 7.5, 5.5]\n'
-        texts[f"{name}, mesh"] = text + box + '\n[[light]]\nkind = "mesh"\nobject = "lamp"\n'
+        lamp = '\n[[mesh]]\nfile = "lamp.off"\nname = "lamp"\ntranslate = [-5, 7, 5]\n'
+        texts[f"{name}, mesh"] = text + lamp + '\n[[light]]\nkind = "mesh"\nobject = "lamp"\n'
     return texts
 
 

@@ -251,9 +251,6 @@ impl Light {
 
     /// How it reaches `p`, as [`Light::sample`] has it.
     pub(crate) fn reach(&self, p: DVec3, place: [f32; 2]) -> Option<Reach<Dir3, f32>> {
-        if let Kind::Mesh { attenuation, mesh } = &self.kind {
-            return mesh.reach(*attenuation, p, place);
-        }
         let toward = self.toward(p.to_array()).map(|v| v as f32);
         let Reach { l, distance, share } = self.arrive(toward, self.soft.then_some(place));
         (l != [0.0; 3]).then(|| Reach { l: Dir3::from_unit(Vec3::from(l)), distance, share })
@@ -268,9 +265,6 @@ impl Light {
         p: &[[f64; 8]; 3],
         place: Option<&[[f32; 8]; 2]>,
     ) -> Reach<[f32x8<S>; 3], f32x8<S>> {
-        if let Kind::Mesh { attenuation, mesh } = &self.kind {
-            return mesh.reach8(simd, *attenuation, p, place);
-        }
         let [low, high] = self.toward8(simd, p);
         let place =
             place.map(|[u, v]| [f32x8::load_array_ref(simd, u), f32x8::load_array_ref(simd, v)]);
@@ -285,15 +279,15 @@ impl Light {
         [self.toward([x, y, z]), self.toward([x_high, y_high, z_high])]
     }
 
-    /// The way from one point, or several, to where the light is; of a distant one unspecified.
+    /// The way from one point, or several, to where the light is, of a mesh to its middle; of a distant one unspecified.
     #[inline(always)]
     fn toward<F: Lanes<Scalar = f64>>(&self, p: [F; 3]) -> [F; 3] {
-        match self.kind {
-            Kind::Distant { .. } | Kind::Mesh { .. } => p,
-            Kind::Point { position, .. } | Kind::Area { position, .. } => {
-                sub(splat3(p[0], position.to_array()), p)
-            }
-        }
+        let position = match &self.kind {
+            Kind::Distant { .. } => return p,
+            Kind::Point { position, .. } | Kind::Area { position, .. } => position,
+            Kind::Mesh { mesh, .. } => &mesh.middle,
+        };
+        sub(splat3(p[0], position.to_array()), p)
     }
 
     /// How it reaches one point, or eight, given the way to where the light is, and of a soft light a place in
@@ -306,10 +300,9 @@ impl Light {
     ) -> Reach<[F; 3], F> {
         let width = toward[0];
         match &self.kind {
-            // It is reached point by point.
-            Kind::Mesh { .. } => {
-                let none = width.splat(0.0);
-                Reach { l: [none; 3], distance: none, share: none }
+            Kind::Mesh { attenuation, mesh } => {
+                let middle = place.unwrap_or([width.splat(0.5); 2]);
+                arrival(mesh.choose(toward, middle).toward, *attenuation)
             }
             Kind::Distant { to_light, half_angle_tan } => {
                 let mut l = splat3(width, to_light.to_array());

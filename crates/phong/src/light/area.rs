@@ -209,7 +209,7 @@ fn within<F: Lanes<Scalar = f32>>(v: F, low: F, high: F) -> F {
 
 /// The angle of a point of the plane, in [0, 2π); a hair below 0 is 0.
 #[inline(always)]
-fn turn<F: Lanes<Scalar = f32>>([x, y]: [F; 2]) -> F {
+pub(super) fn turn<F: Lanes<Scalar = f32>>([x, y]: [F; 2]) -> F {
     use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, PI};
     let zero = x.splat(0.0);
     let (a, b) = (x.abs(), y.abs());
@@ -235,7 +235,7 @@ fn turn<F: Lanes<Scalar = f32>>([x, y]: [F; 2]) -> F {
 
 /// Cosine and sine of an angle from 0 to 2π.
 #[inline(always)]
-fn on_circle<F: Lanes<Scalar = f32>>(angle: F) -> [F; 2] {
+pub(super) fn on_circle<F: Lanes<Scalar = f32>>(angle: F) -> [F; 2] {
     let (mut sin, mut cos) = sin_cos_of_eighth(angle * 0.125);
     for _ in 0..3 {
         (sin, cos) = (sin * cos * 2.0, cos * cos - sin * sin);

@@ -7,28 +7,27 @@
 
 use std::sync::Arc;
 
-use fearless_simd::{Simd, f32x8, prelude::*};
 use glam::{DVec3, Vec3};
+use phong_bvh::{Lanes, lanes::cross};
 use phong_scene::Light;
 
-use super::{Reach, arrival};
-use crate::math::Dir3;
-use crate::math::lanes::{load3, set};
-use crate::math::wide::{atan2, sin_cos};
+use super::area::{Chosen, on_circle, turn};
+use crate::math::lanes::{add, dot, normalize, scale, select3, splat3, sub};
 
 /// A triangle seen at a smaller slope than this is seen from its own plane, where it gives nothing: so does the
 /// surface itself to its own points.
-const GRAZING: f64 = 1e-5;
+const GRAZING: f32 = 1e-5;
 
-/// A triangle of a smaller solid angle is filled as a flat one.
-const FLAT: f64 = 1e-6;
+/// A triangle of a smaller solid angle is filled as a flat one: rounding would show.
+const FLAT: f32 = 1e-3;
 
 /// The triangles of a mesh that shines.
 #[derive(Clone, Debug, Default)]
 pub(super) struct LuminousMesh {
-    triangles: Arc<[[DVec3; 3]]>,
+    /// About the middle.
+    triangles: Arc<[[Vec3; 3]]>,
     /// The middle of its surface.
-    middle: DVec3,
+    pub(super) middle: DVec3,
 }
 
 impl LuminousMesh {
@@ -40,123 +39,115 @@ impl LuminousMesh {
             (*a + *b + *c) / 3.0 * (area(triangle) / whole)
         };
         let sum = triangles.iter().map(middle).sum::<DVec3>();
-        Self {
-            triangles: triangles.into(),
-            middle: if sum.is_finite() { sum } else { DVec3::ZERO },
-        }
+        let middle = if sum.is_finite() { sum } else { DVec3::ZERO };
+        let about = |triangle: &[DVec3; 3]| triangle.map(|corner| (corner - middle).as_vec3());
+        Self { triangles: triangles.iter().map(about).collect(), middle }
     }
 
     /// How far from a point its farthest corner is.
     pub(super) fn reach_about(&self, center: DVec3) -> f64 {
         let corners = self.triangles.iter().flatten();
-        corners.map(|corner| corner.distance(center)).fold(0.0, f64::max)
+        let distance = |corner: &Vec3| (self.middle + corner.as_dvec3()).distance(center);
+        corners.map(distance).fold(0.0, f64::max)
     }
 
-    /// How it reaches a point.
-    pub(super) fn reach(
+    /// A point of it, seen from where `toward` leads to its middle, by a `place` of the unit square; from the middle of
+    /// that, its own. The way is 0 where nothing of it is seen.
+    #[inline(always)]
+    pub(super) fn choose<F: Lanes<Scalar = f32>>(
         &self,
-        attenuation: [f32; 3],
-        p: DVec3,
-        place: [f32; 2],
-    ) -> Option<Reach<Dir3, f32>> {
-        let toward = self.choose(p, place.map(f64::from))?;
-        let Reach { l, distance, share } = arrival(toward.as_vec3().to_array(), attenuation);
-        (l != [0.0; 3]).then(|| Reach { l: Dir3::from_unit(Vec3::from(l)), distance, share })
-    }
-
-    /// How it reaches eight points, one after the other; `l` is 0 where nothing of it is seen.
-    pub(super) fn reach8<S: Simd>(
-        &self,
-        simd: S,
-        attenuation: [f32; 3],
-        p: &[[f64; 8]; 3],
-        place: Option<&[[f32; 8]; 2]>,
-    ) -> Reach<[f32x8<S>; 3], f32x8<S>> {
-        let (mut l, mut distance, mut share) = ([[0.0; 8]; 3], [0.0; 8], [0.0; 8]);
-        for lane in 0..8 {
-            let p = DVec3::from_array(p.map(|all| all[lane]));
-            let place = place.map_or([0.5; 2], |place| place.map(|all| all[lane]));
-            if let Some(reach) = self.reach(attenuation, p, place) {
-                set(&mut l, lane, reach.l.to_array());
-                (distance[lane], share[lane]) = (reach.distance, reach.share);
-            }
-        }
-        let load = |lanes: &[f32; 8]| f32x8::load_array_ref(simd, lanes);
-        Reach { l: load3(simd, &l), distance: load(&distance), share: load(&share) }
-    }
-
-    /// The way from a point to one of its own, by a place of the unit square; from the middle of that, to the
-    /// middle of the surface. `None`: nothing of it is seen from there.
-    pub(super) fn choose(&self, p: DVec3, [u, v]: [f64; 2]) -> Option<DVec3> {
-        let seen = |triangle: &[DVec3; 3]| triangle.map(|corner| corner - p);
-        let mut angles = [0.0; Light::MOST_TRIANGLES];
+        toward: [F; 3],
+        place: [F; 2],
+    ) -> Chosen<F> {
+        let (zero, one) = (place[0].splat(0.0), place[0].splat(1.0));
+        let mut angles = [zero; Light::MOST_TRIANGLES];
+        let mut whole = zero;
         for (angle, triangle) in angles.iter_mut().zip(&*self.triangles) {
-            *angle = solid_angle(seen(triangle));
+            *angle = solid_angle(seen(toward, triangle));
+            whole = whole + *angle;
         }
-        let whole: f64 = angles[..self.triangles.len().min(angles.len())].iter().sum();
-        if whole <= 0.0 {
-            return None;
+        // Of those that are seen, the last that begins before the place.
+        let target = place[0] * whole;
+        let mut chosen = [[zero; 3]; 3];
+        let (mut before, mut begin, mut angle) = (zero, zero, zero);
+        for (triangle, &own) in self.triangles.iter().zip(&angles) {
+            let is_next = own.gt(zero) & !target.lt(before);
+            let [a, b, c] = seen(toward, triangle);
+            chosen[0] = select3(is_next, a, chosen[0]);
+            chosen[1] = select3(is_next, b, chosen[1]);
+            chosen[2] = select3(is_next, c, chosen[2]);
+            begin = F::select(is_next, before, begin);
+            angle = F::select(is_next, own, angle);
+            before = before + own;
         }
-        if u == 0.5 && v == 0.5 {
-            return Some(self.middle - p);
-        }
-        let (target, mut before, mut chosen) = (u * whole, 0.0, None);
-        for (triangle, angle) in self.triangles.iter().zip(angles) {
-            if angle > 0.0 {
-                chosen = Some((triangle, (target - before) / angle, angle));
-                before += angle;
-                if target < before {
-                    break;
-                }
-            }
-        }
-        let (triangle, u, angle) = chosen?;
-        Some(within(seen(triangle), [u.clamp(0.0, 1.0), v], angle))
+        let is_seen = angle.gt(zero);
+        let part = (target - begin) / F::select(is_seen, angle, one);
+        let part = F::select(part.gt(one), one, part);
+        let way = within(chosen, [part, place[1]], angle);
+        let (half, none) = (place[0].splat(0.5), [zero; 3]);
+        let is_middle = place[0].eq(half) & place[1].eq(half);
+        let way = select3(is_middle, toward, way);
+        Chosen { toward: select3(is_seen, way, none), weight: one }
     }
+}
+
+/// The ways to the corners of a triangle.
+#[inline(always)]
+fn seen<F: Lanes<Scalar = f32>>(toward: [F; 3], [a, b, c]: &[Vec3; 3]) -> [[F; 3]; 3] {
+    [
+        add(toward, splat3(toward[0], a.to_array())),
+        add(toward, splat3(toward[0], b.to_array())),
+        add(toward, splat3(toward[0], c.to_array())),
+    ]
 }
 
 /// The solid angle of a triangle whose corners these are the ways to, by van Oosterom and Strackee, *The Solid
 /// Angle of a Plane Triangle*, 1983; 0 from its own plane.
-fn solid_angle([a, b, c]: [DVec3; 3]) -> f64 {
-    let normal = (b - a).cross(c - a);
-    let volume = a.dot(normal).abs();
-    let (la, lb, lc) = (a.length(), b.length(), c.length());
-    if volume <= GRAZING * normal.length() * la.max(lb).max(lc) {
-        return 0.0;
-    }
-    let rest = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-    2.0 * atan2(volume, rest)
+#[inline(always)]
+fn solid_angle<F: Lanes<Scalar = f32>>([a, b, c]: [[F; 3]; 3]) -> F {
+    let normal = cross(sub(b, a), sub(c, a));
+    let volume = dot(a, normal).abs();
+    let (la, lb, lc) = (dot(a, a).sqrt(), dot(b, b).sqrt(), dot(c, c).sqrt());
+    let grazing = dot(normal, normal).sqrt() * la.max(lb).max(lc) * GRAZING;
+    let rest = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
+    F::select(volume.gt(grazing), turn([rest, volume]) * 2.0, volume.splat(0.0))
 }
 
 /// The way to a point of a triangle that fills its solid angle evenly: after Arvo, *Stratified Sampling of
 /// Spherical Triangles*, 1995.
-fn within([a, b, c]: [DVec3; 3], [u, v]: [f64; 2], angle: f64) -> DVec3 {
-    let flat = || {
-        let root = u.sqrt();
-        a * (1.0 - root) + b * (root * (1.0 - v)) + c * (root * v)
-    };
-    if angle < FLAT {
-        return flat();
+#[inline(always)]
+fn within<F: Lanes<Scalar = f32>>([a, b, c]: [[F; 3]; 3], [u, v]: [F; 2], angle: F) -> [F; 3] {
+    let (zero, one) = (u.splat(0.0), u.splat(1.0));
+    let root = u.sqrt();
+    let flat = add(scale(one - root, a), add(scale(root * (one - v), b), scale(root * v, c)));
+    let is_flat = angle.lt(one * FLAT);
+    if F::all(is_flat) {
+        return flat;
     }
-    let [x, y, z] = [a, b, c].map(DVec3::normalize_or_zero);
-    let (across, along) = (x.cross(y), x.cross(z));
-    let sizes = across.length() * along.length();
+    let (x, y, z) = (normalize(a), normalize(b), normalize(c));
+    let (across, along) = (cross(x, y), cross(x, z));
+    let sizes = (dot(across, across) * dot(along, along)).sqrt();
     // The angle at the first corner, by its cosine and sine.
-    let (cos, sin) = (across.dot(along) / sizes, x.dot(y.cross(z)).abs() / sizes);
-    let (area_sin, area_cos) = sin_cos(u * angle);
+    let (cos, sin) = (dot(across, along) / sizes, dot(x, cross(y, z)).abs() / sizes);
+    let [area_cos, area_sin] = on_circle(u * angle);
     let (s, t) = (area_sin * cos - area_cos * sin, area_cos * cos + area_sin * sin);
-    let (p, q) = (t - cos, s + sin * x.dot(y));
-    let cosine = ((q * t - p * s) * cos - q) / ((q * s + p * t) * sin);
-    let cosine = cosine.clamp(-1.0, 1.0);
-    let edge = |from: DVec3, to: DVec3, cosine: f64| {
-        let aside = (to - to.dot(from) * from).normalize_or_zero();
-        cosine * from + (1.0 - cosine * cosine).max(0.0).sqrt() * aside
-    };
-    let corner = edge(x, z, cosine);
-    let way = edge(y, corner, 1.0 - v * (1.0 - corner.dot(y)));
-    let normal = (b - a).cross(c - a);
-    let t = a.dot(normal) / way.dot(normal);
-    if t.is_finite() && t > 0.0 { way * t } else { flat() }
+    let (p, q) = (t - cos, s + sin * dot(x, y));
+    let corner = edge(x, z, ((q * t - p * s) * cos - q) / ((q * s + p * t) * sin));
+    let way = edge(y, corner, one - v * (one - dot(corner, y)));
+    let normal = cross(sub(b, a), sub(c, a));
+    let t = dot(a, normal) / dot(way, normal);
+    let is_met = t.gt(zero) & t.lt(zero.splat(f32::INFINITY)) & !is_flat;
+    select3(is_met, scale(t, way), flat)
+}
+
+/// The direction at an angle, given by its cosine, from one direction towards another.
+#[inline(always)]
+fn edge<F: Lanes<Scalar = f32>>(from: [F; 3], to: [F; 3], cosine: F) -> [F; 3] {
+    let one = cosine.splat(1.0);
+    let cosine = cosine.at_least(-1.0);
+    let cosine = F::select(cosine.gt(one), one, cosine);
+    let aside = normalize(sub(to, scale(dot(to, from), from)));
+    add(scale(cosine, from), scale((one - cosine * cosine).at_least(0.0).sqrt(), aside))
 }
 
 #[cfg(test)]
@@ -168,24 +159,29 @@ mod tests {
         (0..n * n).map(move |i| [at(i % n), at(i / n)])
     }
 
+    /// The ways from a point to corners.
+    fn ways(triangle: [DVec3; 3], p: DVec3) -> [[f32; 3]; 3] {
+        triangle.map(|corner| (corner - p).as_vec3().to_array())
+    }
+
     const TRIANGLE: [DVec3; 3] =
         [DVec3::new(-0.5, -0.4, 0.0), DVec3::new(0.7, -0.3, 0.1), DVec3::new(0.0, 0.6, -0.2)];
 
     #[test]
     fn a_corner_of_a_cube_is_an_eighth_of_all_directions() {
-        let angle = solid_angle([DVec3::X, DVec3::Y, DVec3::Z]);
-        assert!((angle - std::f64::consts::FRAC_PI_2).abs() < 1e-12, "{angle}");
-        let from_its_plane = TRIANGLE.map(|corner| corner - TRIANGLE[0].midpoint(TRIANGLE[1]));
+        let angle = solid_angle(ways([DVec3::X, DVec3::Y, DVec3::Z], DVec3::ZERO));
+        assert!((angle - std::f32::consts::FRAC_PI_2).abs() < 1e-6, "{angle}");
+        let from_its_plane = ways(TRIANGLE, TRIANGLE[0].midpoint(TRIANGLE[1]));
         assert_eq!(solid_angle(from_its_plane), 0.0);
     }
 
     #[test]
     fn places_of_a_triangle_are_even_over_its_solid_angle() {
         for p in [[0.1, 0.0, 0.3], [0.0, 0.1, 2.0], [3.0, -1.0, 1.0], [20.0, 10.0, -40.0]] {
-            let ways = TRIANGLE.map(|corner| corner - DVec3::from_array(p));
-            let angle = solid_angle(ways);
+            let corners = ways(TRIANGLE, DVec3::from_array(p));
+            let angle = solid_angle(corners);
             // The mean over the area, each point by the solid angle that it is seen under.
-            let [a, b, c] = ways;
+            let [a, b, c] = TRIANGLE.map(|corner| corner - DVec3::from_array(p));
             let normal = (b - a).cross(c - a);
             let (mut expected, mut whole) = (DVec3::ZERO, 0.0);
             for [u, v] in grid(300) {
@@ -196,11 +192,11 @@ mod tests {
                 expected += share * way.normalize_or_zero();
                 whole += share;
             }
-            assert!((whole / angle - 1.0).abs() < 2e-3, "{p:?}: {whole} and {angle}");
-            let ways = grid(60).map(|place| within([a, b, c], place, angle));
+            assert!((whole / f64::from(angle) - 1.0).abs() < 2e-3, "{p:?}: {whole} and {angle}");
+            let ways = grid(60).map(|place| within(corners, place.map(|v| v as f32), angle));
             let mut mean = DVec3::ZERO;
-            for way in ways {
-                assert!((way - a).dot(normal).abs() < 1e-9 * way.length(), "in its plane");
+            for way in ways.map(|way| Vec3::from(way).as_dvec3()) {
+                assert!((way - a).dot(normal).abs() < 1e-5 * way.length(), "in its plane");
                 mean += way.normalize_or_zero() / 3600.0;
             }
             let expected = expected / whole;
@@ -213,10 +209,13 @@ mod tests {
         let beside = TRIANGLE.map(|corner| corner + DVec3::new(4.0, 0.0, 0.0));
         let mesh = LuminousMesh::new(&[TRIANGLE, beside]);
         let p = DVec3::new(0.2, 0.1, 1.0);
-        let [near, far] = [TRIANGLE, beside].map(|t| solid_angle(t.map(|corner| corner - p)));
-        let chosen = grid(100).filter(|&place| mesh.choose(p, place).unwrap().x < 1.0).count();
-        assert!((chosen as f64 / 1e4 - near / (near + far)).abs() < 0.01, "{chosen}");
-        assert_eq!(mesh.choose(p, [0.5; 2]), Some(mesh.middle - p));
-        assert_eq!(LuminousMesh::default().choose(p, [0.1, 0.2]), None);
+        let [near, far] = [TRIANGLE, beside].map(|triangle| solid_angle(ways(triangle, p)));
+        let toward = (mesh.middle - p).as_vec3().to_array();
+        let way = |place: [f64; 2]| mesh.choose(toward, place.map(|v| v as f32)).toward;
+        let chosen = grid(100).filter(|&place| way(place)[0] < 1.0).count();
+        assert!((chosen as f32 / 1e4 - near / (near + far)).abs() < 0.01, "{chosen}");
+        assert_eq!(way([0.5; 2]), toward);
+        let none = LuminousMesh::default().choose(toward, [0.1, 0.2]);
+        assert_eq!(none.toward, [0.0; 3]);
     }
 }
