@@ -302,7 +302,7 @@ impl Light {
         match &self.kind {
             Kind::Mesh { attenuation, mesh } => {
                 let middle = place.unwrap_or([width.splat(0.5); 2]);
-                arrival(mesh.choose(toward, middle).toward, *attenuation)
+                arrival(mesh.choose(toward, middle), *attenuation)
             }
             Kind::Distant { to_light, half_angle_tan } => {
                 let mut l = splat3(width, to_light.to_array());

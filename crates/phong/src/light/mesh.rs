@@ -11,7 +11,7 @@ use glam::{DVec3, Vec3};
 use phong_bvh::{Lanes, lanes::cross};
 use phong_scene::Light;
 
-use super::area::{Chosen, on_circle, turn};
+use super::area::{on_circle, turn};
 use crate::math::lanes::{add, dot, normalize, scale, select3, splat3, sub};
 
 /// A triangle seen at a smaller slope than this is seen from its own plane, where it gives nothing: so does the
@@ -51,14 +51,10 @@ impl LuminousMesh {
         corners.map(distance).fold(0.0, f64::max)
     }
 
-    /// A point of it, seen from where `toward` leads to its middle, by a `place` of the unit square; from the middle of
-    /// that, its own. The way is 0 where nothing of it is seen.
+    /// The way to a point of it from where `toward` leads to its middle, by a `place` of the unit square; by the middle
+    /// of that, to its own. It is 0 where nothing of it is seen.
     #[inline(always)]
-    pub(super) fn choose<F: Lanes<Scalar = f32>>(
-        &self,
-        toward: [F; 3],
-        place: [F; 2],
-    ) -> Chosen<F> {
+    pub(super) fn choose<F: Lanes<Scalar = f32>>(&self, toward: [F; 3], place: [F; 2]) -> [F; 3] {
         let (zero, one) = (place[0].splat(0.0), place[0].splat(1.0));
         let mut angles = [zero; Light::MOST_TRIANGLES];
         let mut whole = zero;
@@ -87,7 +83,7 @@ impl LuminousMesh {
         let (half, none) = (place[0].splat(0.5), [zero; 3]);
         let is_middle = place[0].eq(half) & place[1].eq(half);
         let way = select3(is_middle, toward, way);
-        Chosen { toward: select3(is_seen, way, none), weight: one }
+        select3(is_seen, way, none)
     }
 }
 
@@ -211,11 +207,10 @@ mod tests {
         let p = DVec3::new(0.2, 0.1, 1.0);
         let [near, far] = [TRIANGLE, beside].map(|triangle| solid_angle(ways(triangle, p)));
         let toward = (mesh.middle - p).as_vec3().to_array();
-        let way = |place: [f64; 2]| mesh.choose(toward, place.map(|v| v as f32)).toward;
+        let way = |place: [f64; 2]| mesh.choose(toward, place.map(|v| v as f32));
         let chosen = grid(100).filter(|&place| way(place)[0] < 1.0).count();
         assert!((chosen as f32 / 1e4 - near / (near + far)).abs() < 0.01, "{chosen}");
         assert_eq!(way([0.5; 2]), toward);
-        let none = LuminousMesh::default().choose(toward, [0.1, 0.2]);
-        assert_eq!(none.toward, [0.0; 3]);
+        assert_eq!(LuminousMesh::default().choose(toward, [0.1, 0.2]), [0.0; 3]);
     }
 }
