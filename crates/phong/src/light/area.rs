@@ -141,7 +141,8 @@ impl Rectangle {
     /// `place` is of the unit square.
     ///
     /// After Ureña, Fajardo and King, *An Area-Preserving Parametrization for Spherical Rectangles*, 2013;
-    /// their angles are kept as points of the plane, so that one arc tangent is enough.
+    /// their angles are kept as points of the plane, so that one arc tangent is enough. Where the rectangle is seen at
+    /// less than a degree, a point may be off by a hundredth of its width.
     #[inline(always)]
     fn choose<F: Lanes<Scalar = f32>>(&self, toward: [F; 3], place: [F; 2]) -> [F; 3] {
         /// A spherical rectangle of a smaller solid angle is filled as a flat one: rounding would show.
@@ -174,12 +175,12 @@ impl Rectangle {
         let slope = -(cos * y0 + (square + x0 * x0) * lower * y1) / sin;
         let steep = (slope.abs() - depth) * (slope.abs() + depth);
         let aside = depth * (lower / steep.at_least(1e-30)).sqrt();
-        let xu = within(F::select(slope.gt(slope.splat(0.0)), aside, -aside), x0, x1);
+        let xu = clamp(F::select(slope.gt(slope.splat(0.0)), aside, -aside), x0, x1);
         let square = xu * xu + square;
         let h0 = y0 / (square + y0 * y0).sqrt();
         let h1 = y1 / (square + y1 * y1).sqrt();
         let h = h0 + place[1] * (h1 - h0);
-        let yv = within(h * (square / (one - h * h).at_least(1e-30)).sqrt(), y0, y1);
+        let yv = clamp(h * (square / (one - h * h).at_least(1e-30)).sqrt(), y0, y1);
         // From its middle; from the middle of all places there is no way.
         let flat = solid_angle.lt(one * FLAT) | (place[0].eq(half) & place[1].eq(half));
         let across = F::select(flat, (place[0] - 0.5) * (2.0 * half_width), xu * unit - x);
@@ -200,9 +201,9 @@ fn times<F: Lanes<Scalar = f32>>([a, b]: [F; 2], [c, d]: [F; 2]) -> [F; 2] {
     [a * c - b * d, a * d + b * c]
 }
 
-/// The nearest number between two.
+/// The nearest number between two; the lower where it is NaN.
 #[inline(always)]
-fn within<F: Lanes<Scalar = f32>>(v: F, low: F, high: F) -> F {
+pub(super) fn clamp<F: Lanes<Scalar = f32>>(v: F, low: F, high: F) -> F {
     let v = v.max(low);
     F::select(v.gt(high), high, v)
 }

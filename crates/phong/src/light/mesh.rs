@@ -11,7 +11,7 @@ use glam::{DVec3, Vec3};
 use phong_bvh::{Lanes, lanes::cross};
 use phong_scene::Light;
 
-use super::area::{on_circle, turn};
+use super::area::{clamp, on_circle, turn};
 use crate::math::lanes::{add, dot, normalize, scale, select3, splat3, sub};
 
 /// A triangle seen at a smaller slope than this is seen from its own plane, where it gives nothing: so does the
@@ -140,8 +140,7 @@ fn within<F: Lanes<Scalar = f32>>([a, b, c]: [[F; 3]; 3], [u, v]: [F; 2], angle:
 #[inline(always)]
 fn edge<F: Lanes<Scalar = f32>>(from: [F; 3], to: [F; 3], cosine: F) -> [F; 3] {
     let one = cosine.splat(1.0);
-    let cosine = cosine.at_least(-1.0);
-    let cosine = F::select(cosine.gt(one), one, cosine);
+    let cosine = clamp(cosine, -one, one);
     let aside = normalize(sub(to, scale(dot(to, from), from)));
     add(scale(cosine, from), scale((one - cosine * cosine).at_least(0.0).sqrt(), aside))
 }
