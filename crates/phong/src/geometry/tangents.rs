@@ -21,15 +21,31 @@ use phong_scene::Shared;
 
 use super::Geometry;
 use super::batch::{MeshAttributes, at_corners};
-use edges::beside;
+use edges::{NONE, beside};
 use groups::Groups;
 use slopes::Slopes;
 use sums::Sums;
 use weld::{Welded, weld};
 
-/// The tangents at the corners of each triangle: unit vectors in the mesh's own space, and 1 where texture
-/// coordinates are right-handed about the normal, −1 where they are mirrored.
-pub(crate) type Tangents = Vec<[[f32; 4]; 3]>;
+/// The tangents at the corners of each triangle.
+#[derive(Debug)]
+pub(crate) struct Tangents {
+    /// Where each corner has its own in `each`, or [`NONE`].
+    of: Vec<[u32; 3]>,
+    /// Unit vectors in the mesh's own space, and 1 where texture coordinates are right-handed about the normal, −1
+    /// where they are mirrored.
+    each: Vec<[f32; 4]>,
+}
+
+impl Tangents {
+    /// Those at a triangle's corners: 0 where a corner has none, `None` where there is no such triangle.
+    #[inline]
+    fn get(&self, triangle: usize) -> Option<[[f32; 4]; 3]> {
+        let [a, b, c] = *self.of.get(triangle)?;
+        let of = |place: u32| self.each.get(place as usize).copied().unwrap_or_default();
+        Some([of(a), of(b), of(c)])
+    }
+}
 
 /// The tangents of meshes that were asked for, by where their arrays lie.
 #[derive(Debug, Default)]
@@ -62,7 +78,7 @@ impl Geometry {
 
     /// The tangent at a hit of a mesh and the handedness of its texture coordinates, in the world.
     pub(crate) fn tangent(&self, hit: &Hit, tangents: &Tangents) -> Option<(DVec3, f64)> {
-        let [a, b, c] = *tangents.get(hit.prim as usize)?;
+        let [a, b, c] = tangents.get(hit.prim as usize)?;
         let vector = |[x, y, z, _]: [f32; 4]| DVec3::new(x.into(), y.into(), z.into());
         let (u, v) = (f64::from(hit.u), f64::from(hit.v));
         let own = (1.0 - u - v) * vector(a) + u * vector(b) + v * vector(c);
@@ -79,7 +95,7 @@ impl Geometry {
 /// The tangents of a mesh; all 0 where there are more triangles than their corners can be numbered.
 fn made(positions: &[Vec3], indices: &[[u32; 3]], mesh: &MeshAttributes) -> Tangents {
     if indices.len() > u32::MAX as usize / 3 {
-        return vec![[[0.0; 4]; 3]; indices.len()];
+        return Tangents { of: vec![[NONE; 3]; indices.len()], each: Vec::new() };
     }
     let units = mesh.normals.iter().map(|n| n.try_normalize().unwrap_or(Vec3::ZERO)).collect();
     let corners = Corners { positions, indices, mesh, units };
@@ -88,53 +104,47 @@ fn made(positions: &[Vec3], indices: &[[u32; 3]], mesh: &MeshAttributes) -> Tang
         a == b || b == c || c == a
     };
     let all = 0..indices.len() as u32;
-    let (flat, faces): (Vec<u32>, Vec<u32>) = all.partition(is_flat);
-    let order = [&faces[..], &flat].concat();
+    let (mut order, flat): (Vec<u32>, Vec<u32>) = all.partition(|face| !is_flat(face));
+    let count = order.len();
+    order.extend(flat);
     let welded = weld(&corners, &order);
+    let (faces, flat) = order.split_at(count);
     let mut hands = Vec::with_capacity(faces.len());
     let level = Level::detect();
-    let slopes = level.run(Slopes { mesh: &corners, faces: &faces, hands: &mut hands });
-    let beside = beside(&welded, &faces);
-    let groups = Groups::new(&welded, &faces, &beside, &mut hands);
+    let slopes = level.run(Slopes { mesh: &corners, faces, hands: &mut hands });
+    let beside = beside(&welded, faces);
+    let mut groups = Groups::new(&beside, &mut hands);
     drop(beside);
     let sums = Sums {
         mesh: &corners,
         welded: &welded,
-        faces: &faces,
+        faces,
         slopes: &slopes,
         hands: &hands,
-        groups: &groups,
+        groups: &mut groups,
     };
-    let tangents = level.run(sums);
-    let mut out = vec![[[0.0; 4]; 3]; indices.len()];
-    for ((&face, tangents), groups_of) in faces.iter().zip(&tangents).zip(&groups.of) {
-        for i in 0..3 {
-            if let Some(group) = groups.each.get(groups_of[i] as usize) {
-                let [x, y, z] = tangents[i];
-                out[face as usize][i] = [x, y, z, if group.is_right { 1.0 } else { -1.0 }];
-            }
-        }
+    let each = level.run(sums);
+    if flat.is_empty() {
+        return Tangents { of: groups.of, each };
     }
-    if !flat.is_empty() {
-        take_over(&welded, &faces, &flat, &mut out);
+    let mut of = vec![[NONE; 3]; indices.len()];
+    for (&face, groups) in faces.iter().zip(&groups.of) {
+        of[face as usize] = *groups;
     }
-    out
+    take_over(&welded, faces, flat, &mut of);
+    Tangents { of, each }
 }
 
 /// Gives triangles without an area the tangents of the first corners that are one with theirs.
-fn take_over(welded: &Welded, faces: &[u32], flat: &[u32], out: &mut Tangents) {
-    let mut first = vec![None; welded.first.len()];
-    for &face in faces {
-        for (i, number) in welded.numbers[face as usize].into_iter().enumerate() {
-            first[number as usize].get_or_insert((face, i));
+fn take_over(welded: &Welded, faces: &[u32], flat: &[u32], of: &mut [[u32; 3]]) {
+    let mut first = vec![NONE; welded.first.len()];
+    for &face in faces.iter().rev() {
+        for (i, number) in welded.numbers[face as usize].into_iter().enumerate().rev() {
+            first[number as usize] = of[face as usize][i];
         }
     }
     for &face in flat {
-        for (i, number) in welded.numbers[face as usize].into_iter().enumerate() {
-            if let Some((other, k)) = first[number as usize] {
-                out[face as usize][i] = out[other as usize][k];
-            }
-        }
+        of[face as usize] = welded.numbers[face as usize].map(|number| first[number as usize]);
     }
 }
 
@@ -155,10 +165,10 @@ impl Corners<'_> {
         [self.position(a), self.position(b), self.position(c)]
     }
 
-    /// A position by its number.
+    /// The position of a vertex.
     #[inline]
-    fn position(&self, number: u32) -> [f32; 3] {
-        self.positions[number as usize].to_array()
+    fn position(&self, vertex: u32) -> [f32; 3] {
+        self.positions[vertex as usize].to_array()
     }
 
     /// The texture coordinates of a triangle's corners.
@@ -168,7 +178,7 @@ impl Corners<'_> {
         at_corners(uvs, uv_indices, face as u32, self.indices[face]).unwrap_or_default()
     }
 
-    /// The normal and the texture coordinates at a corner: three times its triangle, and which of the three it is.
+    /// The normal and the texture coordinates at a corner.
     fn attributes(&self, corner: u32) -> (Vec3, Vec2) {
         let (face, i) = (corner / 3, corner as usize % 3);
         let corners = self.indices[face as usize];

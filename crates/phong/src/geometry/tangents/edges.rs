@@ -1,83 +1,91 @@
-//! Which triangles are beside one another: those of an edge of the same corners, the other way round.
+//! Which edges of triangles are beside one another: those of the same corners, the other way round.
 
 use super::weld::Welded;
 
-/// No triangle, or no group.
+/// No edge, or no group.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// An edge as a triangle has it: three times the triangle, and which of its corners the edge is behind.
+/// An edge, told by the corner that it starts from: three times its triangle, and which of the three it is.
 #[derive(Clone, Copy, Default)]
 struct Edge {
-    /// The greater of the numbers of its corners; the lesser is that of its bucket.
+    /// The greater of the numbers of its ends; the lesser is that of its bucket.
     to: u32,
     edge: u32,
 }
 
-/// For each edge of each triangle `faces` the place among these of the triangle beside it, or [`NONE`].
+/// For each edge of each triangle `faces` the edge beside it, or [`NONE`]: here and below, triangles are told by their
+/// places among these.
 pub(super) fn beside(welded: &Welded, faces: &[u32]) -> Vec<[u32; 3]> {
-    let ends = |edge: u32| {
-        let numbers = welded.numbers[faces[edge as usize / 3] as usize];
-        let (i, next) = [(0, 1), (1, 2), (2, 0)][edge as usize % 3];
-        [numbers[i], numbers[next]]
+    let all = || {
+        let numbers = faces.iter().map(|&face| welded.numbers[face as usize]);
+        (0..).zip(numbers.flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]))
     };
-    let all = 0..3 * faces.len() as u32;
     let mut starts = vec![0_u32; welded.first.len() + 1];
-    for edge in all.clone() {
-        let [a, b] = ends(edge);
+    for (_, [a, b]) in all() {
         starts[a.min(b) as usize + 1] += 1;
     }
     for i in 1..starts.len() {
         starts[i] += starts[i - 1];
     }
+    // In a bucket are from its start on the edges that leave its corner, and from its end on those that arrive.
+    let mut next: Vec<[u32; 2]> = starts.windows(2).map(|ends| [ends[0], ends[1]]).collect();
     let mut sorted = vec![Edge::default(); 3 * faces.len()];
-    let mut next = starts.clone();
-    for edge in all.clone() {
-        let [a, b] = ends(edge);
-        let next = &mut next[a.min(b) as usize];
-        sorted[*next as usize] = Edge { to: a.max(b), edge };
-        *next += 1;
+    for (edge, [a, b]) in all() {
+        let [leaving, arriving] = &mut next[a.min(b) as usize];
+        *arriving -= u32::from(b <= a);
+        let at = if a < b { *leaving } else { *arriving };
+        *leaving += u32::from(a < b);
+        sorted[at as usize] = Edge { to: a.max(b), edge };
     }
-    drop(next);
     let mut beside = vec![[NONE; 3]; faces.len()];
-    let is_forward = |edge: u32| {
-        let [a, b] = ends(edge);
-        a < b
-    };
+    let pairs = beside.as_flattened_mut();
     let last = (1..starts.len()).rev().find(|&i| starts[i] > starts[i - 1]);
-    for i in 1..starts.len() {
-        let bucket = &mut sorted[starts[i - 1] as usize..starts[i] as usize];
-        match bucket {
-            [] | [_] => continue,
-            [_, _] => {}
-            _ if last == Some(i) => {
-                let number = i as u32 - 1;
-                let whole = all.clone().map(|edge| {
-                    let [a, b] = ends(edge);
-                    (a.min(b), Edge { to: a.max(b), edge })
-                });
-                let unsorted = left_unsorted(whole.collect(), number);
-                bucket.copy_from_slice(&unsorted);
-            }
-            _ => bucket.sort_unstable_by_key(|edge| (edge.to, edge.edge)),
+    for (i, [middle, _]) in (1..).zip(next) {
+        let (start, end) = (starts[i - 1], starts[i]);
+        let bucket = &mut sorted[start as usize..end as usize];
+        if last == Some(i) && bucket.len() > 2 {
+            let number = i as u32 - 1;
+            let whole = all().map(|(edge, [a, b])| (a.min(b), Edge { to: a.max(b), edge }));
+            let leaves = |edge: u32| {
+                welded.numbers[faces[edge as usize / 3] as usize][edge as usize % 3] == number
+            };
+            pair_unsorted(&left_unsorted(whole.collect(), number), pairs, leaves);
+        } else {
+            let (leaving, arriving) = bucket.split_at_mut((middle - start) as usize);
+            pair(leaving, arriving, pairs);
         }
-        pair(bucket, beside.as_flattened_mut(), is_forward);
     }
     beside
 }
 
+/// Pairs edges of the same corners: the first that leaves with the first that arrives, and so on.
+fn pair(leaving: &mut [Edge], arriving: &mut [Edge], beside: &mut [u32]) {
+    for edges in [&mut *leaving, &mut *arriving] {
+        edges.sort_unstable_by_key(|edge| (edge.to, edge.edge));
+    }
+    let mut arriving = arriving.iter().peekable();
+    for a in leaving {
+        while arriving.next_if(|b| b.to < a.to).is_some() {}
+        if let Some(b) = arriving.next_if(|b| b.to == a.to) {
+            beside[a.edge as usize] = b.edge;
+            beside[b.edge as usize] = a.edge;
+        }
+    }
+}
+
 /// Pairs edges that follow one another, are of the same corners, and run the other way round.
-fn pair(edges: &[Edge], beside: &mut [u32], is_forward: impl Fn(u32) -> bool) {
+fn pair_unsorted(edges: &[Edge], beside: &mut [u32], leaves: impl Fn(u32) -> bool) {
     for (i, a) in edges.iter().enumerate() {
         if beside[a.edge as usize] != NONE {
             continue;
         }
-        let forward = is_forward(a.edge);
+        let a_leaves = leaves(a.edge);
         let others = edges[i + 1..].iter().take_while(|b| b.to == a.to);
         let mut found =
-            others.filter(|b| is_forward(b.edge) != forward && beside[b.edge as usize] == NONE);
+            others.filter(|b| leaves(b.edge) != a_leaves && beside[b.edge as usize] == NONE);
         if let Some(b) = found.next() {
-            beside[a.edge as usize] = b.edge / 3;
-            beside[b.edge as usize] = a.edge / 3;
+            beside[a.edge as usize] = b.edge;
+            beside[b.edge as usize] = a.edge;
         }
     }
 }

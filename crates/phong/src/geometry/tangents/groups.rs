@@ -1,7 +1,6 @@
 //! Corners of triangles that share a tangent: those about a point that are reached over edges, of the same hand.
 
 use super::edges::NONE;
-use super::weld::Welded;
 
 /// What is known of a triangle's texture coordinates.
 #[derive(Clone, Copy, Default)]
@@ -10,6 +9,13 @@ pub(super) struct Hand {
     pub(super) is_any: bool,
     /// Whether they are right-handed about the normal.
     pub(super) is_right: bool,
+}
+
+impl Hand {
+    /// A tangent, and 1 if it is of the right hand, else −1.
+    pub(super) fn with(self, [x, y, z]: [f32; 3]) -> [f32; 4] {
+        [x, y, z, if self.is_right { 1.0 } else { -1.0 }]
+    }
 }
 
 /// The groups of the corners of some triangles.
@@ -21,48 +27,44 @@ pub(super) struct Groups {
 }
 
 impl Groups {
-    /// The groups of triangles, which have these others beside them. Those that take any hand are given one.
-    pub(super) fn new(
-        welded: &Welded,
-        faces: &[u32],
-        beside: &[[u32; 3]],
-        hands: &mut [Hand],
-    ) -> Self {
-        let numbers = |face: usize| welded.numbers[faces[face] as usize];
-        let each = Vec::with_capacity(welded.first.len());
-        let mut groups = Self { of: vec![[NONE; 3]; faces.len()], each };
-        let mut next = Vec::new();
-        for face in 0..faces.len() {
-            for (i, number) in numbers(face).into_iter().enumerate() {
-                let Hand { is_any, is_right } = hands[face];
-                if is_any || groups.of[face][i] != NONE {
+    /// The groups of triangles whose edges have these others beside them. Those that take any hand are given one.
+    pub(super) fn new(beside: &[[u32; 3]], hands: &mut [Hand]) -> Self {
+        let mut of = vec![[NONE; 3]; beside.len()];
+        let mut each: Vec<Hand> = Vec::with_capacity(beside.len());
+        for face in 0..beside.len() {
+            let own = hands[face];
+            if own.is_any {
+                continue;
+            }
+            for i in 0..3 {
+                if of[face][i] != NONE {
                     continue;
                 }
-                let group = groups.each.len() as u32;
-                groups.each.push(hands[face]);
-                groups.of[face][i] = group;
-                next.extend([beside[face][i], beside[face][(i + 2) % 3]]);
-                while let Some(face) = next.pop() {
-                    if face == NONE {
-                        continue;
-                    }
-                    let face = face as usize;
-                    let at = numbers(face).iter().position(|&other| other == number);
-                    let Some(i) = at else { continue };
-                    if groups.of[face][i] != NONE {
-                        continue;
-                    }
-                    let hand = &mut hands[face];
-                    if hand.is_any && groups.of[face] == [NONE; 3] {
-                        hand.is_right = is_right;
-                    }
-                    if hand.is_right == is_right {
-                        groups.of[face][i] = group;
-                        next.extend([beside[face][i], beside[face][(i + 2) % 3]]);
+                let group = each.len() as u32;
+                each.push(own);
+                of[face][i] = group;
+                // About the point one way, over edges that leave it, and then the other way.
+                for leaves in [true, false] {
+                    let (mut face, mut i) = (face, i);
+                    loop {
+                        let edge = beside[face][if leaves { i } else { (i + 2) % 3 }] as usize;
+                        if edge == NONE as usize {
+                            break;
+                        }
+                        face = edge / 3;
+                        i = if leaves { (edge + 1) % 3 } else { edge % 3 };
+                        let hand = &mut hands[face];
+                        if hand.is_any && of[face] == [NONE; 3] {
+                            hand.is_right = own.is_right;
+                        }
+                        if of[face][i] != NONE || hand.is_right != own.is_right {
+                            break;
+                        }
+                        of[face][i] = group;
                     }
                 }
             }
         }
-        groups
+        Self { of, each }
     }
 }

@@ -31,7 +31,8 @@ pub(super) struct Sums<'a> {
     pub(super) faces: &'a [u32],
     pub(super) slopes: &'a [Slopes8],
     pub(super) hands: &'a [Hand],
-    pub(super) groups: &'a Groups,
+    /// Their groups; what falls off one that falls apart gets a number of its own.
+    pub(super) groups: &'a mut Groups,
 }
 
 /// Positions and normals of corners that are one.
@@ -41,8 +42,8 @@ struct Points {
 }
 
 impl Kernel for Sums<'_> {
-    /// The tangent of each corner, in the order of `faces`; 0 where there is none.
-    type Output = Vec<[[f32; 3]; 3]>;
+    /// The tangent of each group, and 1 or −1 for its hand; then those of what fell off some.
+    type Output = Vec<[f32; 4]>;
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> Self::Output {
@@ -82,11 +83,8 @@ impl Kernel for Sums<'_> {
                 }
             }
         }
-        for sum in &mut sums {
-            sum.tangent = unit(sum.tangent);
-        }
-        let tangent = |group: u32| sums.get(group as usize).map_or([0.0; 3], |sum| sum.tangent);
-        let mut all: Vec<_> = self.groups.of.iter().map(|groups| groups.map(tangent)).collect();
+        let tangent = |(sum, hand): (&Sum, &Hand)| hand.with(unit(sum.tangent));
+        let mut all: Vec<_> = sums.iter().zip(&self.groups.each).map(tangent).collect();
         self.split(&points, |group| sums[group as usize].is_split, &mut all);
         all
     }
@@ -94,15 +92,15 @@ impl Kernel for Sums<'_> {
 
 impl Sums<'_> {
     /// Tangents of groups that fall apart: each triangle takes those into account whose slopes are not opposite to its.
-    fn split(&self, points: &Points, is_split: impl Fn(u32) -> bool, all: &mut [[[f32; 3]; 3]]) {
+    fn split(self, points: &Points, is_split: impl Fn(u32) -> bool, all: &mut Vec<[f32; 4]>) {
         let corners = (0..).zip(self.groups.of.as_flattened());
         let split = corners.filter(|&(_, &group)| group != NONE && is_split(group));
         let mut split: Vec<(u32, u32)> = split.map(|(corner, &group)| (group, corner)).collect();
         split.sort_unstable();
-        for group in split.chunk_by(|a, b| a.0 == b.0) {
+        for corners in split.chunk_by(|a, b| a.0 == b.0) {
             let parts: Vec<_> =
-                group.iter().map(|&(_, corner)| self.part(points, corner)).collect();
-            for (a, &(_, corner)) in parts.iter().zip(group) {
+                corners.iter().map(|&(_, corner)| self.part(points, corner)).collect();
+            for (i, (a, &(group, corner))) in parts.iter().zip(corners).enumerate() {
                 let mut sum = [0.0; 3];
                 for b in &parts {
                     let goes_along = |k: usize| dot(a.0[k], b.0[k]) > -1.0;
@@ -112,7 +110,13 @@ impl Sums<'_> {
                         add(&mut sum, b.0[0], b.1);
                     }
                 }
-                all[corner as usize / 3][corner as usize % 3] = unit(sum);
+                let tangent = self.groups.each[group as usize].with(unit(sum));
+                if i == 0 {
+                    all[group as usize] = tangent;
+                } else {
+                    self.groups.of.as_flattened_mut()[corner as usize] = all.len() as u32;
+                    all.push(tangent);
+                }
             }
         }
     }
