@@ -158,6 +158,12 @@ struct Corners<'a> {
 }
 
 impl Corners<'_> {
+    /// The vertex at a corner: three times its triangle, and which of the three it is.
+    #[inline]
+    fn vertex(&self, corner: u32) -> u32 {
+        self.indices.as_flattened()[corner as usize]
+    }
+
     /// The positions of a triangle's corners.
     #[inline]
     fn positions_of(&self, face: usize) -> [[f32; 3]; 3] {
@@ -189,6 +195,16 @@ impl Corners<'_> {
             (b - a).cross(c - a).normalize_or(Vec3::Z)
         };
         (own.unwrap_or_else(flat), self.uvs_of(face as usize)[i])
+    }
+
+    /// Whether all corners at a vertex are equal, whatever their triangles.
+    fn is_one(&self, vertex: u32) -> bool {
+        let MeshAttributes { normal_indices, uvs, uv_indices, .. } = self.mesh;
+        let normal = self.units.get(vertex as usize);
+        normal_indices.is_empty()
+            && uv_indices.is_empty()
+            && normal.is_some_and(|&normal| normal != Vec3::ZERO)
+            && uvs.get(vertex as usize).is_some_and(|uv| !uv.is_nan())
     }
 }
 

@@ -7,12 +7,8 @@ use super::Corners;
 /// How many slices the corners are parted into along the longest side of their box.
 const SLICES: u16 = 2048;
 
-/// A corner where it lies: three times its triangle, and which of the three it is.
-#[derive(Clone, Copy, Default)]
-struct Placed {
-    position: [f32; 3],
-    corner: u32,
-}
+/// A position, and in the place of a fourth coordinate the bits of the corner that is there.
+type Placed = [f32; 4];
 
 /// Corners that are one, numbered together.
 pub(super) struct Welded {
@@ -29,93 +25,152 @@ pub(super) struct Welded {
 pub(super) fn weld(mesh: &Corners<'_>, faces: &[u32]) -> Welded {
     let all = 0..mesh.indices.len() as u32;
     let mut stands: Vec<_> = all.map(|face| [3 * face, 3 * face + 1, 3 * face + 2]).collect();
-    let mut known = Vec::new();
-    let (mut placed, starts) = sliced(mesh, faces);
-    let mut rest = &mut placed[..];
+    let (corners, starts) = sliced(mesh, faces);
+    let mut merging = Merging {
+        mesh,
+        stands: stands.as_flattened_mut(),
+        known: Vec::new(),
+        swaps: [Vec::new(), Vec::new()],
+    };
+    let mut placed = Vec::new();
     for ends in starts.windows(2) {
-        let slice = rest.split_off_mut(..(ends[1] - ends[0]) as usize).unwrap_or_default();
-        merge(mesh, stands.as_flattened_mut(), slice, &mut known);
+        placed.clear();
+        placed.extend(corners[ends[0] as usize..ends[1] as usize].iter().map(|&corner| {
+            let [x, y, z] = mesh.position(mesh.vertex(corner));
+            [x, y, z, f32::from_bits(corner)]
+        }));
+        merging.merge(&mut placed);
     }
-    drop(placed);
+    drop(corners);
     numbered(stands)
 }
 
 /// All corners, slice after slice, and where each slice starts and the last ends.
-fn sliced(mesh: &Corners<'_>, faces: &[u32]) -> (Vec<Placed>, Vec<u32>) {
-    let at = |face: u32| mesh.positions_of(face as usize);
-    let [min, max] = bounds(faces.iter().flat_map(|&face| at(face)));
+fn sliced(mesh: &Corners<'_>, faces: &[u32]) -> (Vec<u32>, Vec<u32>) {
+    let mut box_of_all = EMPTY;
+    for &vertex in mesh.indices.as_flattened() {
+        let [x, y, z] = mesh.position(vertex);
+        box_of_all = around(box_of_all, [[x, y, z, 0.0]; 2]);
+    }
+    let [min, max] = box_of_all;
     let along = longest(min, max);
     let size = max[along] - min[along];
-    let slice = |position: [f32; 3]| {
+    let slice = |position: &Vec3| {
         let t = (position[along] - min[along]) / size;
         // NaN becomes 0.
         ((f32::from(SLICES) * t.clamp(0.0, 1.0)) as u16).min(SLICES - 1)
     };
+    let slices: Vec<u16> = mesh.positions.iter().map(slice).collect();
     let mut starts = vec![0; usize::from(SLICES) + 1];
-    for position in faces.iter().flat_map(|&face| at(face)) {
-        starts[usize::from(slice(position)) + 1] += 1;
+    for &vertex in mesh.indices.as_flattened() {
+        starts[usize::from(slices[vertex as usize]) + 1] += 1;
     }
     for i in 1..starts.len() {
         starts[i] += starts[i - 1];
     }
     let mut next = starts.clone();
-    let mut placed = vec![Placed::default(); 3 * faces.len()];
+    let mut corners = vec![0; 3 * faces.len()];
     for &face in faces {
-        for (corner, position) in (3 * face..).zip(at(face)) {
-            let next = &mut next[usize::from(slice(position))];
-            placed[*next as usize] = Placed { position, corner };
+        for (corner, vertex) in (3 * face..).zip(mesh.indices[face as usize]) {
+            let next = &mut next[usize::from(slices[vertex as usize])];
+            corners[*next as usize] = corner;
             *next += 1;
         }
     }
-    (placed, starts)
+    (corners, starts)
 }
 
-/// Halves a box of corners until all that it holds is in one place, and welds these.
-fn merge(
-    mesh: &Corners<'_>,
-    stands: &mut [u32],
-    placed: &mut [Placed],
-    known: &mut Vec<(u32, [f32; 3], Vec3, Vec2)>,
-) {
-    if placed.len() < 2 {
-        return;
+/// What corners are welded with.
+struct Merging<'a> {
+    mesh: &'a Corners<'a>,
+    /// The corner that stands for each.
+    stands: &'a mut [u32],
+    /// The corners that stand for others in a place.
+    known: Vec<Known>,
+    /// Which corners change sides, those of the lesser side and those of the greater.
+    swaps: [Vec<u32>; 2],
+}
+
+/// A corner that stands for others.
+struct Known {
+    corner: u32,
+    /// Its vertex, if all corners there are one.
+    vertex: Option<u32>,
+    attributes: ([f32; 3], Vec3, Vec2),
+}
+
+impl Merging<'_> {
+    /// Halves a box of corners until all that it holds is in one place, and welds these.
+    fn merge(&mut self, placed: &mut [Placed]) {
+        if placed.len() < 2 {
+            return;
+        }
+        let [min, max] = bounds(placed);
+        let along = longest(min, max);
+        let middle = 0.5 * (max[along] + min[along]);
+        if !middle.is_finite() {
+            return;
+        }
+        if min[along] < middle && middle < max[along] {
+            let (lesser, greater) = part(placed, along, middle, &mut self.swaps);
+            self.merge(lesser);
+            self.merge(greater);
+        } else {
+            self.weld(placed);
+        }
     }
-    let [min, max] = bounds(placed.iter().map(|placed| placed.position));
-    let along = longest(min, max);
-    let middle = 0.5 * (max[along] + min[along]);
-    if !middle.is_finite() {
-        return;
-    }
-    if !(min[along] < middle && middle < max[along]) {
-        known.clear();
-        for &Placed { position, corner } in &*placed {
-            let (normal, uv) = mesh.attributes(corner);
-            let mut all =
-                known.iter().filter(|known| (known.1, known.2, known.3) == (position, normal, uv));
-            match all.next() {
-                Some(&(first, ..)) => stands[corner as usize] = first,
-                None => known.push((corner, position, normal, uv)),
+
+    /// Welds corners in one place.
+    fn weld(&mut self, placed: &[Placed]) {
+        self.known.clear();
+        for &[x, y, z, corner] in placed {
+            let corner = corner.to_bits();
+            let vertex = self.mesh.vertex(corner);
+            if let Some(last) = self.known.last().filter(|last| last.vertex == Some(vertex)) {
+                self.stands[corner as usize] = last.corner;
+                continue;
+            }
+            let (normal, uv) = self.mesh.attributes(corner);
+            let attributes = ([x, y, z], normal, uv);
+            if let Some(known) = self.known.iter().find(|known| known.attributes == attributes) {
+                self.stands[corner as usize] = known.corner;
+            } else {
+                let vertex = Some(vertex).filter(|&vertex| self.mesh.is_one(vertex));
+                self.known.push(Known { corner, vertex, attributes });
             }
         }
-        return;
     }
-    let (mut left, mut right) = (0, placed.len());
-    loop {
-        while left < right && placed[left].position[along] < middle {
-            left += 1;
-        }
-        while left < right && placed[right - 1].position[along] >= middle {
-            right -= 1;
-        }
-        if left >= right {
-            break;
-        }
-        placed.swap(left, right - 1);
-        (left, right) = (left + 1, right - 1);
+}
+
+/// Parts corners into those below `middle` and the others: the first that is on the wrong side changes places with the
+/// last that is, and so on. Sides are as good as tossed, so nothing branches on them.
+fn part<'a>(
+    placed: &'a mut [Placed],
+    along: usize,
+    middle: f32,
+    swaps: &mut [Vec<u32>; 2],
+) -> (&'a mut [Placed], &'a mut [Placed]) {
+    let is_below = |placed: &Placed| placed[along] < middle;
+    let below = placed.iter().filter(|placed| is_below(placed)).count();
+    let [up, down] = swaps;
+    for list in [&mut *up, &mut *down] {
+        list.resize(list.len().max(placed.len()), 0);
     }
-    let (lesser, greater) = placed.split_at_mut(left);
-    merge(mesh, stands, lesser, known);
-    merge(mesh, stands, greater, known);
+    let (lesser, greater) = placed.split_at_mut(below);
+    let mut count = 0;
+    for (i, placed) in lesser.iter().enumerate() {
+        up[count] = i as u32;
+        count += usize::from(!is_below(placed));
+    }
+    let mut found = 0;
+    for (i, placed) in greater.iter().enumerate().rev() {
+        down[found] = i as u32;
+        found += usize::from(is_below(placed));
+    }
+    for (&i, &k) in up[..count].iter().zip(&*down) {
+        std::mem::swap(&mut lesser[i as usize], &mut greater[k as usize]);
+    }
+    (lesser, greater)
 }
 
 /// Numbers corners by those that stand for them.
@@ -135,19 +190,37 @@ fn numbered(mut stands: Vec<[u32; 3]>) -> Welded {
     Welded { numbers: stands, first }
 }
 
-fn bounds(positions: impl Iterator<Item = [f32; 3]>) -> [[f32; 3]; 2] {
-    let (mut min, mut max) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
-    for position in positions {
-        for axis in 0..3 {
-            let x = position[axis];
-            min[axis] = if x < min[axis] { x } else { min[axis] };
-            max[axis] = if x > max[axis] { x } else { max[axis] };
+/// The bounds of nothing.
+const EMPTY: [Placed; 2] = [[f32::INFINITY; 4], [f32::NEG_INFINITY; 4]];
+
+/// The bounds of positions; what they have for a fourth coordinate is of no use.
+fn bounds(placed: &[Placed]) -> [Placed; 2] {
+    // Four at a time, so that one does not wait for the other.
+    let mut all = [EMPTY; 4];
+    let (fours, rest) = placed.as_chunks::<4>();
+    for four in fours {
+        for (bounds, position) in all.iter_mut().zip(four) {
+            *bounds = around(*bounds, [*position; 2]);
         }
+    }
+    for (bounds, position) in all.iter_mut().zip(rest) {
+        *bounds = around(*bounds, [*position; 2]);
+    }
+    let [a, b, c, d] = all;
+    around(around(a, b), around(c, d))
+}
+
+/// The bounds of two boxes.
+#[inline(always)]
+fn around([mut min, mut max]: [Placed; 2], [low, high]: [Placed; 2]) -> [Placed; 2] {
+    for axis in 0..4 {
+        min[axis] = if low[axis] < min[axis] { low[axis] } else { min[axis] };
+        max[axis] = if high[axis] > max[axis] { high[axis] } else { max[axis] };
     }
     [min, max]
 }
 
-fn longest(min: [f32; 3], max: [f32; 3]) -> usize {
+fn longest(min: Placed, max: Placed) -> usize {
     let [x, y, z] = [0, 1, 2].map(|axis| max[axis] - min[axis]);
     if y > x && y > z {
         1
