@@ -169,26 +169,33 @@ impl Texels {
         }
     }
 
-    /// [`Texels::get`] of four pixels, in the upper row from the left, then in the lower one.
+    /// Between four pixels, which [`Texels::get`] gives: so large a part of the way, 0 to 1, from the first column
+    /// to the second, and from the first row to the second.
     ///
     /// # Panics
     /// If there is no such pixel.
     #[inline]
-    pub fn four(&self, [left, right]: [u32; 2], rows: [u32; 2], srgb: bool) -> [[f32; 4]; 4] {
-        let [upper, lower] = rows;
+    pub fn between(
+        &self,
+        [left, right]: [u32; 2],
+        [upper, lower]: [u32; 2],
+        parts: [f32; 2],
+        srgb: bool,
+    ) -> [f32; 4] {
         let TexelValues::Bytes(values) = &self.values else {
-            let [a, b] = [self.get([left, upper], srgb), self.get([right, upper], srgb)];
-            return [a, b, self.get([left, lower], srgb), self.get([right, lower], srgb)];
+            let [a, b] = [[left, upper], [right, upper]].map(|place| self.get(place, srgb));
+            let [c, d] = [[left, lower], [right, lower]].map(|place| self.get(place, srgb));
+            return std::array::from_fn(|i| bilinear([a[i], b[i], c[i], d[i]], parts));
         };
-        // Most images: what their numbers are is asked for once, and not for each pixel.
+        // Most images: what their numbers are is asked for once, and each channel goes its own way.
         let [upper, lower] = [upper, lower].map(|y| y as usize * self.size[0] as usize);
         let [left, right] = [left as usize, right as usize];
         let at = [upper + left, upper + right, lower + left, lower + right];
         match self.channels {
-            1 => four_of_bytes::<1>(values, at, srgb),
-            2 => four_of_bytes::<2>(values, at, srgb),
-            3 => four_of_bytes::<3>(values, at, srgb),
-            _ => four_of_bytes::<4>(values, at, srgb),
+            1 => between_bytes::<1>(values, at, parts, srgb),
+            2 => between_bytes::<2>(values, at, parts, srgb),
+            3 => between_bytes::<3>(values, at, parts, srgb),
+            _ => between_bytes::<4>(values, at, parts, srgb),
         }
     }
 
@@ -295,33 +302,37 @@ struct Decoded {
     bytes: [[f32; 256]; 2],
 }
 
-/// Four pixels of `N` bytes each, by their numbers in the image. They are written out one by one: a closure that
-/// `array::map` calls stays a call, and its four numbers then take the way through memory.
+/// [`Texels::between`] of pixels of `N` bytes, by their numbers in the image.
 #[inline(always)]
-fn four_of_bytes<const N: usize>(values: &[u8], at: [usize; 4], srgb: bool) -> [[f32; 4]; 4] {
+fn between_bytes<const N: usize>(
+    values: &[u8],
+    at: [usize; 4],
+    parts: [f32; 2],
+    srgb: bool,
+) -> [f32; 4] {
+    let pixel = |at: usize| -> &[u8; N] {
+        values[at * N..].first_chunk().expect("the pixel is one of the image")
+    };
+    let [a, b, c, d] = [pixel(at[0]), pixel(at[1]), pixel(at[2]), pixel(at[3])];
     let Decoded { bytes: tables } = decoded();
-    let tables = [&tables[usize::from(srgb)], &tables[0]];
-    [
-        one_of_bytes::<N>(values, at[0], tables),
-        one_of_bytes::<N>(values, at[1], tables),
-        one_of_bytes::<N>(values, at[2], tables),
-        one_of_bytes::<N>(values, at[3], tables),
-    ]
+    let channel = |i: usize, srgb: bool| {
+        let value = |pixel: &[u8; N]| tables[usize::from(srgb)][usize::from(pixel[i])];
+        bilinear([value(a), value(b), value(c), value(d)], parts)
+    };
+    let first = channel(0, srgb);
+    match N {
+        1 => [first, first, first, 1.0],
+        2 => [first, first, first, channel(1, false)],
+        3 => [first, channel(1, srgb), channel(2, srgb), 1.0],
+        _ => [first, channel(1, srgb), channel(2, srgb), channel(3, false)],
+    }
 }
 
+/// Between four numbers, in the upper row from the left, then in the lower one.
 #[inline(always)]
-fn one_of_bytes<const N: usize>(
-    values: &[u8],
-    at: usize,
-    [color, plain]: [&[f32; 256]; 2],
-) -> [f32; 4] {
-    let pixel: &[u8] = values[at * N..].first_chunk::<N>().expect("the pixel is one of the image");
-    Texels::pixel(
-        pixel,
-        |byte, is_color| {
-            if is_color { color[usize::from(byte)] } else { plain[usize::from(byte)] }
-        },
-    )
+fn bilinear([a, b, c, d]: [f32; 4], [across, down]: [f32; 2]) -> f32 {
+    let (upper, lower) = (a + across * (b - a), c + across * (d - c));
+    upper + down * (lower - upper)
 }
 
 fn decoded() -> &'static Decoded {
