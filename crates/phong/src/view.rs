@@ -5,6 +5,7 @@ mod coincident;
 mod far;
 mod fixture;
 mod fog;
+mod images;
 mod occlusion;
 mod relief;
 mod shading;
@@ -32,6 +33,7 @@ pub(crate) use coincident::Coincidences;
 pub use far::StartedRay;
 pub(crate) use fixture::Fixture;
 pub(crate) use fog::Fog;
+use images::Images;
 pub(crate) use occlusion::Occlusion;
 use relief::{Relief, Turned};
 use shading::Shading;
@@ -56,6 +58,8 @@ pub struct View {
     textures: Vec<Texture>,
     /// What turns normals, of each material; empty: nothing does.
     reliefs: Vec<Option<Relief>>,
+    /// The images of each material, where they are all that varies of it; empty as `varied`.
+    images: Vec<Option<Images>>,
     /// The tangents of meshes, by their parts; empty: no texture turns normals.
     tangents: Vec<Option<Arc<Tangents>>>,
     /// Whether the values of any texture depend on how much of a surface a look-up stands for.
@@ -187,6 +191,13 @@ impl View {
         let context = MapContext { camera: &look.camera, properties: &names };
         let new = |texture| Texture::new(texture, context);
         let textures: Vec<_> = look.textures.iter().map(new).collect();
+        let images = varied.iter().enumerate().map(|(number, varied)| match varied {
+            Varied::Nothing | Varied::Color(_) => {
+                Images::of(varied.color(), reliefs.get(number).copied().flatten(), &textures)
+            }
+            Varied::More(_) => None,
+        });
+        let images = images.collect();
         let parts = 0..geometry.world().parts() as u32;
         let of_part = |part: u32| geometry.batch(part).properties(&names);
         let properties = if names.is_empty() { Vec::new() } else { parts.map(of_part).collect() };
@@ -225,6 +236,7 @@ impl View {
             properties,
             textures,
             reliefs,
+            images,
             tangents,
             fixtures,
             geometry,

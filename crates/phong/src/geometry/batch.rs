@@ -166,17 +166,22 @@ impl Batch {
 
     /// The interpolated texture coordinates; `None` where the mesh has none.
     pub(crate) fn uv(&self, local: u32, corners: [u32; 3], hit: &Hit) -> Option<Vec2> {
-        let mesh = self.mesh.as_ref()?;
-        let [a, b, c] = at_corners(&mesh.uvs, &mesh.uv_indices, local, corners)?;
+        let [a, b, c] = self.uvs(local, corners)?;
         Some((1.0 - hit.u - hit.v) * a + hit.u * b + hit.v * c)
+    }
+
+    /// The texture coordinates at the corners of a triangle; `None` where the mesh has none.
+    #[inline]
+    pub(crate) fn uvs(&self, local: u32, corners: [u32; 3]) -> Option<[Vec2; 3]> {
+        let mesh = self.mesh.as_ref()?;
+        at_corners(&mesh.uvs, &mesh.uv_indices, local, corners)
     }
 
     /// How texture coordinates change from the first corner to the second, and to the third; `None` where the
     /// mesh has none.
     pub(crate) fn uv_edges(&self, local: u32, corners: [u32; 3]) -> Option<[DVec2; 2]> {
-        let mesh = self.mesh.as_ref()?;
-        let corners = at_corners(&mesh.uvs, &mesh.uv_indices, local, corners)?;
-        let [a, b, c] = corners.map(|Vec2 { x, y }| DVec2::new(x.into(), y.into()));
+        let [a, b, c] =
+            self.uvs(local, corners)?.map(|Vec2 { x, y }| DVec2::new(x.into(), y.into()));
         Some([b - a, c - a])
     }
 

@@ -1,9 +1,10 @@
 //! How texture coordinates change along a surface.
 
 use glam::{DVec2, DVec3};
-use phong_bvh::{Canonical, Hit, Primitives, Ray};
+use phong_bvh::{Canonical, Hit, Lanes, Primitives, Ray};
 
 use super::Geometry;
+use crate::math::lanes::dot;
 
 /// How much of a step is taken where the change is measured: it is not the same all over the surface.
 const STEP: f64 = 1.0 / 16.0;
@@ -14,9 +15,7 @@ impl Geometry {
     /// # Panics
     /// If `hit` is none.
     pub fn own_vector(&self, hit: &Hit, world: DVec3) -> DVec3 {
-        let object = self.object(hit);
-        let place = self.own_spaces.binary_search_by_key(&object, |&(object, _)| object);
-        place.map_or(world, |place| self.own_spaces[place].1.transform_vector3(world))
+        self.own_space(self.object(hit)).map_or(world, |space| space.transform_vector3(world))
     }
 
     /// How the texture coordinates change along two vectors that are tangent to the surface at a hit of `ray`.
@@ -40,16 +39,16 @@ impl Geometry {
             Primitives::Triangles { positions, indices } => {
                 let at = |i: u32| positions[i as usize].as_dvec3();
                 let [a, b, c] = indices[hit.prim as usize].map(at);
-                let (ab, ac) = (b - a, c - a);
-                let bulk = self.batch(hit.part).is_bulk();
-                let (bb, bc, cc) = (ab.dot(ab), ab.dot(ac), ac.dot(ac));
-                let area = bb * cc - bc * bc;
-                Some(along.map(|along| {
-                    let along = if bulk { self.own_vector(hit, along) } else { along };
-                    let (b, c) = (ab.dot(along), ac.dot(along));
-                    let change = DVec2::new(cc * b - bc * c, bb * c - bc * b) / area;
-                    if change.is_finite() { change } else { DVec2::ZERO }
-                }))
+                let edges = [(b - a).to_array(), (c - a).to_array()];
+                let along = if self.batch(hit.part).is_bulk() {
+                    along.map(|along| self.own_vector(hit, along))
+                } else {
+                    along
+                };
+                Some(
+                    weights_changes(edges, along.map(|along| along.to_array()))
+                        .map(DVec2::from_array),
+                )
             }
             Primitives::Solid(solid) if solid.shape == Canonical::Triangle => {
                 let to_own = solid.to_world.matrix3.inverse();
@@ -74,4 +73,24 @@ impl Geometry {
             if change.is_finite() { change / STEP } else { DVec2::ZERO }
         })
     }
+}
+
+/// How the weights of a triangle's second and third corner change along two vectors: 0 where that is not finite.
+/// `edges` lead to these corners from the first.
+#[inline(always)]
+pub(crate) fn weights_changes<F: Lanes<Scalar = f64>>(
+    [ab, ac]: [[F; 3]; 2],
+    along: [[F; 3]; 2],
+) -> [[F; 2]; 2] {
+    let (bb, bc, cc) = (dot(ab, ab), dot(ab, ac), dot(ac, ac));
+    let area = bb * cc - bc * bc;
+    let change = |along: [F; 3]| {
+        let (b, c) = (dot(ab, along), dot(ac, along));
+        let [x, y] = [(cc * b - bc * c) / area, (bb * c - bc * b) / area];
+        let (most, none) = (x.splat(f64::INFINITY), x.splat(0.0));
+        let is_finite = x.abs().lt(most) & y.abs().lt(most);
+        [F::select(is_finite, x, none), F::select(is_finite, y, none)]
+    };
+    let [a, b] = along;
+    [change(a), change(b)]
 }

@@ -24,8 +24,10 @@ use thiserror::Error;
 
 pub(crate) use batch::{Batch, Properties};
 use build::CoarseMesh;
+pub(crate) use change::weights_changes;
 use closed::Closed;
 use scale::Scale;
+pub(crate) use smooth::gather;
 use tangents::KnownTangents;
 pub(crate) use tangents::Tangents;
 use trees::Trees;
@@ -293,9 +295,13 @@ impl Geometry {
     /// # Panics
     /// If `hit` is none.
     pub fn own_point(&self, hit: &Hit, world: DVec3) -> DVec3 {
-        let object = self.object(hit);
-        let place = self.own_spaces.binary_search_by_key(&object, |&(object, _)| object);
-        place.map_or(world, |place| self.own_spaces[place].1.transform_point3(world))
+        self.own_space(self.object(hit)).map_or(world, |space| space.transform_point3(world))
+    }
+
+    /// From the world to an object's own space; `None`: they are the same.
+    pub(crate) fn own_space(&self, object: u32) -> Option<&DAffine3> {
+        let place = self.own_spaces.binary_search_by_key(&object, |&(object, _)| object).ok()?;
+        Some(&self.own_spaces[place].1)
     }
 
     /// Where on its surface a hit of `ray` is: a mesh's own texture coordinates, if it has some.

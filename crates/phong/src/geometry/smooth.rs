@@ -154,7 +154,7 @@ fn times<F: Lanes<Scalar = f32>>(m: &Mat3, [x, y, z]: [F; 3]) -> [F; 3] {
 
 /// The values at each corner of eight triangles, number by number.
 #[inline(always)]
-fn gather(values: &[Vec3], corners: &[[u32; 3]; 8]) -> [Lanes3; 3] {
+pub(crate) fn gather(values: &[Vec3], corners: &[[u32; 3]; 8]) -> [Lanes3; 3] {
     let mut out = [[[0.0; 8]; 3]; 3];
     for (lane, corners) in corners.iter().enumerate() {
         for (out, &corner) in out.iter_mut().zip(corners) {

@@ -40,7 +40,7 @@ pub(crate) struct Tangents {
 impl Tangents {
     /// Those at a triangle's corners: 0 where a corner has none, `None` where there is no such triangle.
     #[inline]
-    fn get(&self, triangle: usize) -> Option<[[f32; 4]; 3]> {
+    pub(crate) fn get(&self, triangle: usize) -> Option<[[f32; 4]; 3]> {
         let [a, b, c] = *self.of.get(triangle)?;
         let of = |place: u32| self.each.get(place as usize).copied().unwrap_or_default();
         Some([of(a), of(b), of(c)])

@@ -278,7 +278,8 @@ impl Kernel for BeginRadiance<'_> {
                 scene.shade_caps8(hits, &store3(e), shading);
             }
             if scene.has_textures() {
-                scene.vary(rays, hits, surface, widths.get(i), shading, made);
+                let met = (rays, &*hits, &*surface);
+                scene.vary(simd, met, widths.get(i), shading, made);
             }
             out.brought = out.brought.or(LOCAL);
             let mut left = met;

@@ -1,9 +1,9 @@
 //! What shading needs of [`Lanes`] of f32 beyond their arithmetic, and three numbers of each lane in memory.
 
-use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
+use fearless_simd::{Simd, f32x8, f64x4, mask32x8, prelude::*};
 use glam::Vec3;
 use phong_bvh::Lanes;
-pub(crate) use phong_bvh::lanes::{add, dot, neg, scale, select3, splat3, sub};
+pub(crate) use phong_bvh::lanes::{add, cross, dot, neg, scale, select3, splat3, sub};
 
 use super::dir::{Dir3, LARGE, SMALL};
 
@@ -64,6 +64,13 @@ pub(crate) fn put3<S: Simd>(simd: S, to: &mut Lanes3, lanes: u32, value: [f32x8<
         let lanes = mask32x8::from_bitmask(simd, lanes.into());
         *to = store3(select3(lanes, value, load3(simd, to)));
     }
+}
+
+/// Three coordinates as f64, the first four lanes of each, then the last four.
+#[inline(always)]
+pub(crate) fn wide3<S: Simd>([x, y, z]: [f32x8<S>; 3]) -> [[f64x4<S>; 3]; 2] {
+    let ((x, x_high), (y, y_high), (z, z_high)) = (x.widen(), y.widen(), z.widen());
+    [[x, y, z], [x_high, y_high, z_high]]
 }
 
 /// Three numbers of one lane.

@@ -1,6 +1,9 @@
 //! How wide a ray is: what one look-up of a texture stands for.
 
 use glam::DVec3;
+use phong_bvh::Lanes;
+
+use crate::math::lanes::{cross, dot, scale};
 
 /// The cone of space about a ray that its sample of the picture stands for.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -23,13 +26,20 @@ impl Cone {
 
 /// The sides of what a ray of direction `dir` that is `width` wide covers of a surface whose unit normal is
 /// `normal`: the shorter side, across the ray, and the longer one.
-pub fn footprint(width: f32, dir: DVec3, normal: DVec3) -> [DVec3; 2] {
-    let width = f64::from(width);
-    let cos = dir.dot(normal).abs();
-    let across = normal.cross(dir);
-    let across = across.try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
-    let along = normal.cross(across);
-    [width * across, width / cos.max(LEAST_COSINE) * along]
+#[inline(always)]
+pub(crate) fn footprint<F: Lanes<Scalar = f64>>(
+    width: F,
+    dir: [F; 3],
+    normal: [F; 3],
+) -> [[F; 3]; 2] {
+    let across = cross(normal, dir);
+    let shrink = across[0].splat(1.0) / dot(across, across).sqrt();
+    let none = !shrink.lt(shrink.splat(f64::INFINITY));
+    let any = |normal| DVec3::from_array(normal).any_orthonormal_vector().to_array();
+    let across = F::map3_where(none, normal, scale(shrink, across), any);
+    let along = cross(normal, across);
+    let cos = dot(dir, normal).abs().at_least(LEAST_COSINE);
+    [scale(width, across), scale(width / cos, along)]
 }
 
 #[cfg(test)]
@@ -39,6 +49,9 @@ mod tests {
     #[test]
     fn a_footprint_is_as_long_as_the_surface_is_grazed() {
         let dir = DVec3::new(3.0, 0.0, -4.0) / 5.0;
+        let footprint = |width, dir: DVec3, normal: DVec3| {
+            footprint(width, dir.to_array(), normal.to_array()).map(DVec3::from_array)
+        };
         let [short, long] = footprint(0.1, dir, DVec3::Z);
         assert!((short.length() - 0.1).abs() < 1e-7 && (short.y.abs() - 0.1).abs() < 1e-7);
         assert!((long.length() - 0.125).abs() < 1e-7 && (long.x.abs() - 0.125).abs() < 1e-7);

@@ -12,10 +12,13 @@ mod noise;
 mod ramp;
 mod veins;
 
+use fearless_simd::Simd;
 use glam::{DAffine3, DVec2, DVec3};
 use phong_scene::{Channel, Field, GradientBy, Rgb, TextureKind, TextureSpace, TextureUse};
 
-pub use cone::{Cone, footprint};
+use crate::math::lanes::Lanes3;
+pub use cone::Cone;
+pub(crate) use cone::footprint;
 pub use image::ImageLookUp;
 pub use map::MapContext;
 pub(crate) use map::properties_of;
@@ -113,9 +116,7 @@ impl Texture {
 
     /// Its value at a point of a surface. Linear.
     pub fn value(&self, at: &TexturePoint, asked: TextureUse) -> Rgb {
-        if let (Pattern::Image(image), true, TextureSpace::Uv) =
-            (&self.pattern, self.is_in_place, self.space)
-        {
+        if let (Pattern::Image(image), true) = (&self.pattern, self.is_image_on_uv()) {
             let uv = DVec2::new(at.uv[0].into(), at.uv[1].into());
             return of_image(image.value(uv, at.footprint.uv, asked.is_color), asked);
         }
@@ -135,6 +136,28 @@ impl Texture {
             }
         };
         if asked.channel == Some(Channel::Alpha) { Rgb::WHITE } else { value }
+    }
+
+    /// Whether it is an image that lies just as texture coordinates say.
+    pub(crate) fn is_image_on_uv(&self) -> bool {
+        let is_image = matches!(self.pattern, Pattern::Image(_));
+        is_image && self.is_in_place && self.space == TextureSpace::Uv
+    }
+
+    /// [`Texture::value`] of such an image at some of eight texture coordinates, a bit each in `lanes`, in footprints
+    /// of these sides: red, green and blue of each. Unspecified in other lanes.
+    #[inline(always)]
+    pub(crate) fn image_values<S: Simd>(
+        &self,
+        simd: S,
+        lanes: u32,
+        uv: &[[f64; 8]; 2],
+        sides: &[[[f64; 8]; 2]; 2],
+        asked: TextureUse,
+    ) -> Lanes3 {
+        let Pattern::Image(image) = &self.pattern else { return Lanes3::default() };
+        let [r, g, b, opacity] = image.values(simd, lanes, uv, sides, asked.is_color);
+        if asked.channel == Some(Channel::Alpha) { [opacity; 3] } else { [r, g, b] }
     }
 
     /// How its image is looked up at a point of a surface; `None`: it is none.

@@ -1,17 +1,18 @@
 //! Shading normals that textures turn: by a map of normals, or by one of heights.
 
 use glam::{DVec3, Vec3};
-use phong_bvh::{Hit, Ray};
+use phong_bvh::{Hit, Lanes, Ray};
 use phong_scene::{NormalFormat, TextureRef, TextureUse};
 
 use super::View;
+use crate::math::lanes::{add, cross, dot, scale, select3, sub};
 use crate::texture::TexturePoint;
 
 /// What turns the normals of a material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Relief {
-    normal: Option<(TextureRef, NormalFormat)>,
-    bump: Option<TextureRef>,
+    pub(super) normal: Option<(TextureRef, NormalFormat)>,
+    pub(super) bump: Option<TextureRef>,
 }
 
 /// How far above the surface a normal looks at least: the cosine to the geometric one.
@@ -57,20 +58,16 @@ impl View {
         let Some([t, b]) = self.tangents_at(at, own) else { return at.n };
         let mut n = own;
         if let Some((by, format)) = relief.normal {
-            let value = self.look_up(number(by), at.point);
-            let [x, y, z] = value.to_array().map(|v| 2.0 * f64::from(v) - 1.0);
-            let strength = f64::from(by.scale);
-            let y = if format == NormalFormat::DirectX { -y } else { y };
-            n = (strength * x * t + strength * y * b + z * own).normalize_or(own);
+            let value = self.look_up(number(by), at.point).to_array();
+            let value = mapped(value.map(f64::from), (by.scale.into(), format));
+            let own = own.to_array();
+            n = DVec3::from(turned(own, [t.to_array(), b.to_array()], value));
         }
         if let Some(by) = relief.bump {
             n = self.bumped(by, at, [t, b], n);
         }
-        let front = at.front.as_dvec3();
-        let n = side * n;
-        let up = n.dot(front);
-        let n = if up < LEAST_COSINE { n + (LEAST_COSINE - up) * front } else { n };
-        n.normalize_or(facing).as_vec3()
+        let n = raised((side * n).to_array(), at.front.as_dvec3().to_array(), facing.to_array());
+        DVec3::from(n).as_vec3()
     }
 
     /// The normal of what the heights of a texture raise.
@@ -116,8 +113,11 @@ impl View {
             Some((t, hand)) => (t, Some(hand)),
             None => (Vec3::from(at.point.tangent).as_dvec3(), None),
         };
-        let t = (t - t.dot(n) * n).try_normalize()?;
-        let b = n.cross(t);
+        let (is_there, [t, b]) = frame(t.to_array(), n.to_array());
+        if !is_there {
+            return None;
+        }
+        let [t, b] = [t, b].map(DVec3::from);
         // Where the surface itself says no hand, v is asked which way it grows.
         let hand = hand.unwrap_or_else(|| {
             let [_, change] = self.uv_changes(at.ray, at.hit, [t, b]);
@@ -127,7 +127,60 @@ impl View {
     }
 }
 
+/// The direction of `t` at right angles to `n`, unit, and the one at right angles to both; and whether there are some.
+#[inline(always)]
+pub(super) fn frame<F: Lanes<Scalar = f64>>(t: [F; 3], n: [F; 3]) -> (F::Mask, [[F; 3]; 2]) {
+    let t = sub(t, scale(dot(t, n), n));
+    let (is_there, t) = unit(t);
+    (is_there, [t, cross(n, t)])
+}
+
+/// What a map of normals shows, of −1 to 1 along the tangents and the normal: its `value` is from 0 to 1.
+#[inline(always)]
+pub(super) fn mapped<F: Lanes<Scalar = f64>>(
+    value: [F; 3],
+    (strength, format): (f64, NormalFormat),
+) -> [F; 3] {
+    let [x, y, z] = [value[0] * 2.0 - 1.0, value[1] * 2.0 - 1.0, value[2] * 2.0 - 1.0];
+    let y = if format == NormalFormat::DirectX { -y } else { y };
+    [x * strength, y * strength, z]
+}
+
+/// The normal that a map shows about the surface's own.
+#[inline(always)]
+pub(super) fn turned<F: Lanes<Scalar = f64>>(
+    own: [F; 3],
+    [t, b]: [[F; 3]; 2],
+    [x, y, z]: [F; 3],
+) -> [F; 3] {
+    unit_or(add(add(scale(x, t), scale(y, b)), scale(z, own)), own)
+}
+
+/// A normal that looks at least a little above the surface, whose geometric normal on that side is `front`, unit;
+/// `facing` where it has no direction.
+#[inline(always)]
+pub(super) fn raised<F: Lanes<Scalar = f64>>(n: [F; 3], front: [F; 3], facing: [F; 3]) -> [F; 3] {
+    let up = dot(n, front);
+    let least = up.splat(LEAST_COSINE);
+    let n = select3(up.lt(least), add(n, scale(least - up, front)), n);
+    unit_or(n, facing)
+}
+
+/// `v` made unit, and whether it has a direction.
+#[inline(always)]
+fn unit<F: Lanes<Scalar = f64>>(v: [F; 3]) -> (F::Mask, [F; 3]) {
+    let shrink = v[0].splat(1.0) / dot(v, v).sqrt();
+    let has_direction = shrink.gt(shrink.splat(0.0)) & shrink.lt(shrink.splat(f64::INFINITY));
+    (has_direction, scale(shrink, v))
+}
+
+#[inline(always)]
+fn unit_or<F: Lanes<Scalar = f64>>(v: [F; 3], or: [F; 3]) -> [F; 3] {
+    let (has_direction, unit) = unit(v);
+    select3(has_direction, unit, or)
+}
+
 /// What a map of normals or heights is asked for: numbers as they are.
-fn number(by: TextureRef) -> TextureUse {
+pub(super) fn number(by: TextureRef) -> TextureUse {
     TextureUse { texture: by.texture, channel: by.channel, is_color: false }
 }

@@ -1,10 +1,12 @@
 //! Surfaces whose materials vary: what their parameters are at a point.
 
+use fearless_simd::{Simd, prelude::*, u32x8};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use phong_bvh::{Hit, Hits8, Ray, Rays8, Surface, Surfaces8, lanes};
 use phong_scene::{ConstantMaterial, Field, Param, Rgb, TextureRef, TextureSpace, TextureUse};
 
 use super::View;
+use super::images::Met8;
 use super::relief::Turned;
 use super::shading::Shading8;
 use crate::interaction::SurfaceInteraction;
@@ -57,7 +59,7 @@ impl Varied {
         }
     }
 
-    fn color(self) -> Option<TextureRef> {
+    pub(super) fn color(self) -> Option<TextureRef> {
         match self {
             Self::Nothing => None,
             Self::Color(by) => Some(by),
@@ -85,17 +87,43 @@ impl Asked {
 impl View {
     /// Gives those of eight surfaces whose materials vary their own colours and materials. A
     /// material that was made for some is added to `made`, and numbered behind those of the view.
-    pub(crate) fn vary(
+    #[inline(always)]
+    pub(crate) fn vary<S: Simd>(
         &self,
-        rays: &Rays8,
-        hits: &Hits8,
-        surfaces: &Surfaces8,
+        simd: S,
+        (rays, hits, surfaces): (&Rays8, &Hits8, &Surfaces8),
         widths: Option<&[f32; 8]>,
         shading: &mut Shading8,
         made: &mut Vec<MadeMaterial>,
     ) {
+        let met = Met8 { rays, hits, surfaces, widths };
+        let (mut left, mut others) = (hits.met, hits.met);
+        while left != 0 {
+            let first = left.trailing_zeros() as usize & 7;
+            let (part, number) = (hits.part[first], shading.material[first]);
+            let parts = u32x8::load_array_ref(simd, &hits.part);
+            let numbers = u32x8::load_array_ref(simd, &shading.material);
+            let same = parts.simd_eq(u32x8::splat(simd, part))
+                & numbers.simd_eq(u32x8::splat(simd, number));
+            let same = left & same.to_bitmask() as u32;
+            left &= !same;
+            if let Some(images) = self.images.get(number as usize).copied().flatten() {
+                others &= !self.show_images(simd, images, met, same, shading);
+            }
+        }
+        self.vary_each(met, others, shading, made);
+    }
+
+    /// [`View::vary`] of the surfaces in these lanes, one by one.
+    fn vary_each(
+        &self,
+        Met8 { rays, hits, surfaces, widths }: Met8<'_>,
+        each: u32,
+        shading: &mut Shading8,
+        made: &mut Vec<MadeMaterial>,
+    ) {
         let remembered = made.len().saturating_sub(REMEMBERED);
-        for lane in lanes(hits.met) {
+        for lane in lanes(each) {
             let number = shading.material[lane];
             let varied = self.varied(number);
             let relief = self.relief(number);
@@ -208,7 +236,8 @@ impl View {
             point.object = self.geometry.own_point(hit, world);
         }
         if width > 0.0 && self.has_footprints {
-            let sides = footprint(width, ray.dir.as_dvec3(), ng.as_dvec3());
+            let [dir, normal] = [ray.dir, ng].map(|v| v.as_dvec3().to_array());
+            let sides = footprint(f64::from(width), dir, normal).map(DVec3::from_array);
             point.footprint.world = sides;
             if asked.object {
                 point.footprint.object = sides.map(|side| self.geometry.own_vector(hit, side));
