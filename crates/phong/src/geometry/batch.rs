@@ -158,10 +158,15 @@ impl Batch {
     /// unit ones: those that are so, to rounding, are taken as they are.
     #[inline]
     pub(crate) fn normal(&self, local: u32, corners: [u32; 3], hit: &Hit) -> Option<Dir3> {
-        let mesh = self.smooth()?;
-        let normals = at_corners(mesh.normals, mesh.normal_indices, local, corners)?;
-        let n = mesh.normal(normals, [hit.u, hit.v])?;
+        let n = self.smooth()?.normal(self.normals(local, corners)?, [hit.u, hit.v])?;
         Some(Dir3::from_unit(n.into()))
+    }
+
+    /// The normals at the corners of a triangle, of any length, in the mesh's own space; `None` where it has none.
+    #[inline]
+    pub(crate) fn normals(&self, local: u32, corners: [u32; 3]) -> Option<[Vec3; 3]> {
+        let SmoothMesh { normals, normal_indices, .. } = self.smooth()?;
+        at_corners(normals, normal_indices, local, corners)
     }
 
     /// The interpolated texture coordinates; `None` where the mesh has none.

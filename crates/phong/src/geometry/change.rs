@@ -1,10 +1,11 @@
-//! How texture coordinates change along a surface.
+//! How texture coordinates and normals change along a surface.
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec3};
 use phong_bvh::{Canonical, Hit, Lanes, Primitives, Ray};
 
 use super::Geometry;
 use crate::math::lanes::dot;
+use crate::math::wide as math;
 
 /// How much of a step is taken where the change is measured: it is not the same all over the surface.
 const STEP: f64 = 1.0 / 16.0;
@@ -31,6 +32,40 @@ impl Geometry {
             Some([ab, ac]) => [a, b].map(|change| change.x * ab + change.y * ac),
             None => [a, b],
         }
+    }
+
+    /// How much the normal of the surface at a hit turns along it, in radians a unit of the world, as the mean over all
+    /// directions: above 0 where it is convex on the side of its geometric normal `ng`, 0 where it is flat, or of a kind
+    /// of which this is not known.
+    ///
+    /// # Panics
+    /// If `hit` is none.
+    pub fn curvature(&self, hit: &Hit, ng: Vec3) -> f32 {
+        let local = hit.prim as usize;
+        let is_bulk = self.batch(hit.part).is_bulk();
+        // Of what is written one by one, the tree has the numbers of the world.
+        let ng = ng.as_dvec3();
+        let up = if is_bulk { self.own_vector(hit, ng) } else { ng };
+        let own = match self.world.primitives(hit.part) {
+            Primitives::Spheres(spheres) => 1.0 / spheres.get(local).radius,
+            Primitives::Cylinders { cylinders, .. } => 0.5 / cylinders[local].radius,
+            Primitives::Triangles { positions, indices } => {
+                let corners = indices[local].map(|i| positions[i as usize]);
+                let normals = self.batch(hit.part).normals(hit.prim, indices[local]);
+                normals.map_or(0.0, |normals| of_triangle(corners, normals, up.as_vec3()))
+            }
+            Primitives::Solid(solid) => {
+                let [x, y, z] = solid.to_world.matrix3.to_cols_array_2d().map(DVec3::from);
+                // What is not round is taken as the ball, or the pipe, of the same volume.
+                return match solid.shape {
+                    Canonical::Sphere => math::pow(x.cross(y).dot(z).abs(), -1.0 / 3.0) as f32,
+                    Canonical::Cylinder { .. } => (0.5 / x.cross(y).length().sqrt()) as f32,
+                    _ => 0.0,
+                };
+            }
+            Primitives::Plane(_) => 0.0,
+        };
+        own * up.length() as f32
     }
 
     /// How the weights of a triangle's second and third corner change along two vectors; `None`: it is none.
@@ -93,4 +128,35 @@ pub(crate) fn weights_changes<F: Lanes<Scalar = f64>>(
     };
     let [a, b] = along;
     [change(a), change(b)]
+}
+
+/// The mean curvature that the normals at a triangle's corners stand for: how much they turn along its edges. Above 0
+/// where it is convex on the side of `up`.
+fn of_triangle(corners: [Vec3; 3], normals: [Vec3; 3], up: Vec3) -> f32 {
+    let normals = normals.map(|n| if n.dot(up) < 0.0 { -n } else { n }.normalize_or_zero());
+    let (mut turn, mut way) = (0.0, 0.0);
+    for (i, k) in [(0, 1), (1, 2), (2, 0)] {
+        let edge = corners[k] - corners[i];
+        turn += edge.dot(normals[k] - normals[i]);
+        way += edge.length_squared();
+    }
+    let curvature = turn / way;
+    if curvature.is_finite() { curvature } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn normals_of_a_ball_turn_by_one_over_its_radius() {
+        let around = |u: f32, v: f32| Vec3::new(u, v, 1.0).normalize_or_zero();
+        let normals = [around(0.0, 0.0), around(0.1, 0.0), around(0.0, 0.1)];
+        let curvature = |radius: f32| of_triangle(normals.map(|n| radius * n), normals, Vec3::Z);
+        assert!((curvature(4.0) - 0.25).abs() < 1e-4, "{}", curvature(4.0));
+        let within = of_triangle(normals.map(|n| 4.0 * n), normals, -Vec3::Z);
+        assert!((within + 0.25).abs() < 1e-4, "seen from within: {within}");
+        assert_eq!(of_triangle(normals, [Vec3::Z; 3], Vec3::Z), 0.0);
+        assert_eq!(of_triangle([Vec3::ONE; 3], normals, Vec3::Z), 0.0);
+    }
 }

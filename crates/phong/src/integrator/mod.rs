@@ -410,7 +410,12 @@ impl Integrator<'_> {
                 let sampler = samplers.get(i).map(|s| s.get(lane).branch(branch as u32));
                 if let Some(widths) = interactions.widths.get(i) {
                     let behind = paths.cones.get(8 * i + lane).copied();
-                    let cone = self.cone_on(&rays[i], behind, lane, widths[lane]);
+                    let width = widths[lane];
+                    let more = match branch {
+                        Branch::Reflection => self.spread_of_mirror(interactions, i, lane, width),
+                        Branch::Transmission | Branch::Through => 0.0,
+                    };
+                    let cone = self.cone_on(&rays[i], behind, lane, (width, more));
                     secondary.paths.cones.push(cone);
                 }
                 secondary.paths.ways.extend(ways.get(i).map(|ways| ways[lane].on(branch)));

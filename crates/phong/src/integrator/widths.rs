@@ -3,10 +3,12 @@
 //! Each ray knows it by itself, from the camera, the picture's size and its number of samples, and from the
 //! surfaces that it came by: never from the rays beside it, which another crop, tile or pass does not have.
 
+use glam::Vec3;
 use phong_bvh::{Hits8, Rays8, lanes};
 
+use super::interactions::Interactions;
 use super::{Integrator, Paths};
-use crate::math::lanes::direction;
+use crate::math::lanes::{direction, get};
 use crate::texture::Cone;
 
 /// The pixels that a picture has, and the samples that each of them is the mean of.
@@ -48,17 +50,34 @@ impl Integrator<'_> {
         }
     }
 
-    /// The cone about a ray that goes on from a surface where the one before is `width` wide.
+    /// The cone about a ray that goes on from a surface where the one before is `width` wide, and that a curved mirror
+    /// spreads by so much more.
     pub(super) fn cone_on(
         &self,
         rays: &Rays8,
         behind: Option<Cone>,
         lane: usize,
-        width: f32,
+        (width, more): (f32, f32),
     ) -> Cone {
         let SampleGrid { size, samples } = self.grid;
         let dir = direction(&rays.dir, lane).to_vec();
         let before = behind.unwrap_or_else(|| self.scene.camera().cone(dir, size, samples));
-        Cone { width, ..before }
+        Cone { width, spread: before.spread + more }
+    }
+
+    /// How much more a mirror spreads a ray that is `width` wide: the normal turns by its curvature along that width,
+    /// and what it mirrors by twice as much.
+    pub(super) fn spread_of_mirror(
+        &self,
+        interactions: &Interactions,
+        i: usize,
+        lane: usize,
+        width: f32,
+    ) -> f32 {
+        let [ng, front] = [&interactions.surfaces[i].ng, &interactions.shading[i].front]
+            .map(|all| Vec3::from(get(all, lane)));
+        let curvature = self.scene.curvature(&interactions.hits[i].get(lane), ng);
+        let curvature = if ng.dot(front) < 0.0 { -curvature } else { curvature };
+        2.0 * curvature * width
     }
 }

@@ -10,7 +10,8 @@ use crate::math::lanes::{cross, dot, scale};
 pub struct Cone {
     /// How wide it is where the ray starts, across the ray, in units of the world.
     pub width: f32,
-    /// How much wider it grows with each unit of the way.
+    /// How much wider it grows with each unit of the way; below 0 it comes together, and goes apart again behind
+    /// that.
     pub spread: f32,
 }
 
@@ -20,7 +21,7 @@ const LEAST_COSINE: f64 = 1e-4;
 impl Cone {
     /// How wide it is after so long a way.
     pub fn width_at(self, t: f32) -> f32 {
-        self.width + self.spread * t
+        (self.width + self.spread * t).abs()
     }
 }
 

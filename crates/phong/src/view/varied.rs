@@ -295,6 +295,11 @@ impl View {
         })
     }
 
+    /// [`Geometry::curvature`](crate::geometry::Geometry::curvature); of a cap 0.
+    pub(crate) fn curvature(&self, hit: &Hit, ng: Vec3) -> f32 {
+        if self.cap(hit).is_some() { 0.0 } else { self.geometry.curvature(hit, ng) }
+    }
+
     /// A texture's value; black where the look has no such texture.
     pub(super) fn look_up(&self, asked: TextureUse, point: &TexturePoint) -> Rgb {
         let texture = self.textures.get(asked.texture.0 as usize);

@@ -105,6 +105,32 @@ fn a_chequered_floor_at_one_sample_is_near_what_many_samples_make_of_it() {
 }
 
 #[test]
+fn a_ball_that_is_a_mirror_spreads_what_one_sample_sees_of_a_chequered_floor() {
+    let picture = |samples| {
+        let text = format!(
+            "version = 1\n[image]\nsize = [32, 32]\nsamples = {samples}\n\
+             [camera]\neye = [0, 1, 3]\nlook_at = [0, 0.8, 0]\nfov = 26\n\
+             [[light]]\nkind = \"distant\"\ndirection = [1, -3, -1]\n\
+             [textures.squares]\nkind = \"image\"\nfile = \"squares.png\"\n\
+             space = \"object\"\nscale = 0.5\nrotate = [1, 0, 0, -90]\n\
+             [materials.floor]\ncolor = {{ texture = \"squares\" }}\nk_s = 0\n\
+             [materials.mirror]\ncolor = 0\nk_s = 0\nreflection = 1\n\
+             [[plane]]\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\nmaterial = \"floor\"\n\
+             [[sphere]]\ncenter = [0, 0.9, 0]\nradius = 0.7\nmaterial = \"mirror\"\n"
+        );
+        let scene = scene(&text, Memory::new().with("squares.png", squares(8)));
+        let view = View::of(&scene).unwrap();
+        let options = RenderOptions::of(&scene.image).unwrap();
+        let film = render(&view, &options, &|_| {}, &Cancel::new()).film;
+        film.layer(LayerKind::Picture).unwrap().values.to_vec()
+    };
+    let [one, many] = [1, 64].map(picture);
+    let square: f32 = one.iter().zip(&many).map(|(a, b)| (a - b) * (a - b)).sum();
+    let off = (square / one.len() as f32).sqrt();
+    assert!(off < 0.04, "off by {off}");
+}
+
+#[test]
 fn two_materials_share_the_pixels_of_one_file() {
     let scene = squares_everywhere(1);
     let texels = |i: usize| match &scene.textures[i].kind {
