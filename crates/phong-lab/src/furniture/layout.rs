@@ -50,6 +50,17 @@ struct Block {
     paints: Vec<Paint>,
     size: Point,
     says: String,
+    /// All that is written in it.
+    written: String,
+}
+
+/// Something that stands at an edge of the picture.
+pub(super) struct Standing {
+    /// The table of the scene that asks for it.
+    pub(super) key: &'static str,
+    /// All that is written in it.
+    pub(super) written: String,
+    pub(super) group: Group,
 }
 
 impl<'a> Layout<'a> {
@@ -73,14 +84,19 @@ impl<'a> Layout<'a> {
     }
 
     /// All that stands at the picture's edges, in the order that it is painted in.
-    pub(super) fn edges(&mut self) -> Vec<Group> {
+    pub(super) fn edges(&mut self) -> Vec<Standing> {
         let Furniture { title, scale_bar, axes, legend, .. } = &self.scene.furniture;
-        let title = title.as_ref().map(|title| (self.title(title), title.place));
-        let bar = scale_bar.as_ref().and_then(|bar| Some((self.scale_bar(bar)?, bar.place)));
-        let axes = axes.as_ref().map(|axes| (self.axes(axes), axes.place));
-        let legend = legend.as_ref().map(|legend| (self.legend(legend), legend.place));
+        let title = title.as_ref().map(|title| ("title", self.title(title), title.place));
+        let bar = scale_bar.as_ref();
+        let bar = bar.and_then(|bar| Some(("scale_bar", self.scale_bar(bar)?, bar.place)));
+        let axes = axes.as_ref().map(|axes| ("axes", self.axes(axes), axes.place));
+        let legend = legend.as_ref().map(|legend| ("legend", self.legend(legend), legend.place));
         let all = [title, bar, axes, legend].into_iter().flatten();
-        all.map(|(block, place)| self.stand(block, place)).collect()
+        all.map(|(key, block, place)| {
+            let written = block.written.clone();
+            Standing { key, written, group: self.stand(block, place) }
+        })
+        .collect()
     }
 
     /// Puts a block at a place of the picture, beside what is there already.
@@ -117,6 +133,7 @@ impl<'a> Layout<'a> {
             paints: vec![Paint::Fill(words.path.moved(top), self.ink)],
             size: Point::new(words.width, CAPITAL * size + words.drop),
             says: title.text.clone(),
+            written: title.text.clone(),
         }
     }
 
@@ -150,6 +167,7 @@ impl<'a> Layout<'a> {
                 Paint::Fill(polygon(&corners), self.ink),
             ],
             size: Point::new(whole, low + thick),
+            written: says.clone(),
             says,
         })
     }
@@ -191,7 +209,7 @@ impl<'a> Layout<'a> {
         let group = Group { says: "x, y and z".to_owned(), paints, halo: None };
         let [low, high] = group.bounds().unwrap_or_default();
         let paints = group.paints.iter().map(|paint| paint.moved(-low)).collect();
-        Block { paints, size: high - low, says: group.says }
+        Block { paints, size: high - low, says: group.says, written: "xyz".to_owned() }
     }
 
     fn legend(&self, legend: &Legend) -> Block {
@@ -218,7 +236,7 @@ impl<'a> Layout<'a> {
         let edge = [(0.0, 0.0), (bar.x, 0.0), (bar.x, bar.y), (0.0, bar.y)];
         let edge = polygon(&edge).moved(at);
         paints.push(Paint::Line(edge, Stroke::new(self.ink, line)));
-        let mut widest = 0.0_f64;
+        let (mut widest, mut all) = (0.0_f64, heading.clone());
         for (value, written) in ticks(from, to, legend.ticks) {
             let t = (value - from) / (to - from);
             let y = top + height * (1.0 - t);
@@ -229,6 +247,7 @@ impl<'a> Layout<'a> {
             let at = Point::new(right + 0.3 * letters, y + 0.5 * CAPITAL * letters);
             widest = widest.max(at.x + words.width);
             paints.push(Paint::Fill(words.path.moved(at), self.ink));
+            all += &written;
         }
         let width = widest.max(bar.x).max(words.width);
         if matches!(legend.place, Anchor::Right | Anchor::TopRight | Anchor::BottomRight) {
@@ -245,6 +264,7 @@ impl<'a> Layout<'a> {
                 number(from, decimals(from)),
                 number(to, decimals(to))
             ),
+            written: all,
         }
     }
 

@@ -15,7 +15,7 @@ mod text;
 use phong::aov::Aov;
 use phong::film::{Film, LayerKind};
 use phong::finish::{Finished, Finishing, Patch};
-use phong::part::Settings;
+use phong::part::{Settings, furniture_of};
 use phong_scene::{Diagnostic, Furniture, Hidden, PointLabel, Scene};
 
 use layout::{Layout, pixels_a_unit, place_of};
@@ -68,25 +68,19 @@ pub fn settled(film: &Film, settings: Settings) -> Settings {
     settings.with_furniture(furniture).finished()
 }
 
-/// What there is to say of a scene's furniture before it is drawn in a picture of `size` pixels: letters that
-/// the font does not have, and what is not drawn at all.
+/// What there is to say of a scene's furniture before it is drawn: letters that the font does not have, and what
+/// is not drawn at all.
 pub fn warnings(scene: &Scene) -> Vec<Diagnostic> {
-    let Furniture { style: _, title, scale_bar, axes: _, legend, labels } = &scene.furniture;
-    if scene.furniture.is_empty() {
-        return Vec::new();
-    }
+    let Some(figure) = furniture_of(scene) else { return Vec::new() };
+    let Furniture { scale_bar, labels, .. } = &figure.furniture;
     let font = Font::new();
-    let title = title.iter().map(|title| ("title".to_owned(), &title.text));
-    let unit = scale_bar.iter().map(|bar| ("scale_bar".to_owned(), &bar.unit));
-    let legend = legend.iter().flat_map(|legend| {
-        [("legend".to_owned(), &legend.text), ("legend".to_owned(), &legend.unit)]
-    });
+    let edges = Layout::new(&font, &figure, scene.image.size).edges();
+    let edges = edges.into_iter().map(|edge| (edge.key.to_owned(), edge.written));
     let labels = labels.iter().enumerate();
-    let labels = labels.map(|(i, label)| (format!("label {}", i + 1), &label.text));
-    let texts = title.chain(unit).chain(legend).chain(labels);
+    let labels = labels.map(|(i, label)| (format!("label {}", i + 1), label.text.clone()));
     let mut said = Vec::new();
-    for (name, text) in texts {
-        let missing = font.missing(text);
+    for (name, text) in edges.chain(labels) {
+        let missing = font.missing(&text);
         if !missing.is_empty() {
             let letters: Vec<String> = missing
                 .iter()
@@ -96,8 +90,8 @@ pub fn warnings(scene: &Scene) -> Vec<Diagnostic> {
                 })
                 .collect();
             let message = format!("{name}: the font has no {}, left out", letters.join(", "));
-            let help =
-                "it has Latin, Greek and Cyrillic letters, and the signs of units and powers";
+            let help = "it has Latin, Greek and Cyrillic letters, and the signs of units, powers and \
+                        mathematics";
             said.push(Diagnostic::warning(message, None).with_help(help));
         }
     }
@@ -118,7 +112,7 @@ fn groups(font: &Font, scene: &Scene, film: &Film, size: [u32; 2]) -> Vec<Group>
         Some(layout.label(label, place))
     });
     let mut groups: Vec<Group> = labels.collect();
-    groups.extend(layout.edges());
+    groups.extend(layout.edges().into_iter().map(|edge| edge.group));
     groups
 }
 

@@ -66,6 +66,7 @@ pub(super) fn number(value: f64, decimals: usize) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::text::Font;
     use super::*;
 
     #[test]
@@ -75,6 +76,28 @@ mod tests {
         let wanted = [0.5, 1.0, 1.0, 2.0, 5.0, 10.0, 20.0, 1e300, 2e-7];
         assert_eq!(found, wanted.map(Some));
         assert_eq!([0.0, -1.0, f64::NAN, f64::INFINITY].map(below), [None; 4]);
+    }
+
+    #[test]
+    fn all_that_numbers_are_written_with_is_drawn() {
+        let font = Font::new();
+        let powers =
+            (-300..=300).map(|power| number(-1.234_567_89 * libm::exp10(f64::from(power)), 9));
+        for letter in powers.flat_map(|written| written.chars().collect::<Vec<_>>()) {
+            let words = font.words(&letter.to_string(), 100.0);
+            assert!(words.width > 0.0, "{letter}");
+            assert!(letter == ' ' || !words.path.0.is_empty(), "{letter}");
+        }
+        // A minus is as wide as a plus, and as high above the line.
+        let [minus, plus] = ["−", "+"].map(|sign| {
+            let words = font.words(sign, 1000.0);
+            let heights = words.path.points().map(|point| point.y);
+            let [low, high] =
+                heights.fold([f64::MAX, f64::MIN], |[low, high], y| [low.min(y), high.max(y)]);
+            [words.width, 0.5 * (low + high)]
+        });
+        let apart = [0, 1].map(|i| (minus[i] - plus[i]).abs());
+        assert!(apart[0] == 0.0 && apart[1] < 1.0, "{minus:?} {plus:?}");
     }
 
     #[test]

@@ -133,12 +133,17 @@ fn letters_that_the_font_lacks_and_bars_without_a_scale_are_told() {
     };
     assert_eq!(told(ALL), [""; 0]);
     assert_eq!(
-        told("[title]\ntext = \"水 a\"\n[[label]]\ntext = \"≤\"\nat = [0, 0, 0]\n"),
+        told("[title]\ntext = \"水 a\"\n[[label]]\ntext = \"≪\"\nat = [0, 0, 0]\n"),
         [
             "title: the font has no 水 (U+6C34), left out",
-            "label 1: the font has no ≤ (U+2264), left out"
+            "label 1: the font has no ≪ (U+226A), left out"
         ]
     );
+    // A legend has its unit from its texture.
+    let map = "[legend]\n[textures.t]\nkind = \"map\"\nof = \"height\"\nrange = [-1, 1]\n\
+               stops = \"coolwarm\"\nunit = \"米\"\n[materials.m]\ncolor = { texture = \"t\" }\n\
+               [[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"m\"\n";
+    assert_eq!(told(map), ["legend: the font has no 米 (U+7C73), left out"]);
     let mut around = scene("[scale_bar]\n");
     around.camera.kind = CameraKind::Panorama;
     assert_eq!(warnings(&around).len(), 1);

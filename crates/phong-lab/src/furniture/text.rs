@@ -87,10 +87,20 @@ mod tests {
     #[test]
     fn letters_that_the_font_lacks_are_named_once_and_left_out() {
         let font = Font::new();
-        assert_eq!(font.missing("Å, µm, 10⁻³ Ω, λ, Жизнь, Việt\n5 ≤ x"), ['≤']);
+        assert_eq!(font.missing("Å, µm, 10⁻³ Ω, λ, Жизнь, Việt\n5 ≪ x"), ['≪']);
         assert_eq!(font.missing("水と水"), ['水', 'と']);
         assert_eq!(font.words("水", 10.0).width, 0.0);
         assert!(font.words("水", 10.0).path.0.is_empty());
+    }
+
+    #[test]
+    fn signs_of_mathematics_are_drawn() {
+        let font = Font::new();
+        for sign in "−←↑→↓∂∇∈∑√∝∞∠∥∫≈≠≤≥⊥⋅±×·°".chars()
+        {
+            let words = font.words(&sign.to_string(), 10.0);
+            assert!(words.width > 0.0 && !words.path.0.is_empty(), "{sign}");
+        }
     }
 
     #[test]
