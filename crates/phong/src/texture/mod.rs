@@ -10,7 +10,9 @@ mod lattice;
 mod map;
 mod noise;
 mod ramp;
+mod spread;
 mod veins;
+mod wrap;
 
 use fearless_simd::Simd;
 use glam::{DAffine3, DVec2, DVec3};

@@ -1,0 +1,126 @@
+//! The pixels of an image that are about a place in it or beside it.
+
+use fearless_simd::{Simd, f64x4, prelude::*};
+use phong_bvh::Lanes;
+use phong_scene::Wrap;
+
+/// The column or row of what is beside an image with a border.
+pub(super) const BESIDE: u32 = u32::MAX;
+
+/// The columns of the pixels before and behind four places, of images so many pixels wide; and how far each is from the
+/// one towards the other. Or rows.
+#[inline(always)]
+pub(super) fn neighbours<S: Simd>(
+    simd: S,
+    at: &[f64; 4],
+    size: &[f64; 4],
+    wrap: Wrap,
+) -> ([[f64; 4]; 2], [f64; 4]) {
+    let (at, size) = (f64x4::load_array_ref(simd, at), f64x4::load_array_ref(simd, size));
+    let (before, part) = split(at * size - 0.5);
+    let [before, behind] = wrapped(before, size, wrap);
+    ([before.into(), behind.into()], part.into())
+}
+
+/// From here on `f64` has no parts of whole numbers: the last bits of what is about this one are a whole number.
+const WHOLE: f64 = (3_u64 << 51) as f64;
+
+/// A number as the largest whole one that is not above it, and the part in [0, 1) beyond that: 0 of what is farther
+/// away than 2^50, or NaN.
+#[inline(always)]
+pub(super) fn split<F: Lanes<Scalar = f64>>(x: F) -> (F, F) {
+    let is_near = x.abs().lt(x.splat((1_u64 << 50) as f64));
+    let x = F::select(is_near, x, x.splat(0.0));
+    let whole = floor(x);
+    (whole, x - whole)
+}
+
+/// The largest whole number that is not above `x`, which is less than 2^51.
+#[inline(always)]
+fn floor<F: Lanes<Scalar = f64>>(x: F) -> F {
+    let nearest = (x + WHOLE) - WHOLE;
+    nearest - F::select(nearest.gt(x), x.splat(1.0), x.splat(0.0))
+}
+
+/// The least whole number that is not below `x`, which is less than 2^51.
+#[inline(always)]
+pub(super) fn ceil<F: Lanes<Scalar = f64>>(x: F) -> F {
+    -floor(-x)
+}
+
+/// A whole number from −1 on, which is [`BESIDE`].
+#[inline(always)]
+pub(super) fn number(x: f64) -> u32 {
+    (x + WHOLE).to_bits() as u32
+}
+
+/// The columns or rows, of so many, that stand for one which may be beside the image, and for the next; −1: its
+/// border. All are whole numbers.
+#[inline(always)]
+pub(super) fn wrapped<F: Lanes<Scalar = f64>>(i: F, count: F, wrap: Wrap) -> [F; 2] {
+    let (none, next) = (i.splat(0.0), i + 1.0);
+    let least = |a: F, b: F| F::select(a.lt(b), a, b);
+    match wrap {
+        Wrap::Repeat => rest(i, count),
+        Wrap::Mirror => {
+            let [a, b] = rest(i, count * 2.0);
+            let last = count * 2.0 - 1.0;
+            [least(a, last - a), least(b, last - b)]
+        }
+        Wrap::Clamp => {
+            let last = count - 1.0;
+            [least(i, last).max(none), least(next, last).max(none)]
+        }
+        Wrap::Border => {
+            let or_beside = |i: F| F::select(i.gt(i.splat(-1.0)) & i.lt(count), i, i.splat(-1.0));
+            [or_beside(i), or_beside(next)]
+        }
+    }
+}
+
+/// What is left of a whole number, and of the next, without full periods.
+#[inline(always)]
+fn rest<F: Lanes<Scalar = f64>>(i: F, period: F) -> [F; 2] {
+    // How many these are may be off by one, but not what is taken away for them.
+    let rest = i - period * floor(i / period);
+    let none = i.splat(0.0);
+    let rest = F::select(rest.lt(none), rest + period, rest);
+    let rest = F::select(rest.lt(period), rest, rest - period);
+    let next = rest + 1.0;
+    [rest, F::select(next.lt(period), next, none)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_is_split_as_the_standard_library_does() {
+        for x in [0.0_f64, 0.25, 0.5, 1.0, 1.5, 2.999, 1e9 + 0.5, 7e14 + 0.25] {
+            for x in [x, -x] {
+                assert_eq!(split(x), (x.floor(), x - x.floor()), "{x}");
+                assert_eq!(ceil(x), x.ceil(), "{x}");
+            }
+        }
+        for far in [2e15, -2e15, 1e300, f64::INFINITY, f64::NAN] {
+            assert_eq!(split(far), (0.0, 0.0), "{far}");
+        }
+    }
+
+    #[test]
+    fn columns_are_wrapped_as_whole_numbers_are() {
+        let far = (1_i64 << 50) - 1;
+        let places = (-40..40).chain([far, far - 1, -far, 999_999_937]);
+        for (i, count) in places.flat_map(|i| [1, 2, 3, 7, 8, 1000].map(|count| (i, count))) {
+            let both = |wrap| wrapped(i as f64, count as f64, wrap).map(|i| i as i64);
+            let next = [i, i + 1];
+            assert_eq!(both(Wrap::Repeat), next.map(|i| i.rem_euclid(count)), "{i}, {count}");
+            let mirrored = next.map(|i| i.rem_euclid(2 * count)).map(|i| i.min(2 * count - 1 - i));
+            assert_eq!(both(Wrap::Mirror), mirrored, "{i}, {count}");
+            assert_eq!(both(Wrap::Clamp), next.map(|i| i.clamp(0, count - 1)), "{i}, {count}");
+            let inside = next.map(|i| if (0..count).contains(&i) { i } else { -1 });
+            assert_eq!(both(Wrap::Border), inside, "{i}, {count}");
+        }
+        assert_eq!([number(0.0), number(70_000.0), number(-1.0)], [0, 70_000, BESIDE]);
+    }
+}
