@@ -56,6 +56,27 @@ fn an_image_of_opacity_is_multiplied_with_tr_as_with_d() {
     }
 }
 
+#[test]
+fn an_image_of_ambient_colour_that_is_not_drawn_is_told() {
+    for (ambient, diffuse, is_told) in [
+        ("", "", true),
+        ("Ka 1 1 1\n", "", true),
+        ("Ka 1 1 1\n", "map_Kd -o 0.5 0 s.png\n", true),
+        ("Ka 1 1 1\n", "map_Kd s.png\n", false),
+        ("Ka 0.5 0.5 0.5\n", "", false),
+    ] {
+        let mtl = format!("newmtl a\n{ambient}{diffuse}map_Ka s.png\n");
+        let (material, _, told) = material_with_image(&mtl);
+        let is_drawn = material.textured().iter().any(|(key, _)| *key == "ambient_color");
+        assert_eq!(is_drawn, ambient.contains("0.5"), "{mtl}");
+        assert_eq!(
+            told.contains("`map_Ka` of `s.png` is drawn only beside"),
+            is_told,
+            "{mtl}{told}"
+        );
+    }
+}
+
 /// A triangle as glTF of each of these materials, with its textures and images, beside `s.png`, a grey of 0.2,
 /// `m.png`, which is `metal`, and `nothing.png`, which is not there.
 fn gltf(materials: &[&str], metal: &[u8], limits: &Limits) -> Reading {

@@ -1,7 +1,7 @@
 //! A material as its statements say it, and what it becomes.
 
 use super::maps::{Maps, Said};
-use super::texture::Map;
+use super::texture::{Map, MapOf};
 use crate::color::Rgb;
 use crate::diagnostic::Span;
 use crate::format::text::Findings;
@@ -138,8 +138,10 @@ impl Draft {
         if let Some(by) = maps.diffuse {
             material.color = by.into();
         }
-        if let (Some(_), Some(by)) = (ambient, maps.ambient) {
-            material.ambient_color = Some(by.into());
+        match (ambient, maps.ambient) {
+            (Some(_), Some(by)) => material.ambient_color = Some(by.into()),
+            (None, Some(_)) => self.warn_of_ambient_image(findings),
+            _ => {}
         }
         if let (true, Some(by)) = (highlight, maps.specular) {
             material.specular_color = Some(by.into());
@@ -208,6 +210,24 @@ impl Draft {
                 let [r, g, b] = color.to_array();
                 format!("`{name} {r} {g} {b}` is above 1: it gives back more light than there is")
             });
+        }
+    }
+
+    /// Says that the image of the ambient colour is not drawn, unless it is that of the diffuse one, which counts.
+    fn warn_of_ambient_image(&self, findings: &mut Findings) {
+        let of = |wanted| self.maps.iter().find(|(map, _)| map.of == wanted);
+        let Some((ambient, span)) = of(MapOf::Ambient) else { return };
+        let is_drawn = of(MapOf::Diffuse)
+            .is_some_and(|(diffuse, _)| *ambient == Map { of: MapOf::Ambient, ..diffuse.clone() });
+        if !is_drawn {
+            findings.warning(
+                "images of ambient colours",
+                || span.clone(),
+                || {
+                    let Map { name, .. } = ambient;
+                    format!("`map_Ka` of `{name}` is drawn only beside a `Ka` that is not white")
+                },
+            );
         }
     }
 

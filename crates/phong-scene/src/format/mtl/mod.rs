@@ -37,7 +37,7 @@
 //! | statement | becomes |
 //! |---|---|
 //! | `map_Kd`, `map_Ks` | a texture of `color`, of `specular_color`: times `Kd`, `Ks`, unless they are black |
-//! | `map_Ka` | of `ambient_color`, if `Ka` is said and not white |
+//! | `map_Ka` | of `ambient_color`, if `Ka` is said and not white; else a warning, unless it is that of `map_Kd` |
 //! | `map_Ns` | of `shininess`, times `Ns` |
 //! | `map_d` | of `opacity`, times `d` or 1 − `Tr`: by the image's own opacity, or else its red, unless `-imfchan` |
 //! | `norm`; `bump`, `map_Bump` | `normal`, times `-bm`; `bump`, of which 1 is a hundredth of a unit; an image of normals is one by either name |
