@@ -86,7 +86,7 @@ impl<'a> Images<'a> {
         findings: &mut Findings,
     ) -> Option<Named> {
         let at = of.get(key)?;
-        match self.find(&at, buffers) {
+        match self.find(&at, (buffers, file), findings) {
             Ok(named) => {
                 let set = at.whole_or_zero("texCoord").unwrap_or(0);
                 if set > 0 {
@@ -109,7 +109,12 @@ impl<'a> Images<'a> {
         }
     }
 
-    fn find(&mut self, at: &At<'_>, buffers: &Buffers) -> Result<Named> {
+    fn find(
+        &mut self,
+        at: &At<'_>,
+        from: (&Buffers, &Arc<str>),
+        findings: &mut Findings,
+    ) -> Result<Named> {
         let index = at.need("index")?;
         let texture =
             self.root.item("textures", index.index()?).map_err(|f| index.fault(f.message))?;
@@ -134,7 +139,7 @@ impl<'a> Images<'a> {
         let read = if let Some(known) = self.read.get(&number.index()?) {
             known.clone()
         } else {
-            let read = self.load(&number, buffers);
+            let read = self.load(&number, from, findings);
             self.read.insert(number.index()?, read.clone());
             read
         };
@@ -143,17 +148,29 @@ impl<'a> Images<'a> {
         Ok(Named { image, texels, wrap, wrap_v, filter, transform })
     }
 
-    fn load(&self, number: &At<'_>, buffers: &Buffers) -> Result<Arc<Texels>> {
+    fn load(
+        &self,
+        number: &At<'_>,
+        (buffers, file): (&Buffers, &Arc<str>),
+        findings: &mut Findings,
+    ) -> Result<Arc<Texels>> {
         let image = self.root.item("images", number.index()?);
         let image = image.map_err(|f| number.fault(f.message))?;
         let limits = self.left();
+        let mut warn = |message: String| {
+            let tell = || format!("{}: {message}", image.pointer);
+            findings.warning("images that are not wholly drawn", || whole(file), tell);
+        };
         let decoded = match (image.get("bufferView"), image.get("uri")) {
-            (Some(view), _) => texels::parse(&buffers.bytes(&self.root, &view)?, &limits),
+            (Some(view), _) => {
+                texels::parse(&buffers.bytes(&self.root, &view)?, &limits, &mut warn)
+            }
             (None, Some(uri)) => {
                 let most = self.limits.bytes.min(1 << 32);
                 let bytes = load(&uri, self.path, self.source, most, false)?;
                 let bytes = bytes.part(0, bytes.len() as usize);
-                bytes.map_err(|error| trouble(&error)).and_then(|b| texels::parse(&b, &limits))
+                let bytes = bytes.map_err(|error| trouble(&error));
+                bytes.and_then(|bytes| texels::parse(&bytes, &limits, &mut warn))
             }
             (None, None) => Err("it has neither `bufferView` nor `uri`".to_owned()),
         };

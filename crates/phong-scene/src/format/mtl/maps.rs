@@ -7,7 +7,7 @@ use glam::{DAffine3, DVec3};
 
 use super::texture::{Map, MapOf};
 use crate::color::Rgb;
-use crate::diagnostic::{Place, Span};
+use crate::diagnostic::Span;
 use crate::format::text::Findings;
 use crate::limits::Limits;
 use crate::source::{Source, byte_letter};
@@ -34,21 +34,22 @@ impl<'a> Images<'a> {
         Self { source, limits, read: BTreeMap::new(), textures: Vec::new() }
     }
 
-    /// A texture of the colours of the image of that name beside the file at `file`; else why there is
-    /// none.
+    /// A texture of the colours of the image of that name, which stands there in the file at `file`; else why
+    /// there is none.
     pub(crate) fn color(
         &mut self,
         name: &str,
         file: &str,
-        place: &Place,
+        span: &Span,
+        findings: &mut Findings,
     ) -> Result<TextureId, String> {
-        let texels = load(name, file, self)?;
+        let texels = load(name, file, self, (span, findings))?;
         let texture = TextureId(self.textures.len() as u32);
         self.textures.push(Texture {
             name: name.to_owned(),
             kind: TextureKind::image(name, texels),
             space: TextureSpace::Uv,
-            place: place.clone(),
+            place: span.place.clone(),
             ..Texture::default()
         });
         Ok(texture)
@@ -90,7 +91,7 @@ impl Maps {
     ) -> Self {
         let mut maps = Self::default();
         for (map, span) in said.maps {
-            let texels = match load(&map.name, file, images) {
+            let texels = match load(&map.name, file, images, (span, findings)) {
                 Ok(texels) => texels,
                 Err(message) => {
                     maps.lost |= map.of == MapOf::Diffuse;
@@ -206,7 +207,12 @@ fn is_blue(texels: &Texels) -> bool {
 }
 
 /// The image of that name beside the file at `file`.
-fn load(name: &str, file: &str, images: &mut Images<'_>) -> Result<Arc<Texels>, String> {
+fn load(
+    name: &str,
+    file: &str,
+    images: &mut Images<'_>,
+    (span, findings): (&Span, &mut Findings),
+) -> Result<Arc<Texels>, String> {
     if name.is_empty() {
         return Err("it is not named".to_owned());
     }
@@ -216,7 +222,11 @@ fn load(name: &str, file: &str, images: &mut Images<'_>) -> Result<Arc<Texels>, 
     }
     let all = images.read.values().flatten().map(AsRef::as_ref);
     let limits = Texels::left(images.limits, all);
-    let read = texels::load(&path, images.source, &limits);
+    let mut warn = |message: String| {
+        let tell = || format!("the image `{name}`: {message}");
+        findings.warning("images that are not wholly drawn", || span.clone(), tell);
+    };
+    let read = texels::load(&path, images.source, &limits, &mut warn);
     images.read.insert(path, read.clone());
     read
 }

@@ -28,7 +28,7 @@ impl Skins {
             let name = name.replace(THIS, stem);
             let mut material =
                 Material { name: name.clone(), place: span.place.clone(), ..Material::default() };
-            match images.color(&name, input.path, &span.place) {
+            match images.color(&name, input.path, span, findings) {
                 Ok(texture) => material.color = TextureRef::new(texture).into(),
                 Err(message) => findings.warning(
                     "images that cannot be read",

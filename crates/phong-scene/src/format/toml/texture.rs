@@ -53,7 +53,11 @@ impl Images<'_> {
         let key = normal(&path);
         if !self.read.0.contains_key(&key) {
             let limits = Texels::left(self.limits, self.read.read());
-            self.read.0.insert(key.clone(), texels::load(&path, self.source, &limits));
+            let mut warn = |message: String| {
+                notes.warning(spot, format!("{}: {message}", wording::path(&path)));
+            };
+            let read = texels::load(&path, self.source, &limits, &mut warn);
+            self.read.0.insert(key.clone(), read);
         }
         match &self.read.0[&key] {
             Ok(texels) => Some(Arc::clone(texels)),
