@@ -125,6 +125,46 @@ fn images_of_floats_keep_what_is_brighter_than_white() {
     );
 }
 
+/// Radiance HDR without run lengths, whose pixels are as red as their numbers.
+fn hdr(header: &str, pixels: &[u8]) -> Vec<u8> {
+    let pixels = pixels.iter().flat_map(|&red| [red, 8, 16, 136]);
+    format!("#?RADIANCE\n{header}\n").into_bytes().into_iter().chain(pixels).collect()
+}
+
+#[test]
+fn hdr_lines_may_run_any_way() {
+    // 10 20 30 over 40 50 60, written in each of the eight ways.
+    for (size, pixels) in [
+        ("-Y 2 +X 3", [10, 20, 30, 40, 50, 60]),
+        ("-Y 2 -X 3", [30, 20, 10, 60, 50, 40]),
+        ("+Y 2 +X 3", [40, 50, 60, 10, 20, 30]),
+        ("+Y 2 -X 3", [60, 50, 40, 30, 20, 10]),
+        ("+X 3 -Y 2", [10, 40, 20, 50, 30, 60]),
+        ("+X 3 +Y 2", [40, 10, 50, 20, 60, 30]),
+        ("-X 3 -Y 2", [30, 60, 20, 50, 10, 40]),
+        ("-X 3 +Y 2", [60, 30, 50, 20, 40, 10]),
+    ] {
+        let texels = texels(&hdr(&format!("\n{size}"), &pixels));
+        assert_eq!(texels.size(), [3, 2], "{size}");
+        let red = |at| (texels.get(at, false)[0] / 10.0).round() as u32;
+        let rows = [0, 1].map(|y| [0, 1, 2].map(|x| red([x, y])));
+        assert_eq!(rows, [[1, 2, 3], [4, 5, 6]], "{size}");
+    }
+}
+
+#[test]
+fn hdr_exposures_are_divided_out() {
+    let pixel =
+        |header: &str| texels(&hdr(&format!("{header}\n-Y 1 +X 1"), &[64])).get([0, 0], false);
+    let plain = pixel("");
+    assert_eq!(
+        pixel("EXPOSURE=2\nVIEW=-vtv\nEXPOSURE= 4\n"),
+        [plain[0] / 8.0, plain[1] / 8.0, plain[2] / 8.0, 1.0]
+    );
+    let corrected = [plain[0], plain[1] / 2.0, plain[2] / 4.0, 1.0];
+    assert_eq!(pixel("FORMAT=32-bit_rle_rgbe\nCOLORCORR=1 2 4\n"), corrected);
+}
+
 #[test]
 fn what_is_no_image_is_an_error_where_it_is_named() {
     let whole = png([2, 1], (png::ColorType::Rgb, png::BitDepth::Eight), &[9; 6]);
@@ -142,6 +182,10 @@ fn what_is_no_image_is_an_error_where_it_is_named() {
         (include_bytes!("../cases/images/inks.jpg"), "four inks (CMYK)"),
         (&HDR[..HDR.len() - 4], "it is a broken HDR"),
         (b"#?RADIANCE\nnothing", "it is a broken HDR"),
+        (&hdr("EXPOSURE=0\n\n-Y 1 +X 1", &[1]), "`EXPOSURE=0` is no factor above 0"),
+        (&hdr("\n-Y 1 +Y 1", &[1]), "`-Y 1 +Y 1` is no size"),
+        (&hdr("\n-Y 0 +X 1", &[1]), "it has no pixels"),
+        (&hdr("FORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1", &[1]), "unsupported format `32-bit_rle_xyze`"),
         (&exr[..exr.len() / 2], "it is a broken EXR"),
     ] {
         let error = error(bytes, &limits);
