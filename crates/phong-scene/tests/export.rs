@@ -161,7 +161,6 @@ fn what_mtl_cannot_say_of_a_material_is_told() {
         ("model = \"ggx\"", "the Fresnel reflectance of facets"),
         ("model = \"blinn-phong\"\nnormalize = true", "normalised"),
         ("ambient_rule = \"per-light\"", "ambient light per light"),
-        ("k_e = 0.5", "the light of its own"),
     ] {
         let text = format!("[materials.m]\n{keys}\n{FACE}material = \"m\"\n");
         let (_, _, export) = export(scene(&text), Format::Obj, false);
@@ -169,14 +168,17 @@ fn what_mtl_cannot_say_of_a_material_is_told() {
         assert!(told.contains("material `m`: MTL does not hold"), "{keys}: {told}");
         assert!(told.contains(wanted), "{keys}: {told}");
     }
-    // A mirror as strong as the highlight is one that MTL has.
+    // A mirror as strong as the highlight is one that MTL has, and so is light of its own.
     let text = format!(
-        "[materials.m]\nmodel = \"blinn-phong\"\nk_s = 0.5\nreflection = 0.5\n{FACE}material = \"m\"\n"
+        "[materials.m]\nmodel = \"blinn-phong\"\nk_s = 0.5\nreflection = 0.5\nk_e = 0.5\n\
+         emission_color = [1, 0.5, 0]\n{FACE}material = \"m\"\n"
     );
     let (files, _, export) = export(scene(&text), Format::Obj, false);
     assert!(!told(&export).contains("MTL"), "{}", told(&export));
     let back = read_in(&files, "b.obj").scene.expect("a model");
     assert_eq!(back.materials[1].reflection, Rgb::grey(0.5).into());
+    assert_eq!(back.materials[1].k_e, 1.0.into());
+    assert_eq!(back.materials[1].emission_color, Some(Rgb::new(0.5, 0.25, 0.0).into()));
 }
 
 #[test]

@@ -57,6 +57,47 @@ fn an_image_of_opacity_is_multiplied_with_tr_as_with_d() {
 }
 
 #[test]
+fn emission_is_drawn_by_its_colour_and_by_its_image() {
+    let emission = |mtl: &str| {
+        let (material, scene, told) = material_with_image(&format!("newmtl a\n{mtl}"));
+        assert_eq!(told, "");
+        let by = material.emission_color.map(|color| match color.texture() {
+            Some(by) => match &scene.textures[by.texture.0 as usize].kind {
+                TextureKind::Image { tint, .. } => (*tint, true),
+                other => panic!("{other:?}"),
+            },
+            None => (color.constant().expect("a colour"), false),
+        });
+        (material.k_e.constant().expect("a number"), by)
+    };
+    let red = Rgb::new(2.0, 0.0, 0.0);
+    assert_eq!(emission("Ke 2 0 0\n"), (1.0, Some((red, false))));
+    assert_eq!(emission("Ke 2 0 0\nd 0.5\n"), (0.5, Some((red, false))));
+    assert_eq!(emission("Ke 0 0 0\n"), (0.0, None));
+    assert_eq!(emission("Ke 2 0 0\nmap_Ke s.png\n"), (1.0, Some((red, true))));
+    assert_eq!(emission("Ke 0 0 0\nmap_Ke s.png\n"), (1.0, Some((Rgb::WHITE, true))));
+}
+
+#[test]
+fn options_of_images_that_are_not_drawn_are_told_and_the_rest_is_drawn() {
+    for (options, told) in [
+        ("-s 0 0 0", "`-s 0 0` of the image `s.png` is not drawn"),
+        ("-s 1e400", "`-s 1e400` of"),
+        ("-mm 0 nan", "`-mm 0 nan` of"),
+        ("-imfchan l", "`-imfchan l` of"),
+        ("-s 2 2 0", ""),
+    ] {
+        let mtl = format!("newmtl a\nmap_d {options} s.png\n");
+        let (material, scene, all) = material_with_image(&mtl);
+        assert_eq!(all.contains("is not drawn"), !told.is_empty(), "{all}");
+        assert!(all.contains(told), "{all}");
+        assert_eq!(material.textured()[0].0, "opacity");
+        let scale = scene.textures[0].transform.matrix3.x_axis.x;
+        assert_eq!(scale, if options == "-s 2 2 0" { 0.5 } else { 1.0 }, "{options}");
+    }
+}
+
+#[test]
 fn an_image_of_ambient_colour_that_is_not_drawn_is_told() {
     for (ambient, diffuse, is_told) in [
         ("", "", true),

@@ -17,6 +17,7 @@ pub(super) struct Draft {
     pub(super) ambient: Option<Rgb>,
     pub(super) diffuse: Option<Rgb>,
     pub(super) specular: Option<Rgb>,
+    pub(super) emission: Option<Rgb>,
     pub(super) filter: Option<Rgb>,
     pub(super) exponent: Option<f32>,
     pub(super) index: Option<f32>,
@@ -37,6 +38,7 @@ impl Draft {
             ambient: None,
             diffuse: None,
             specular: None,
+            emission: None,
             filter: None,
             exponent: None,
             index: None,
@@ -50,7 +52,7 @@ impl Draft {
 
     /// What its images are beside.
     pub(super) fn said(&self) -> Said<'_> {
-        let Self { name, maps, ambient, diffuse, specular, exponent, dissolve, .. } = self;
+        let Self { name, maps, ambient, diffuse, specular, emission, .. } = self;
         // `Tr 1` without `d` is what programs write of opaque materials.
         let transparency = self.transparency.filter(|tr| *tr != 1.0);
         Said {
@@ -59,14 +61,16 @@ impl Draft {
             ambient: *ambient,
             diffuse: *diffuse,
             specular: *specular,
-            exponent: *exponent,
-            dissolve: dissolve.or(transparency.map(|tr| 1.0 - tr)),
+            emission: *emission,
+            exponent: self.exponent,
+            dissolve: self.dissolve.or(transparency.map(|tr| 1.0 - tr)),
         }
     }
 
     /// The colours that its statements give.
     pub(super) fn colors(&self) -> impl Iterator<Item = Rgb> {
-        [self.ambient, self.diffuse, self.specular, self.filter].into_iter().flatten()
+        let Self { ambient, diffuse, specular, emission, filter, .. } = self;
+        [*ambient, *diffuse, *specular, *emission, *filter].into_iter().flatten()
     }
 
     /// Whether it scatters more light than falls on it. Other colours may be larger than 1: lamps have
@@ -77,7 +81,8 @@ impl Draft {
 
     /// Takes colours as counted up to 255.
     pub(super) fn divide_colors(&mut self) {
-        for color in [&mut self.ambient, &mut self.diffuse, &mut self.specular, &mut self.filter] {
+        let Self { ambient, diffuse, specular, emission, filter, .. } = self;
+        for color in [ambient, diffuse, specular, emission, filter] {
             *color = color.map(|color| color / 255.0);
         }
     }
@@ -116,6 +121,7 @@ impl Draft {
         };
         // White is what programs write that have no ambient colour to give.
         let ambient = self.ambient.filter(|&color| color != Rgb::WHITE);
+        let emission = self.emission.filter(|color| !color.is_black());
         let constant = ConstantMaterial {
             name: self.name.clone(),
             model: if highlight { Model::BlinnPhong } else { Model::Lambert },
@@ -125,6 +131,8 @@ impl Draft {
             k_a: opacity * if self.ambient.is_some() { 1.0 } else { 0.1 },
             k_d: opacity,
             k_s: if highlight { opacity } else { 0.0 },
+            k_e: if emission.is_some() || maps.emission.is_some() { opacity } else { 0.0 },
+            emission_color: emission,
             shininess: exponent,
             reflection: if mirrors { k_s } else { Rgb::BLACK },
             transmission,
@@ -148,6 +156,9 @@ impl Draft {
         }
         if let (true, Some(by)) = (mirrors, maps.specular) {
             material.reflection = by.into();
+        }
+        if let Some(by) = maps.emission {
+            material.emission_color = Some(by.into());
         }
         if let Some(by) = maps.exponent {
             material.shininess = by.into();

@@ -63,6 +63,7 @@ pub(super) struct Said<'a> {
     pub(super) ambient: Option<Rgb>,
     pub(super) diffuse: Option<Rgb>,
     pub(super) specular: Option<Rgb>,
+    pub(super) emission: Option<Rgb>,
     pub(super) exponent: Option<f32>,
     pub(super) dissolve: Option<f32>,
 }
@@ -73,6 +74,7 @@ pub(super) struct Maps {
     pub(super) ambient: Option<TextureRef>,
     pub(super) diffuse: Option<TextureRef>,
     pub(super) specular: Option<TextureRef>,
+    pub(super) emission: Option<TextureRef>,
     pub(super) exponent: Option<TextureRef>,
     pub(super) dissolve: Option<TextureRef>,
     pub(super) bump: Option<TextureRef>,
@@ -116,12 +118,18 @@ impl Maps {
         images: &mut Images<'_>,
         findings: &mut Findings,
     ) {
-        if map.turbulent {
-            findings.warning(
-                "turbulences",
-                || span.clone(),
-                || format!("turbulence (`-t`) of `{}` is not drawn", map.name),
-            );
+        let transform = placed(map);
+        let mut ignored = map.ignored.clone();
+        if transform.is_none() {
+            let [u, v, _] = map.scale;
+            ignored.push(format!("-s {u} {v}"));
+        }
+        if map.luminance && texels.channels() >= 3 {
+            ignored.push("-imfchan l".to_owned());
+        }
+        for option in ignored {
+            let tell = || format!("`{option}` of the image `{}` is not drawn", map.name);
+            findings.warning("options of images", || span.clone(), tell);
         }
         // Black is what programs write beside an image that says it all.
         let tint = |color: Option<Rgb>| color.filter(|c| !c.is_black()).unwrap_or(Rgb::WHITE);
@@ -131,6 +139,7 @@ impl Maps {
             MapOf::Ambient => ("map_Ka", tint(said.ambient)),
             MapOf::Diffuse => ("map_Kd", tint(said.diffuse)),
             MapOf::Specular => ("map_Ks", tint(said.specular)),
+            MapOf::Emission => ("map_Ke", tint(said.emission)),
             MapOf::Exponent => ("map_Ns", Rgb::WHITE),
             MapOf::Dissolve => ("map_d", Rgb::WHITE),
             MapOf::Bump | MapOf::Normal => (if is_normal { "norm" } else { "bump" }, Rgb::WHITE),
@@ -150,7 +159,7 @@ impl Maps {
                 encoding: Encoding::Auto,
             },
             space: TextureSpace::Uv,
-            transform: placed(map),
+            transform: transform.unwrap_or_default(),
             place: span.place.clone(),
         });
         let by = TextureRef {
@@ -169,6 +178,7 @@ impl Maps {
             MapOf::Ambient => self.ambient = Some(by),
             MapOf::Diffuse => self.diffuse = Some(by),
             MapOf::Specular => self.specular = Some(by),
+            MapOf::Emission => self.emission = Some(by),
             MapOf::Exponent => {
                 self.exponent = Some(number(said.exponent.unwrap_or(32.0).max(0.0).into(), None));
             }
@@ -184,16 +194,19 @@ impl Maps {
     }
 }
 
-/// Where an image lies for `-s` and `-o`, which are of texture coordinates.
-fn placed(map: &Map) -> DAffine3 {
+/// Where an image lies for `-s` and `-o`, which are of texture coordinates; `None`: it lies nowhere, as it has no
+/// extent.
+fn placed(map: &Map) -> Option<DAffine3> {
+    let ([u, v, _], [x, y, _]) = (map.scale, map.offset);
     let from = DAffine3 {
-        matrix3: glam::DMat3::from_diagonal(DVec3::from(map.scale)),
-        translation: DVec3::from(map.offset),
+        matrix3: glam::DMat3::from_diagonal(DVec3::new(u, v, 1.0)),
+        translation: DVec3::new(x, y, 0.0),
     };
-    if map.scale.contains(&0.0) || !from.inverse().is_finite() {
-        return DAffine3::IDENTITY;
+    if from == DAffine3::IDENTITY {
+        return Some(from);
     }
-    if from == DAffine3::IDENTITY { from } else { from.inverse() }
+    let is_there = u != 0.0 && v != 0.0;
+    is_there.then(|| from.inverse()).filter(DAffine3::is_finite)
 }
 
 /// Whether an image is one of normals, which many programs write as `map_Bump`: blue, with red and green about

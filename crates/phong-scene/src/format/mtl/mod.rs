@@ -10,6 +10,7 @@
 //! | `Kd` | `color`, with `k_d` 1; without it, or where it is black beside a `map_Kd`, 0.8 |
 //! | `Ka` | `ambient_color`, with `k_a` 1; white is the filler of programs that have none and is taken times Kd, as other readers do; without it `k_a` is 0.1 of the diffuse colour |
 //! | `Ks`, `Ns` | `specular_color`, with `k_s` 1 if it is not black; `shininess`, 32 without it; an exponent of 0 or below means no highlight |
+//! | `Ke` | `emission_color`, with `k_e` 1 if it is not black: it is seen, and sheds no light |
 //! | `d`, `Tr` | `Tr` is not in the specification: 1 − d, unless `d` stands beside it; `Tr 1` alone is opaque, since programs write it so |
 //! | `Ni` | `ior` |
 //! | `Tf` | the filter of `transmission`; white without it |
@@ -36,13 +37,13 @@
 //!
 //! | statement | becomes |
 //! |---|---|
-//! | `map_Kd`, `map_Ks` | a texture of `color`, of `specular_color`: times `Kd`, `Ks`, unless they are black |
+//! | `map_Kd`, `map_Ks`, `map_Ke` | a texture of `color`, of `specular_color`, of `emission_color`: times `Kd`, `Ks`, `Ke`, unless they are black |
 //! | `map_Ka` | of `ambient_color`, if `Ka` is said and not white; else a warning, unless it is that of `map_Kd` |
 //! | `map_Ns` | of `shininess`, times `Ns` |
 //! | `map_d` | of `opacity`, times `d` or 1 − `Tr`: by the image's own opacity, or else its red, unless `-imfchan` |
 //! | `norm`; `bump`, `map_Bump` | `normal`, times `-bm`; `bump`, of which 1 is a hundredth of a unit; an image of normals is one by either name |
 //!
-//! Other textures, emission, `-halo`, spectral and XYZ colours and the physically based extension are
+//! Other textures, the options `-t`, `-boost` and `-cc`, the luminance of colours (`-imfchan l`), `-halo`, spectral and XYZ colours and the physically based extension are
 //! not drawn; each is a warning that names it.
 
 mod draft;
@@ -184,13 +185,7 @@ impl Reader<'_> {
             b"Kd" => self.color(cursor, |draft| &mut draft.diffuse),
             b"Ks" => self.color(cursor, |draft| &mut draft.specular),
             b"Tf" => self.color(cursor, |draft| &mut draft.filter),
-            b"Ke" => {
-                let mut emission = None;
-                self.color_into(cursor, &mut emission);
-                if emission.is_some_and(|c| !c.is_black()) {
-                    self.warn(&here, "emissions", |_| "emission (`Ke`) is not drawn".to_owned());
-                }
-            }
+            b"Ke" => self.color(cursor, |draft| &mut draft.emission),
             b"Ns" => self.number(cursor, |draft, value| draft.exponent = Some(value)),
             b"Ni" => self.number(cursor, |draft, value| draft.index = Some(value)),
             b"Tr" => self.number(cursor, |draft, value| draft.transparency = Some(value)),

@@ -14,8 +14,8 @@ pub(super) struct Map {
     pub(super) scale: [f64; 3],
     /// `-clamp on`.
     pub(super) clamp: bool,
-    /// `-t`: asked for, and not drawn.
-    pub(super) turbulent: bool,
+    /// Options that are not drawn, as they are written.
+    pub(super) ignored: Vec<String>,
     /// `-bm`: how much bumps count.
     pub(super) bump: f64,
     /// `-mm`: what is added to values after they are multiplied.
@@ -23,6 +23,8 @@ pub(super) struct Map {
     pub(super) gain: f64,
     /// `-imfchan`.
     pub(super) channel: Option<Channel>,
+    /// `-imfchan l`: the channel is asked to be the luminance of all.
+    pub(super) luminance: bool,
 }
 
 /// What an image says of a material.
@@ -33,6 +35,7 @@ pub(super) enum MapOf {
     Specular,
     Exponent,
     Dissolve,
+    Emission,
     Bump,
     Normal,
     /// Something that is not drawn.
@@ -46,6 +49,7 @@ pub(super) fn statement(keyword: &[u8], rest: &[u8]) -> Option<Map> {
         b"map_ka" => MapOf::Ambient,
         b"map_kd" => MapOf::Diffuse,
         b"map_ks" => MapOf::Specular,
+        b"map_ke" => MapOf::Emission,
         b"map_ns" => MapOf::Exponent,
         b"map_d" => MapOf::Dissolve,
         b"bump" | b"map_bump" | b"bmp" => MapOf::Bump,
@@ -60,11 +64,12 @@ pub(super) fn statement(keyword: &[u8], rest: &[u8]) -> Option<Map> {
         offset: [0.0; 3],
         scale: [1.0; 3],
         clamp: false,
-        turbulent: false,
+        ignored: Vec::new(),
         bump: 1.0,
         base: 0.0,
         gain: 1.0,
         channel: None,
+        luminance: false,
     };
     let text = name_of(rest);
     // Names may hold blanks: all from the first word that is no option to the last of them.
@@ -85,18 +90,21 @@ pub(super) fn statement(keyword: &[u8], rest: &[u8]) -> Option<Map> {
             }
         };
         let mut said = Vec::new();
+        let mut last = option;
         for _ in 0..numbers {
-            let number = |word: &str| word.parse::<f64>().ok().filter(|n| n.is_finite());
             let Some((_, word)) = words.next_if(|(_, word)| word.parse::<f64>().is_ok()) else {
                 break;
             };
-            said.extend(number(word));
+            said.extend(word.parse::<f64>());
+            last = word;
         }
-        let mut word = "";
         for _ in 0..others {
-            word = words.next().map_or("", |(_, word)| word);
+            last = words.next().map_or("", |(_, word)| word);
         }
-        map.option(option, &said, word);
+        if !map.option(option, &said, last) {
+            let end = last.as_ptr() as usize + last.len() - text.as_ptr() as usize;
+            map.ignored.push(text[at..end].to_owned());
+        }
         if start.is_some() {
             // Options behind the name end it.
             break;
@@ -107,12 +115,17 @@ pub(super) fn statement(keyword: &[u8], rest: &[u8]) -> Option<Map> {
 }
 
 impl Map {
-    fn option(&mut self, option: &str, numbers: &[f64], word: &str) {
+    /// Takes an option; whether it is drawn.
+    fn option(&mut self, option: &str, numbers: &[f64], word: &str) -> bool {
+        if !numbers.iter().all(|number| number.is_finite()) {
+            return false;
+        }
         let into = |to: &mut [f64]| to.iter_mut().zip(numbers).for_each(|(to, from)| *to = *from);
         match option {
             "-o" => into(&mut self.offset),
             "-s" => into(&mut self.scale),
-            "-t" => self.turbulent = numbers.iter().any(|number| *number != 0.0),
+            "-t" | "-boost" => return numbers.iter().all(|number| *number == 0.0),
+            "-cc" => return !word.eq_ignore_ascii_case("on"),
             "-mm" => {
                 let mut both = [self.base, self.gain];
                 into(&mut both);
@@ -121,16 +134,21 @@ impl Map {
             "-bm" => self.bump = numbers.first().copied().unwrap_or(1.0),
             "-clamp" => self.clamp = word.eq_ignore_ascii_case("on"),
             "-imfchan" => {
+                let is_number = matches!(self.of, MapOf::Exponent | MapOf::Dissolve | MapOf::Bump);
+                self.luminance = word == "l" && is_number;
                 self.channel = match word {
                     "r" => Some(Channel::Red),
                     "g" => Some(Channel::Green),
                     "b" => Some(Channel::Blue),
                     "m" => Some(Channel::Alpha),
-                    _ => None,
+                    // Of greys it is their luminance.
+                    "l" if is_number => Some(Channel::Red),
+                    _ => return false,
                 }
             }
             _ => {}
         }
+        true
     }
 }
 
@@ -171,5 +189,29 @@ mod tests {
         assert_eq!((read.of, read.channel), (MapOf::Diffuse, Some(Channel::Alpha)));
         let bump = map("map_Bump -bm 0.3 a.png").unwrap();
         assert_eq!((bump.of, bump.bump), (MapOf::Bump, 0.3));
+    }
+
+    #[test]
+    fn options_that_are_not_drawn_are_kept_as_they_are_written() {
+        for (option, is_ignored) in [
+            ("-s 1e400", true),
+            ("-mm 0 nan", true),
+            ("-boost 2", true),
+            ("-boost 0", false),
+            ("-cc  on", true),
+            ("-cc off", false),
+            ("-t 0 1", true),
+            ("-imfchan z", true),
+            ("-imfchan l", false),
+            ("-blendu off", false),
+        ] {
+            let read = map(&format!("map_d {option} a.png")).unwrap();
+            assert_eq!(read.ignored, vec![option; usize::from(is_ignored)], "{option}");
+            assert_eq!((read.gain, read.scale), (1.0, [1.0; 3]), "{option}");
+        }
+        let read = map("map_d -imfchan l a.png").unwrap();
+        assert_eq!((read.channel, read.luminance), (Some(Channel::Red), true));
+        // Of a colour there is no such thing to draw.
+        assert_eq!(map("map_Kd -imfchan l a.png").unwrap().ignored, ["-imfchan l"]);
     }
 }

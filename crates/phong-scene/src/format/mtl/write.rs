@@ -32,9 +32,13 @@ pub(crate) fn write(material: &Material, name: &str, text: &mut String) -> Vec<D
     let draft = draft(material, name, &mut differences);
     // Writing to a string does not fail.
     let _ = writeln!(text, "newmtl {name}");
-    for (keyword, color) in
-        [("Ka", draft.ambient), ("Kd", draft.diffuse), ("Ks", draft.specular), ("Tf", draft.filter)]
-    {
+    for (keyword, color) in [
+        ("Ka", draft.ambient),
+        ("Kd", draft.diffuse),
+        ("Ks", draft.specular),
+        ("Ke", draft.emission),
+        ("Tf", draft.filter),
+    ] {
         if let Some(Rgb { r, g, b }) = color {
             let _ = writeln!(text, "{keyword} {r} {g} {b}");
         }
@@ -75,6 +79,7 @@ fn draft(m: &ConstantMaterial, name: &str, differences: &mut Vec<Difference>) ->
         draft.ambient = Some(m.ambient_color.unwrap_or(m.color) * (m.k_a / d));
     }
     draft.specular = exponent.map(|_| k_s);
+    draft.emission = (m.k_e > 0.0).then(|| m.emission_color.unwrap_or(m.color) * (m.k_e / d));
     draft.exponent = exponent;
     if d != 1.0 {
         draft.dissolve = Some(d);
@@ -180,7 +185,8 @@ fn compare(m: &ConstantMaterial, back: &ConstantMaterial, differences: &mut Vec<
     if !near(m.k_d * m.color, back.k_d * back.color) {
         lost("the diffuse colour");
     }
-    if m.k_e > 0.0 {
+    let emission = |m: &ConstantMaterial| m.k_e * m.emission_color.unwrap_or(m.color);
+    if !near(emission(m), emission(back)) {
         lost("the light of its own");
     }
     if !near(m.reflection, back.reflection) {
