@@ -117,7 +117,8 @@ use crate::limits::Range;
 use crate::material::{Material, MaterialId};
 use crate::outline::Outline;
 use crate::shape::Shape;
-use crate::sky::Sky;
+use crate::sky::{Sky, SkyKind};
+use crate::texels::Texels;
 use crate::texture::Texture;
 use crate::tone::Tone;
 use crate::wording::words;
@@ -200,6 +201,16 @@ impl Scene {
     /// The objects, and then those of the groups: what instances place is among them once.
     pub fn all_objects(&self) -> impl Iterator<Item = &Object> {
         self.objects.iter().chain(self.groups.iter().flat_map(|group| &group.objects))
+    }
+
+    /// Bytes of the images of its textures and of its sky in memory, each counted once, with the halves that are
+    /// made of them when they are needed.
+    pub fn image_bytes(&self) -> u64 {
+        let sky = self.sky.iter().filter_map(|sky| match &sky.kind {
+            SkyKind::Image { texels, .. } => Some(&**texels),
+            _ => None,
+        });
+        Texels::bytes_of(self.textures.iter().filter_map(Texture::texels).chain(sky))
     }
 }
 

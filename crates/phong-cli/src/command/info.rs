@@ -37,6 +37,7 @@ pub(crate) fn run(Args { question: args }: &Args) -> Result<(), Failure> {
     let scene = compile(&input.scene, &args.input, 0)?;
     let build_seconds = started.elapsed().as_secs_f64();
     let held = Holdings::of(scene.geometry());
+    let bytes = held.bytes + input.scene.image_bytes();
     std::mem::forget(scene);
     if args.json {
         return report::json(&json!({
@@ -50,7 +51,7 @@ pub(crate) fn run(Args { question: args }: &Args) -> Result<(), Failure> {
             "material_names": names,
             "bounds": bounds,
             "nodes": held.nodes,
-            "bytes": held.bytes,
+            "bytes": bytes,
             "build_seconds": build_seconds,
             "peak_bytes": memory::peak(),
         }));
@@ -67,7 +68,7 @@ pub(crate) fn run(Args { question: args }: &Args) -> Result<(), Failure> {
     line("lights", lights.to_string());
     line("materials", format!("{}: {}", names.len(), shortened(&names)));
     line("bounds", bounds.map_or("none".to_owned(), |[min, max]| format!("{min:?} to {max:?}")));
-    line("memory", report::readable(held.bytes));
+    line("memory", report::readable(bytes));
     line("build", format!("{build_seconds:.3} s"));
     report::data(text.as_bytes())
 }

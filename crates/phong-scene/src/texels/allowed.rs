@@ -1,5 +1,8 @@
 //! How large an image may be, told before it is decoded.
 
+use std::collections::BTreeMap;
+use std::ptr;
+
 use super::{TexelValues, Texels};
 use crate::limits::Limits;
 
@@ -14,9 +17,15 @@ impl Texels {
         with_halves(size * self.values.len() as u64)
     }
 
+    /// [`Texels::bytes`] of all of these, each once however often it is among them.
+    pub(crate) fn bytes_of<'a>(all: impl Iterator<Item = &'a Self>) -> u64 {
+        let each: BTreeMap<_, _> = all.map(|texels| (ptr::from_ref(texels), texels)).collect();
+        each.into_values().map(Self::bytes).fold(0, u64::saturating_add)
+    }
+
     /// The limits of the next image where `all` are in memory already: together they stay within `limits`.
     pub(crate) fn left<'a>(limits: &Limits, all: impl Iterator<Item = &'a Self>) -> Limits {
-        let taken = all.map(Self::bytes).fold(0, u64::saturating_add);
+        let taken = Self::bytes_of(all);
         Limits { bytes: limits.bytes.saturating_sub(taken), ..limits.clone() }
     }
 }

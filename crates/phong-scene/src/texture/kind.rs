@@ -374,6 +374,14 @@ fn black_to_white() -> Vec<(f32, Rgb)> {
 }
 
 impl Texture {
+    /// The pixels, of an image.
+    pub(crate) fn texels(&self) -> Option<&Texels> {
+        match &self.kind {
+            TextureKind::Image { texels, .. } => Some(texels),
+            _ => None,
+        }
+    }
+
     /// The values between which all of its values lie, of this channel: for [`Channel::Alpha`] greys.
     pub fn values(&self, channel: Option<Channel>) -> Vec<Rgb> {
         match &self.kind {

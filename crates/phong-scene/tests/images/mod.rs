@@ -43,6 +43,13 @@ fn an_image_of_the_highlight_is_that_of_the_mirror() {
 }
 
 #[test]
+fn bytes_of_images_are_those_of_each_once() {
+    let (_, scene, _) = material_with_image("newmtl a\nmap_Kd s.png\nKs 1 1 1\nmap_Ks s.png\n");
+    // Of a pixel three, and a third more for its halves.
+    assert_eq!((scene.textures.len(), scene.image_bytes()), (2, 4));
+}
+
+#[test]
 fn an_image_of_opacity_is_multiplied_with_tr_as_with_d() {
     for (said, scale) in
         [("Tr 0.5", 0.5), ("d 0.25", 0.25), ("d 0.25\nTr 0.5", 0.25), ("Tr 1", 1.0), ("", 1.0)]

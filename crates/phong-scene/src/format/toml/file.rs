@@ -1,8 +1,5 @@
 //! What a scene names by file: other scene files, and models.
 
-use std::collections::BTreeMap;
-use std::sync::Arc;
-
 use super::draft::{Draft, DraftShape, Looks, Part};
 use super::path::{join, normal};
 use super::reader::Reader;
@@ -16,7 +13,7 @@ use crate::scene::Object;
 use crate::shape::{GroupId, Shape};
 use crate::source::trouble;
 use crate::texels::Texels;
-use crate::texture::TextureKind;
+use crate::texture::Texture;
 use crate::wording::{self, Word};
 
 /// Most files that a scene may include, those included by others too: a file that includes the
@@ -314,13 +311,7 @@ impl Reader<'_> {
     /// The limits of what is read next, where the images of models count that there are already.
     pub(super) fn left_of_models(&self) -> Limits {
         let textures = self.fragments.iter().flat_map(|looks| &looks.textures);
-        let texels = textures.filter_map(|texture| match &texture.kind {
-            TextureKind::Image { texels, .. } => Some(texels),
-            _ => None,
-        });
-        // Several textures may show one image.
-        let each: BTreeMap<_, _> = texels.map(|texels| (Arc::as_ptr(texels), &**texels)).collect();
-        Texels::left(self.limits, each.into_values())
+        Texels::left(self.limits, textures.filter_map(Texture::texels))
     }
 
     /// Reads a file and says what there is to say about it.
