@@ -78,7 +78,7 @@
 //! |---|---|---|---|
 //! | `texture` | the name of a texture, in quotes | required | Where the values come from. |
 //! | `scale` | a number | `1` | What they are multiplied by. |
-//! | `offset` | a number | `0` | What is added then. |
+//! | `offset` | a number | `0` | What is added then; what comes below 0 is 0. |
 //! | `channel` | `r`, `g`, `b` or `a` | all three; of a number `r` | The channel that is taken. |
 
 mod kind;

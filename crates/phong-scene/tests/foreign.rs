@@ -337,6 +337,31 @@ fn what_the_camera_does_not_see_is_told() {
 }
 
 #[test]
+fn a_parameter_that_is_0_wherever_its_texture_is_is_told() {
+    for (parameter, is_told) in [
+        ("k_d = { texture = \"t\", offset = -1 }", true),
+        ("shininess = { texture = \"t\", scale = -50 }", true),
+        ("color = { texture = \"t\", offset = -1.5 }", true),
+        ("color = { texture = \"t\", offset = -0.9 }", false),
+        // Of a number red counts, of a colour all three.
+        ("k_s = { texture = \"t\", offset = -0.5 }", true),
+        ("color = { texture = \"t\", offset = -0.5 }", false),
+        ("bump = { texture = \"t\", scale = -1 }", false),
+    ] {
+        let scene = format!(
+            "version = 1\n[camera]\neye = [0, 0, 5]\nlook_at = [0, 0, 0]\n\
+             [[light]]\nkind = \"distant\"\ndirection = [0, 0, -1]\n\
+             [textures.t]\nkind = \"checker\"\ncolors = [[0.5, 1, 0], 0]\n\
+             [materials.m]\n{parameter}\n\
+             [[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"m\"\n"
+        );
+        let said = told(&text("a.toml", &scene));
+        assert_eq!(said.contains("is 0 everywhere: all of the texture \"t\""), is_told, "{said}");
+        assert_eq!(said.contains("a.toml:11:1: warning"), is_told, "{said}");
+    }
+}
+
+#[test]
 fn a_packed_model_is_read_as_it_is_whatever_its_name_says() {
     use std::io::Write;
     let mut packer = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());

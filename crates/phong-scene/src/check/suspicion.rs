@@ -7,12 +7,13 @@ use glam::DVec3;
 use super::at;
 use crate::bounds::Bounds;
 use crate::camera::CameraKind;
+use crate::color::Rgb;
 use crate::diagnostic::{Diagnostic, Label};
 use crate::light::Light;
 use crate::material::Material;
 use crate::scene::{Object, Scene};
 use crate::shape::{GroupId, Shape};
-use crate::texture::TextureSpace;
+use crate::texture::{Channel, TextureRef, TextureSpace, TextureUse, Textured};
 use crate::wording::{list, quoted};
 
 /// Most pairs of a light and an object that are looked at: a check must not outlast the render.
@@ -26,6 +27,7 @@ const MOST_NAMED: usize = 5;
 pub(super) fn check(scene: &Scene, bounds: &[Bounds], say: &mut dyn FnMut(Diagnostic)) {
     unseen(scene, bounds, say);
     without_coordinates(scene, say);
+    scene.materials.iter().for_each(|material| nowhere_above_0(scene, material, say));
     if scene.objects.is_empty() {
         let help = "add a shape, such as `[[sphere]]`";
         say(Diagnostic::warning("the scene has no objects", None).with_help(help));
@@ -67,6 +69,29 @@ fn without_coordinates(scene: &Scene, say: &mut dyn FnMut(Diagnostic)) {
         let help =
             "each of its triangles shows the texture for itself; `space = \"object\"` needs none";
         say(Diagnostic::warning(message, at(&object.place)).with_help(help));
+    }
+}
+
+/// Says which parameters `scale` and `offset` bring below 0 wherever their texture is: they are 0.
+fn nowhere_above_0(scene: &Scene, material: &Material, say: &mut dyn FnMut(Diagnostic)) {
+    for ((key, by), (_, TextureUse { is_color, .. })) in
+        material.textured().into_iter().zip(material.texture_uses())
+    {
+        // Slopes have either sign.
+        if matches!(key, "normal" | "bump") || by.scale >= 0.0 && by.offset >= 0.0 {
+            continue;
+        }
+        let Some(texture) = scene.textures.get(by.texture.0 as usize) else { continue };
+        let channel = by.channel.or((!is_color).then_some(Channel::Red));
+        let by = TextureRef { channel, ..by };
+        if texture.values(channel).into_iter().all(|value| Rgb::of(value, &by).is_black()) {
+            let (of, texture) = (quoted(&material.name), quoted(&texture.name));
+            let message = format!(
+                "`{key}` of the material {of} is 0 everywhere: all of the texture {texture} comes below 0"
+            );
+            let help = "`scale` and `offset` beside `texture` bring its values into range";
+            say(Diagnostic::warning(message, at(&material.place)).with_help(help));
+        }
     }
 }
 

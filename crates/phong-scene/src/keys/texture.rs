@@ -365,7 +365,12 @@ pub(crate) static TEXTURED: Table = Table {
             Default::Number(1.0),
             "What they are multiplied by.",
         ),
-        Key::new("offset", Kind::Number(Range::ANY), Default::Number(0.0), "What is added then."),
+        Key::new(
+            "offset",
+            Kind::Number(Range::ANY),
+            Default::Number(0.0),
+            "What is added then; what comes below 0 is 0.",
+        ),
         Key::new(
             "channel",
             Kind::Word(Channel::WORDS),
