@@ -66,20 +66,20 @@ impl Seen<'_> {
         if m[0] * n[0] + m[1] * n[1] + m[2] * n[2] < self.least_cos {
             return true;
         }
-        let (near, far) = (self.depth[p], self.depth[q]);
-        let least = self.lines.depth * near.min(far);
-        let jump = (far - near).abs();
-        if self.lines.depth == 0.0 || jump <= least {
-            return false;
-        }
-        // A slope goes on as it came: then nothing jumps.
-        let off = |from: Option<usize>, here: usize, there: usize| {
-            let from = from.filter(|&from| self.object[from] == self.object[here]);
-            from.map_or(jump, |from| {
-                (self.depth[there] - (2.0 * self.depth[here] - self.depth[from])).abs()
-            })
+        let jumps = |of: fn(f32) -> f32| {
+            let at = |i: usize| of(self.depth[i]);
+            let least = self.lines.depth * at(p).min(at(q));
+            let jump = (at(q) - at(p)).abs();
+            // A slope goes on as it came: then nothing jumps.
+            let off = |from: Option<usize>, here: usize, there: usize| {
+                let from = from.filter(|&from| self.object[from] == self.object[here]);
+                from.map_or(jump, |from| (at(there) - (2.0 * at(here) - at(from))).abs())
+            };
+            jump > least && off(before, p, q).min(off(beyond, q, p)) > least
         };
-        off(before, p, q).min(off(beyond, q, p)) > least
+        // Over a plane the distance is linear where rays are parallel; where they spread from a point, its
+        // inverse is, but for how little they turn from one pixel to the next.
+        self.lines.depth > 0.0 && jumps(|distance| distance) && jumps(|distance| 1.0 / distance)
     }
 }
 
