@@ -5,7 +5,7 @@ use phong::film::LayerKind;
 use phong::finish::finish;
 use phong::image::Encoding;
 use phong::part::Settings;
-use phong::render::{Cancel, RenderOptions, render};
+use phong::render::{Cancel, Lines, RenderOptions, render};
 use phong::view::View;
 use phong_scene::{Limits, Memory, Scene, read};
 
@@ -60,4 +60,37 @@ fn a_jump_of_the_distance_within_an_object_has_its_line() {
     let head = HEAD.replace("[outline]", "[outline]\nobjects = false");
     let columns = lines(&format!("{head}{camera}{torus}"));
     assert!((0.9..1.5).contains(&columns[40]), "its near side before its far one: {}", columns[40]);
+}
+
+/// The layers that lines and labels go by, of a ball before a floor and what is added.
+fn layers(more: &str) -> [Vec<f32>; 3] {
+    let camera = "[camera]\neye = [0, 1, 6]\nlook_at = [0, 1, 0]\nfov = 40\n";
+    let ball = "[[sphere]]\ncenter = [0, 1, 0]\nradius = 1\nmaterial = \"white\"\n";
+    let scene = scene(&format!("{HEAD}{camera}{FLOOR}{ball}{more}"));
+    let options = RenderOptions::of(&scene.image).unwrap().with_aovs(&Lines::NEEDS);
+    let film = render(&View::of(&scene).unwrap(), &options, &|_| {}, &Cancel::new()).film;
+    Lines::NEEDS.map(|aov| film.layer(LayerKind::Aov(aov)).unwrap().values.to_vec())
+}
+
+#[test]
+fn what_is_not_there_is_in_no_layer_and_what_is_behind_it_is_as_without_it() {
+    let sheet = |keys: &str| {
+        format!(
+            "[textures.squares]\nkind = \"checker\"\ncolors = [0.1, 0.9]\n[materials.sheet]\n{keys}\n\
+             [[disc]]\ncenter = [0, 1, 2]\nnormal = [0.1, 0, 1]\nradius = 2\nmaterial = \"sheet\"\n"
+        )
+    };
+    let without = layers("");
+    for keys in ["opacity = 0", "opacity = 0.4\nopacity_mode = \"mask\""] {
+        assert!(layers(&sheet(keys)) == without, "{keys}");
+    }
+    // Of glass and of what is there in part the layers are its own.
+    for keys in ["opacity = 0.01", "transmission = 1"] {
+        assert!(layers(&sheet(keys))[0].contains(&3.0), "{keys}");
+    }
+    let holes = layers(&sheet("opacity = { texture = \"squares\" }\nopacity_mode = \"mask\""));
+    let is_there = |object: &&f32| **object == 3.0;
+    let [all, left] =
+        [layers(&sheet("")), holes].map(|[objects, ..]| objects.iter().filter(is_there).count());
+    assert!(all > 1000 && left * 10 > all * 3 && left * 10 < all * 7, "{left} of {all}");
 }

@@ -10,6 +10,8 @@
 use glam::{DVec3, Vec3};
 use phong_bvh::{Hit, Hits8, Ray, Rays8, Surface, lanes};
 
+use super::Steps;
+use super::filtered::material_met;
 use crate::view::{Coincidences, View};
 
 /// Up to so many surfaces that change nothing are passed on the way to one that does.
@@ -176,8 +178,29 @@ impl Crossings {
     }
 }
 
+/// The surface that a ray from the camera shows first, and the ray as it gets there: what has no opacity where
+/// it is met is not seen.
+pub(crate) fn first_seen(view: &View, ray: Ray, closest: Hit) -> (Ray, Hit) {
+    let (mut ray, mut hit) = first_met(view, ray, closest);
+    if !view.has_see_through() {
+        return (ray, hit);
+    }
+    for passed in 0..Steps::MOST_PASSED {
+        if !hit.is_some() {
+            break;
+        }
+        let at = view.interaction(&ray, &hit);
+        if material_met(view, &ray, &at).cover(at.n.dot(at.e), passed) > 0.0 {
+            break;
+        }
+        ray.t_min = hit.t + Member::new(view, &ray, hit).window(&ray);
+        (ray, hit) = first_met(view, ray, view.intersect(&ray));
+    }
+    (ray, hit)
+}
+
 /// The surface that a ray from the camera meets first, and the ray as it gets there.
-pub(crate) fn first_met(view: &View, ray: Ray, closest: Hit) -> (Ray, Hit) {
+fn first_met(view: &View, ray: Ray, closest: Hit) -> (Ray, Hit) {
     let Some(coincidences) = view.coincidences() else { return (ray, closest) };
     let mut way = ray;
     let departure = Departure::default();
@@ -278,6 +301,13 @@ impl Member {
         self.surface.ng.abs().dot(self.surface.p_error)
     }
 
+    /// How far along the ray before and behind its hit it may be.
+    fn window(&self, ray: &Ray) -> f32 {
+        let cos = self.surface.ng.dot(ray.dir).abs().max(1e-3);
+        // What rounding makes of distances is a few of their last digits.
+        8.0 * self.off() / cos + 8.0 * f32::EPSILON * self.hit.t
+    }
+
     /// Whether it lies where `other` does, within the bounds of both errors.
     fn coincides(&self, other: &Self) -> bool {
         let between = (other.surface.p - self.surface.p).dot(self.surface.ng.as_dvec3());
@@ -297,9 +327,7 @@ impl Group {
     /// All that coincide with a hit.
     fn at(view: &View, may_coincide: bool, ray: &Ray, hit: Hit, found: &mut Vec<Hit>) -> Self {
         let closest = Member::new(view, ray, hit);
-        let cos = closest.surface.ng.dot(ray.dir).abs().max(1e-3);
-        // What rounding makes of distances is a few of their last digits.
-        let window = 8.0 * closest.off() / cos + 8.0 * f32::EPSILON * hit.t;
+        let window = closest.window(ray);
         let mut group = Self { members: vec![closest], end: hit.t + window };
         if !may_coincide {
             return group;

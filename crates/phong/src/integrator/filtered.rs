@@ -1,9 +1,13 @@
 //! Light that goes through things in a straight line: what of it is left behind see-through surfaces.
 
+use std::borrow::Cow;
+
 use phong_bvh::{Hit, Ray, offset_origin};
 use phong_scene::Rgb;
 
 use super::Integrator;
+use crate::interaction::SurfaceInteraction;
+use crate::material::Material;
 use crate::view::View;
 
 /// A light is lost behind more surfaces than this.
@@ -37,11 +41,19 @@ impl Integrator<'_> {
 }
 
 /// What is left of a light behind one surface.
-fn passes(view: &View, ray: &Ray, at: &crate::interaction::SurfaceInteraction) -> Rgb {
-    let cos = at.n.dot(at.e).max(0.0);
+fn passes(view: &View, ray: &Ray, at: &SurfaceInteraction) -> Rgb {
+    material_met(view, ray, at).passes(at.n.dot(at.e).max(0.0))
+}
+
+/// The material of a surface as it is where a ray met it.
+pub(super) fn material_met<'v>(
+    view: &'v View,
+    ray: &Ray,
+    at: &SurfaceInteraction,
+) -> Cow<'v, Material> {
     if view.has_textures() {
         let point = view.texture_point_of(ray, at);
-        return view.material_at(at.material, &point).passes(cos);
+        return Cow::Owned(view.material_at(at.material, &point));
     }
-    view.materials()[at.material as usize].passes(cos)
+    Cow::Borrowed(&view.materials()[at.material as usize])
 }

@@ -22,7 +22,7 @@ mod widths;
 
 pub use bundle::RayCounts;
 pub(crate) use bundle::{Bundle, CameraRay, Radiance8};
-pub(crate) use crossing::first_met;
+pub(crate) use crossing::first_seen;
 pub(crate) use shares::Shares;
 pub(crate) use widths::SampleGrid;
 

@@ -10,7 +10,7 @@ use super::{Cancel, Cancelled, Pass, RenderOptions};
 use crate::aov::Aov;
 use crate::film::{LayerKind, Sums8, TileSums, Window, coverage};
 use crate::filter::Filter;
-use crate::integrator::{CameraRay, Integrator, RayCounts, ScratchBuffer, Shares, first_met};
+use crate::integrator::{CameraRay, Integrator, RayCounts, ScratchBuffer, Shares, first_seen};
 use crate::math::lanes::{Lanes3, store3};
 use crate::sampling::Sampler;
 use crate::terms::{Terms, Terms8};
@@ -309,17 +309,17 @@ impl<'a> TileRenderer<'a> {
             let (hit, cost) = scene.world().intersect_counted(&ray);
             (scene.first_kept(&ray, hit, &mut Vec::new()), cost.nodes)
         });
-        let before = if hit.is_some() { hit.t } else { f32::INFINITY };
-        let lamp = ray.filter(|_| scene.has_lamps()).and_then(|ray| scene.lamp(&ray, before));
-        // A lamp is no object: of what it hides there is nothing to tell.
-        let hit = if lamp.is_some() { Hit::NONE } else { hit };
         let (ray, hit) = match ray {
             Some(ray) if hit.is_some() => {
-                let (ray, hit) = first_met(scene, ray, hit);
+                let (ray, hit) = first_seen(scene, ray, hit);
                 (Some(ray), hit)
             }
             ray => (ray, hit),
         };
+        let before = if hit.is_some() { hit.t } else { f32::INFINITY };
+        let lamp = ray.filter(|_| scene.has_lamps()).and_then(|ray| scene.lamp(&ray, before));
+        // A lamp is no object: of what it hides there is nothing to tell.
+        let hit = if lamp.is_some() { Hit::NONE } else { hit };
         let at = ray.filter(|_| hit.is_some()).map(|ray| scene.interaction(&ray, &hit));
         for (kind, values) in self.layers.iter().zip(out) {
             let LayerKind::Aov(aov) = kind else { continue };
