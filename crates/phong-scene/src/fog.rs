@@ -11,7 +11,7 @@
 //! | key | value | default | meaning |
 //! |---|---|---|---|
 //! | `kind` | `linear`, `exponential` or `exponential-squared` | `"linear"` | How the share f of the fog grows with the distance d: from 0 at `start` to 1 at `end`; 1 − e^(−density d); or 1 − e^(−(density d)²). |
-//! | `color` | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name | the background's | Colour of the fog; of a background that runs down the picture the mean of its two, of a transparent one black. |
+//! | `color` | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name | the background's or the sky's | Colour of the fog; of a background that runs down the picture the mean of its two, of a transparent one black, of a sky the mean along its horizon. |
 //! | `start` (linear) | a number 0 or above | `0` | Where it begins, in scene units. |
 //! | `end` (linear) | a number above 0 | required | Where nothing but fog is seen; above `start`. |
 //! | `density` (exponential, exponential-squared) | a number above 0 | required | How dense it is, per scene unit. |
@@ -27,7 +27,7 @@ use crate::wording::words;
 pub struct Fog {
     /// How its share grows with the distance.
     pub kind: FogKind,
-    /// Its colour, linear; `None`: the background's.
+    /// Its colour, linear; `None`: the background's, or that of the sky's horizon.
     pub color: Option<Rgb>,
     /// Which distance. Default radial.
     pub distance: FogDistance,

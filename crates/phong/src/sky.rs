@@ -2,6 +2,8 @@
 
 mod image;
 
+use std::f32::consts::TAU;
+
 use glam::{DVec3, Vec3};
 use phong_scene::{Rgb, SkyKind};
 
@@ -67,6 +69,24 @@ impl Sky {
             Kind::Image(image) => image.at(dir),
             Kind::Daylight(daylight) if height < 0.0 => daylight.ground,
             Kind::Daylight(daylight) => daylight.radiance(height, dir.dot(daylight.sun)),
+        }
+    }
+    /// The mean of what comes from all around the horizon. Linear.
+    pub(crate) fn horizon(&self) -> Rgb {
+        const DIRECTIONS: u32 = 256;
+        let mean = |of: &dyn Fn(Vec3) -> Rgb| {
+            let (aside, across) = self.up.any_orthonormal_pair();
+            let sum = (0..DIRECTIONS).fold(Rgb::BLACK, |sum, i| {
+                let (sin, cos) = math::sin_cos(TAU * i as f32 / DIRECTIONS as f32);
+                sum + of(cos * aside + sin * across)
+            });
+            (1.0 / DIRECTIONS as f32) * sum
+        };
+        match &self.kind {
+            Kind::Constant(color) => *color,
+            Kind::Gradient { horizon, .. } => *horizon,
+            Kind::Daylight(daylight) => mean(&|dir| daylight.radiance(0.0, dir.dot(daylight.sun))),
+            Kind::Image(image) => mean(&|dir| image.at(dir)),
         }
     }
 }

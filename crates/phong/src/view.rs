@@ -217,13 +217,14 @@ impl View {
         }
         let occlusion = Occlusion::of(&look, geometry.world());
         let rays = occlusion.map_or(1, |occlusion| occlusion.samples);
+        let sky = look.sky.as_ref().map(|sky| Sky::new(sky, rays));
         Ok(Self {
             clipping: Clipping::of(&look.clips, &geometry).map(Arc::new),
             coincidences: Coincidences::of(&geometry, &materials),
             occlusion,
-            sky: look.sky.as_ref().map(|sky| Sky::new(sky, rays)),
             has_bounces: look.materials.iter().any(bounces),
-            fog: look.fog.map(|fog| Fog::new(&fog, look.background, &camera)),
+            fog: look.fog.map(|fog| Fog::new(&fog, look.background, sky.as_ref(), &camera)),
+            sky,
             has_see_through: look.materials.iter().any(phong_scene::Material::is_see_through),
             has_filters: look.materials.iter().any(filters),
             has_soft_lights: lights.iter().any(|light| light.soft),

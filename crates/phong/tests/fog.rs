@@ -67,6 +67,18 @@ fn without_a_colour_it_has_that_of_the_background_and_hides_it() {
 }
 
 #[test]
+fn without_a_colour_it_has_that_of_the_skys_horizon() {
+    let under = |sky: &str| pixel(&format!("{WALL}[fog]\nend = 20\n[sky]\nkind = {sky}\n"))[1];
+    let gradient = "\"gradient\"\nzenith = 0\nhorizon = 0.5\nground = 0\ncolor = 0.5";
+    assert_eq!(under(gradient), 0.5 * 0.25);
+    assert_eq!(under("\"constant\"\ncolor = 0.7"), 0.5 * 0.7);
+    // Wherever the sun is, as bright as it is all around.
+    let [east, south] = [[1.0, 0.5, 0.0], [0.0, 0.5, 1.0]]
+        .map(|[x, y, z]| under(&format!("\"sun-and-sky\"\nsun = [{x}, {y}, {z}]")));
+    assert!(east > 0.1 && (east - south).abs() < 1e-4 * east, "{east} {south}");
+}
+
+#[test]
 fn over_a_transparent_background_what_is_not_met_has_no_fog() {
     let away = WALL.replace("look_at = [0, 0, 0]", "look_at = [0, 0, 20]");
     let away = away.replace("background = 0.25", "background = \"transparent\"");

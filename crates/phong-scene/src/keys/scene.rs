@@ -294,9 +294,9 @@ pub(crate) static FOG: Table = Table {
         Key::new(
             "color",
             Kind::Color,
-            Default::Said("the background's"),
+            Default::Said("the background's or the sky's"),
             "Colour of the fog; of a background that runs down the picture the mean of its two, of \
-             a transparent one black.",
+             a transparent one black, of a sky the mean along its horizon.",
         )
         .of(field!(Fog.color)),
         Key::new(

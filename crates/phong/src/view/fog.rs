@@ -5,6 +5,7 @@ use phong_scene::{Background, FogDistance, FogKind, Rgb};
 
 use crate::camera::Camera;
 use crate::math;
+use crate::sky::Sky;
 
 /// Fog, ready for rays.
 #[derive(Clone, Copy, Debug)]
@@ -26,11 +27,18 @@ enum Kind {
 }
 
 impl Fog {
-    pub(super) fn new(fog: &phong_scene::Fog, background: Background, camera: &Camera) -> Self {
-        let behind = || match background {
-            Background::Color(color) => color,
-            Background::Gradient { top, bottom } => 0.5 * (top + bottom),
-            Background::Transparent => Rgb::BLACK,
+    /// `sky` is what is seen in place of the background, if there is one.
+    pub(super) fn new(
+        fog: &phong_scene::Fog,
+        background: Background,
+        sky: Option<&Sky>,
+        camera: &Camera,
+    ) -> Self {
+        let behind = || match (sky, background) {
+            (Some(sky), _) => sky.horizon(),
+            (None, Background::Color(color)) => color,
+            (None, Background::Gradient { top, bottom }) => 0.5 * (top + bottom),
+            (None, Background::Transparent) => Rgb::BLACK,
         };
         let axis = -camera.backward().to_vec().as_dvec3();
         Self {
