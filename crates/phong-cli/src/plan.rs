@@ -243,7 +243,7 @@ impl Plan {
         let any = RenderOptions::of(&Image::default())?;
         let terms = if self.terms { TermSet::ALL } else { TermSet::NONE };
         // How many lights there are is not known yet; one layer says that there are several files.
-        let lights = u32::from(self.lights);
+        let lights = self.lights.then_some(1);
         let layers = any.with_terms(terms).with_aovs(&self.aovs).with_lights(lights).layers();
         Outputs::picture(&self.output, args.encoding.output_format, &layers)
     }
@@ -259,8 +259,8 @@ impl Plan {
         let terms = if self.terms { TermSet::of_scene(&input.scene) } else { TermSet::NONE };
         let passes = if args.work.passes { Passes::CoarseToFine } else { Passes::One };
         let options = options.with_terms(terms).with_aovs(&self.aovs).with_passes(passes);
-        let lights = if self.lights { input.scene.lights.len() } else { 0 };
-        let options = options.with_lights(u32::try_from(lights).unwrap_or(u32::MAX));
+        let count = u32::try_from(input.scene.lights.len()).unwrap_or(u32::MAX);
+        let options = options.with_lights(self.lights.then_some(count));
         let options = options.with_finishing_of(&input.scene);
         Ok(match self.share {
             Some((index, count)) => options.with_share(index, count)?,

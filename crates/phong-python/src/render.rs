@@ -50,8 +50,8 @@ impl Token {
 fn layers(
     names: &Bound<'_, PyAny>,
     scene: &phong_scene::Scene,
-) -> PyResult<(TermSet, Vec<Aov>, u32)> {
-    let (mut terms, mut aovs, mut lights) = (TermSet::NONE, Vec::new(), 0);
+) -> PyResult<(TermSet, Vec<Aov>, Option<u32>)> {
+    let (mut terms, mut aovs, mut lights) = (TermSet::NONE, Vec::new(), None);
     let names: Vec<String> = match names.cast::<PyString>() {
         Ok(one) => vec![one.to_cow()?.into_owned()],
         Err(_) => names.extract().map_err(|_| {
@@ -66,7 +66,7 @@ fn layers(
         if name == "terms" {
             terms = terms.or(TermSet::of_scene(scene));
         } else if name == "lights" {
-            lights = u32::try_from(scene.lights.len()).unwrap_or(u32::MAX);
+            lights = Some(u32::try_from(scene.lights.len()).unwrap_or(u32::MAX));
         } else if let Some(term) = Term::from_name(&name) {
             terms = terms.with(term);
         } else if let Some(aov) = Aov::from_name(&name) {

@@ -237,12 +237,16 @@ fn what_is_explained_is_what_is_drawn() {
 }
 
 /// A few spheres and a floor, of which every ray is one of eight.
-fn few(kind: CameraKind, aperture: f64, background: Background) -> View {
+fn few_things() -> Scene {
     let source = Memory::new().with("scene.toml", include_bytes!("agreement/few.toml").to_vec());
     let Reading { scene, diagnostics, .. } =
         phong_scene::read("scene.toml", None, &source, &Limits::default());
     assert!(diagnostics.is_empty(), "{diagnostics:#?}");
-    let mut scene = scene.expect("a scene, for there is no error");
+    scene.expect("a scene, for there is no error")
+}
+
+fn few(kind: CameraKind, aperture: f64, background: Background) -> View {
+    let mut scene = few_things();
     (scene.camera.kind, scene.camera.aperture) = (kind, aperture);
     scene.image.background = background;
     View::of(&scene).expect("compiles")
@@ -305,7 +309,7 @@ fn a_lights_layer_has_the_bits_of_a_picture_in_which_all_else_is_dark() {
     };
     for samples in [1, 2] {
         let options = options.clone().with_samples(samples).expect("a few");
-        let film = picture(&lit, &options.clone().with_lights(count));
+        let film = picture(&lit, &options.clone().with_lights(Some(count)));
         for kind in (0..count).map(LayerKind::Light).chain([LayerKind::Unlit]) {
             let mut dark = lit.clone();
             for (number, light) in (0..).zip(&mut dark.lights) {
@@ -333,6 +337,15 @@ fn a_lights_layer_has_the_bits_of_a_picture_in_which_all_else_is_dark() {
 }
 
 #[test]
+fn without_lights_the_layer_of_the_rest_is_the_picture() {
+    let scene = Scene { lights: Vec::new(), ..few_things() };
+    let options = RenderOptions::new([21, 13]).expect("a size").with_lights(Some(0));
+    let film = drawn(&View::of(&scene).expect("compiles"), &options, 1);
+    let [rest, picture] = [LayerKind::Unlit, LayerKind::Picture].map(|kind| film.layer(kind));
+    assert_eq!(rest.expect("a layer").values, picture.expect("a layer").values);
+}
+
+#[test]
 fn layers_of_lights_sum_to_the_picture_and_are_the_same_in_any_cut() {
     let case = &CASES[0];
     let count = case.written.lights.len() as u32;
@@ -342,7 +355,7 @@ fn layers_of_lights_sum_to_the_picture_and_are_the_same_in_any_cut() {
     let options = options.with_window(window).expect("within the picture");
     let plain = options.with_filter(FilterKind::Box).with_terms(TermSet::ALL);
     let without = drawn(&case.scene, &plain, 1);
-    let options = plain.with_lights(count);
+    let options = plain.with_lights(Some(count));
     let film = drawn(&case.scene, &options, 2);
     let cut = drawn(&case.scene, &options.clone().with_tile(8).expect("a tile"), 1);
     let at = |film: &Film, kind, i: u32| -> Vec<f32> {

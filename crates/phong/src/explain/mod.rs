@@ -346,7 +346,7 @@ pub fn exposed_by(
     options: &RenderOptions,
     [x, y]: [u32; 2],
 ) -> Option<RenderOptions> {
-    let bare = || options.clone().with_terms(TermSet::NONE).with_aovs(&[]).with_lights(0);
+    let bare = || options.clone().with_terms(TermSet::NONE).with_aovs(&[]).with_lights(None);
     let finished = |bare: RenderOptions| bare.with_finishing_of(scene);
     if scene.tone.unwrap_or_default().exposure == Exposure::Auto {
         return Some(finished(bare()));

@@ -35,8 +35,8 @@ pub struct RenderOptions {
     tile: u32,
     terms: TermSet,
     aovs: Vec<Aov>,
-    /// How many lights have a layer of their own.
-    lights: u32,
+    /// How many lights have a layer of their own, beside that of the rest.
+    lights: Option<u32>,
     passes: Passes,
     lines: Option<Lines>,
     /// In how many steps the luminance of the finished picture comes.
@@ -124,7 +124,7 @@ impl RenderOptions {
             tile: Self::TILE,
             terms: TermSet::NONE,
             aovs: Vec::new(),
-            lights: 0,
+            lights: None,
             passes: Passes::default(),
             lines: None,
             cel: None,
@@ -259,11 +259,11 @@ impl RenderOptions {
         Self { aovs: each, ..self }
     }
 
-    /// Keeps a layer of what each of the first `count` lights brought, and one of the rest; 0, the
-    /// default: none. The rays are traced once for all of them, 16 at a time; each layer takes 12 bytes a
+    /// Keeps a layer of what each of the first `count` lights brought, and one of the rest; `None`, the
+    /// default: neither. The rays are traced once for all of them, 16 at a time; each layer takes 12 bytes a
     /// pixel. The samples are then drawn at once, whatever the passes.
     #[must_use]
-    pub fn with_lights(self, count: u32) -> Self {
+    pub fn with_lights(self, count: Option<u32>) -> Self {
         Self { lights: count, ..self }
     }
 
@@ -398,15 +398,15 @@ impl RenderOptions {
         &self.aovs
     }
 
-    /// How many lights have a layer of their own; 0: none, and there is none of the rest.
-    pub fn lights(&self) -> u32 {
+    /// How many lights have a layer of their own, beside that of the rest; `None`: there is not even that.
+    pub fn lights(&self) -> Option<u32> {
         self.lights
     }
 
     /// Whether all samples are drawn at once, or from coarse to fine.
     pub fn passes(&self) -> Passes {
         // Nothing is kept of lights' layers from which they could go on.
-        if self.lights == 0 { self.passes } else { Passes::One }
+        if self.lights.is_none() { self.passes } else { Passes::One }
     }
 
     /// The same picture with one sample a pixel, at its centre.
@@ -462,8 +462,8 @@ impl RenderOptions {
     pub fn shown_layers(&self) -> Vec<LayerKind> {
         let mut kinds = vec![LayerKind::Picture, LayerKind::Alpha];
         kinds.extend(self.terms.iter().map(LayerKind::Term));
-        kinds.extend((0..self.lights).map(LayerKind::Light));
-        kinds.extend((self.lights > 0).then_some(LayerKind::Unlit));
+        kinds.extend((0..self.lights.unwrap_or(0)).map(LayerKind::Light));
+        kinds.extend(self.lights.map(|_| LayerKind::Unlit));
         kinds.extend(self.aovs.iter().copied().map(LayerKind::Aov));
         kinds
     }

@@ -167,13 +167,12 @@ impl<'a> TileRenderer<'a> {
 
     /// How many layers are of the light's shares.
     fn share_count(&self) -> u32 {
-        let lights = self.options.lights();
-        if lights == 0 { 0 } else { lights + 1 }
+        self.options.lights().map_or(0, |lights| lights.saturating_add(1))
     }
 
     /// What traces the rays: for all light, and so many of its shares in each round.
     fn rounds(&self) -> impl Iterator<Item = Integrator<'a>> + use<'a> {
-        let (count, lights) = (self.share_count(), self.options.lights());
+        let (count, lights) = (self.share_count(), self.options.lights().unwrap_or(0));
         let integrator = self.integrator;
         (0..count.max(1)).step_by(MOST_SHARES as usize).map(move |first| {
             let end = count.min(first + MOST_SHARES);
