@@ -4,6 +4,14 @@
 use phong_scene::FilterKind;
 
 use crate::math::wide;
+use crate::sampling::{Sampler, Use};
+
+/// The least mean weight of a pixel's samples.
+pub(crate) const LEAST_WEIGHT: f32 = 0.25;
+
+/// The most samples of a pixel whose weights may have a smaller mean: those of more fall so evenly that too
+/// few of them are where a filter is negative.
+const MOST_UNEVEN: u32 = 32;
 
 /// Steps of the tabulated distribution.
 const STEPS: usize = 512;
@@ -50,6 +58,17 @@ impl Filter {
             (out[0][lane], out[1][lane], out[2][lane]) = (x, y, weight);
         }
         out
+    }
+
+    /// Whether the weights of a pixel's samples so nearly cancel that each is to weigh 1, for what is left of a
+    /// surface that is even all over would not be like it. The sampler is that of any of the samples.
+    pub(crate) fn is_uneven(&self, sampler: Sampler, samples: u32) -> bool {
+        let is_signed = self.shape.as_ref().is_some_and(|table| table.negative.contains(&true));
+        if !is_signed || samples > MOST_UNEVEN {
+            return false;
+        }
+        let weight = |index| self.sample(sampler.at(index).pair(Use::Pixel)).weight;
+        (0..samples).map(weight).sum::<f32>() < LEAST_WEIGHT * samples as f32
     }
 
     /// Draws a sample from a point of the unit square; (½, ½) is the pixel's centre.

@@ -40,8 +40,7 @@ impl Sampler {
     }
 
     /// Another sample of the same pixel.
-    #[cfg(test)]
-    fn at(&self, index: u32) -> Self {
+    pub(crate) fn at(&self, index: u32) -> Self {
         Self { index, ..*self }
     }
 

@@ -320,15 +320,18 @@ pub fn explain(
     pixel: [u32; 2],
 ) -> Result<Explanation, Outside> {
     let road = Road::new(scene, options, pixel)?;
+    let sampler = Sampler::new(pixel, 0, options.samples(), options.seed());
+    let is_uneven = road.filter.is_uneven(sampler, options.samples());
     let mut sums = [Sums8::NONE];
     let mut samples = Vec::with_capacity(options.samples() as usize);
     for index in 0..options.samples() {
         let mut recorder = Recorder::new(scene);
         let (drawn, brought) = road.trace(index, &mut recorder);
-        Sums8::add(scene.world(), &mut sums, &[brought], &[[drawn.weight; 8]]);
+        let weight = if is_uneven { 1.0 } else { drawn.weight };
+        Sums8::add(scene.world(), &mut sums, &[brought], &[[weight; 8]]);
         let place = [drawn.place.x as f32, drawn.place.y as f32];
         let terms = brought.terms.get(0);
-        samples.push(Sample { place, weight: drawn.weight, ray: recorder.finish(), terms });
+        samples.push(Sample { place, weight, ray: recorder.finish(), terms });
     }
     let (terms, alpha) = sums[0].resolve(scene.world(), options.samples(), scene.background());
     let (terms, alpha) = (terms.get(0), alpha[0]);

@@ -5,7 +5,9 @@ use phong_bvh::{Kernel, World};
 use phong_scene::Background;
 
 use super::Window;
+use crate::filter::LEAST_WEIGHT;
 use crate::integrator::Radiance8;
+use crate::math::lanes::{load3, scale, store3};
 use crate::terms::{PerTerm, Term, TermSet, Terms8};
 
 /// The sums of eight pixels.
@@ -183,7 +185,7 @@ impl Kernel for Resolve<'_> {
     fn run<S: Simd>(self, simd: S) -> Self::Output {
         let Self { sums: Sums8 { terms, brought, alpha, weight }, samples, background } = self;
         // Signed weights that all but cancel would blow up what little is left.
-        let least = f64x4::splat(simd, 0.25 * f64::from(samples));
+        let least = f64x4::splat(simd, f64::from(LEAST_WEIGHT) * f64::from(samples));
         let total = |half: usize| {
             let weight = f64x4::from_slice(simd, &weight[4 * half..][..4]);
             weight.simd_gt(least).select(weight, least)
@@ -199,11 +201,17 @@ impl Kernel for Resolve<'_> {
                 *channel = resolved(sum).into();
             }
         }
-        let mut share: [f32; 8] = resolved(alpha).into();
-        for share in &mut share {
-            *share = coverage(share.clamp(0.0, 1.0), background);
+        let share = resolved(alpha);
+        let zero = f32x8::splat(simd, 0.0);
+        let seen = share.max(zero).min(f32x8::splat(simd, 1.0));
+        if background == Background::Transparent && !share.simd_eq(seen).all_true() {
+            // Light of what covers more than the pixel, or less than nothing of it, is cut with its cover.
+            let kept = share.simd_gt(zero).select(seen / share, zero);
+            for term in brought.iter() {
+                out[term] = store3(scale(kept, load3(simd, &out[term])));
+            }
         }
-        (out, share)
+        (out, <[f32; 8]>::from(seen).map(|share| coverage(share, background)))
     }
 }
 

@@ -355,7 +355,9 @@ impl Integrator<'_> {
                     to[i].take(branch, lane, weight * light);
                 }
                 if branch != Branch::Reflection && is_transparent {
-                    out[i].see_through(lane, weight, (&scratch.out[k / 8], k % 8));
+                    for to in std::iter::once(&mut *out).chain(&mut *shares) {
+                        to[i].see_through(lane, weight, (&scratch.out[k / 8], k % 8));
+                    }
                 }
             }
         }

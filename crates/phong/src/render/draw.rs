@@ -23,18 +23,36 @@ pub(super) struct Pixels8 {
     /// Where their samples come from.
     samplers: Samplers8,
     places: Places8,
+    /// Those whose samples all weigh 1, a bit each.
+    uneven: u32,
 }
 
 impl Pixels8 {
     /// `each`: whether the samplers of all pixels are asked for, though they have one sample each.
-    pub(super) fn new([x, y]: [u32; 2], len: u32, options: &RenderOptions, each: bool) -> Self {
+    pub(super) fn new(
+        [x, y]: [u32; 2],
+        len: u32,
+        options: &RenderOptions,
+        filter: &Filter,
+        each: bool,
+    ) -> Self {
         let sampler = |x: u32| Sampler::new([x, y], 0, options.samples(), options.seed());
         let mut samplers = Samplers8::splat(sampler(x));
         // The middle of the pixel, of the lens and of lights is the same for all.
         if options.samples() > 1 || each {
             (0..len).for_each(|lane| samplers.set(lane as usize, sampler(x + lane)));
         }
-        Self { first: [x, y], len, samplers, places: Places8::new(&samplers, Use::Pixel) }
+        let is_uneven = |lane: &u32| filter.is_uneven(sampler(x + lane), options.samples());
+        let uneven = (0..len).filter(is_uneven).fold(0, |all, lane| all | 1 << lane);
+        let places = Places8::new(&samplers, Use::Pixel);
+        Self { first: [x, y], len, samplers, places, uneven }
+    }
+
+    /// The weights of samples, one of each pixel, of which the filter has these.
+    #[inline(always)]
+    fn weights(&self, mut drawn: [f32; 8]) -> [f32; 8] {
+        lanes(self.uneven).for_each(|lane| drawn[lane] = 1.0);
+        drawn
     }
 
     fn pixel(&self, lane: usize) -> [u32; 2] {
@@ -98,7 +116,7 @@ impl Samples {
                 self.bundle.rays.push(rays);
                 self.bundle.samplers.extend(soft.then_some(samplers));
                 self.bundle.heights.push(heights);
-                self.weights.push(weights);
+                self.weights.push(pixels.weights(weights));
             }
         }
     }
@@ -109,7 +127,7 @@ impl Samples {
 pub(crate) struct Drawn {
     /// In the picture, pixels: x to the right and y down from the upper left corner.
     pub(crate) place: DVec2,
-    /// Its weight in the pixel's sum: +1, or −1 where a filter is negative.
+    /// Its weight: +1, or −1 where a filter is negative.
     pub(crate) weight: f32,
     /// Its ray; `None` outside the image circle of a fisheye.
     pub(crate) ray: Option<CameraRay>,
@@ -175,7 +193,7 @@ impl Kernel for ProjectiveRays<'_> {
                     Some(middle) => middle,
                     None => filter.sample8(pixels.places.at([index; 8])),
                 };
-                *weights = own;
+                *weights = pixels.weights(own);
                 let dx = f32x8::load_array(simd, dx).widen();
                 let x = [low + left + 0.5 + dx.0, high + left + 0.5 + dx.1];
                 let x = [across_screen(x[0], size), across_screen(x[1], size)];
@@ -246,7 +264,7 @@ mod tests {
                 };
                 let filter = Filter::new(filter);
                 let pixels = [[0, 8], [16, 5]]
-                    .map(|[x, len]| Pixels8::new([x, 3 + x / 16], len, &options, false));
+                    .map(|[x, len]| Pixels8::new([x, 3 + x / 16], len, &options, &filter, false));
                 let mut drawn = Samples::default();
                 drawn.draw(&integrator, &options, &filter, &pixels, 0..3);
                 for (i, rays) in drawn.bundle.rays.iter().enumerate() {
@@ -260,7 +278,9 @@ mod tests {
                         let one = camera_ray(&integrator, &options, &filter, pixel, sampler);
                         let ray = one.ray.expect("every place of a projective picture has a ray");
                         assert_eq!(rays.get(lane), ray.ray, "{pixel:?}, {index}");
-                        assert_eq!(drawn.weights[i][lane], one.weight);
+                        let is_uneven = filter.is_uneven(sampler, 3);
+                        let weight = if is_uneven { 1.0 } else { one.weight };
+                        assert_eq!(drawn.weights[i][lane], weight);
                         assert_eq!(drawn.bundle.heights[i][lane], ray.height);
                     }
                 }

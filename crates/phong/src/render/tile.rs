@@ -100,7 +100,8 @@ impl<'a> TileRenderer<'a> {
             Pass::Coarse => return self.coarse(window, buffers, counts).map(|()| None),
             Pass::UpTo(samples) => samples,
         };
-        cut(window, self.options, self.integrator.scene.occlusion().is_some(), &mut buffers.pixels);
+        let each = self.integrator.scene.occlusion().is_some();
+        cut(window, self.options, &self.filter, each, &mut buffers.pixels);
         let kept = if self.options.samples() == 1 {
             self.one_sample(window, buffers, counts)?;
             None
@@ -258,7 +259,9 @@ impl<'a> TileRenderer<'a> {
         for squares in coarse_squares(window).chunks(MOST_EIGHTS) {
             pixels.clear();
             pixels.extend(
-                squares.iter().map(|square| Pixels8::new(middle(square), 1, &centres, false)),
+                squares
+                    .iter()
+                    .map(|square| Pixels8::new(middle(square), 1, &centres, &self.filter, false)),
             );
             drawn.draw(&self.integrator, &centres, &self.filter, pixels, 0..1);
             let brought = self.integrator.trace(&drawn.bundle, scratch, counts, &mut ());
@@ -427,13 +430,19 @@ fn middle_of(square: Window, [width, height]: [u32; 2]) -> [u32; 2] {
 }
 
 /// Cuts a tile into squares, so that a bundle's neighbours are neighbours.
-fn cut(window: Window, options: &RenderOptions, each: bool, pixels: &mut Vec<Pixels8>) {
+fn cut(
+    window: Window,
+    options: &RenderOptions,
+    filter: &Filter,
+    each: bool,
+    pixels: &mut Vec<Pixels8>,
+) {
     pixels.clear();
     for y0 in (window.y0..window.y1).step_by(SQUARE as usize) {
         for x0 in (window.x0..window.x1).step_by(SQUARE as usize) {
             let len = SQUARE.min(window.x1 - x0);
             for y in y0..window.y1.min(y0 + SQUARE) {
-                pixels.push(Pixels8::new([x0, y], len, options, each));
+                pixels.push(Pixels8::new([x0, y], len, options, filter, each));
             }
         }
     }
