@@ -1,7 +1,8 @@
 //! Arbitrary output variables: what else a pixel's centre ray knows.
 
-/// One arbitrary output variable. Taken from the ray through the pixel's centre, never averaged,
-/// unclamped, not touched by exposure. 0 where the ray hits nothing, unless said otherwise.
+/// One arbitrary output variable. Taken from the ray through the pixel's centre, where it first hits what has
+/// any opacity; never averaged, unclamped, not touched by exposure. 0 where the ray hits nothing, unless said
+/// otherwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Aov {
     /// Distance along the ray, scene units; +∞ where nothing was hit.

@@ -178,6 +178,13 @@ fn tone_comes_before_the_curve_of_a_png_and_after_alpha_and_no_other_file_has_it
     assert_eq!(srgb8(&finished, &Encoding::default()), [206, 206, 206, 128]);
     write(&finished, Content::Layer(PICTURE), Format::Pfm, &linear, &mut out).unwrap();
     assert_eq!(out.into_inner(), plain);
+    #[cfg(feature = "exr")]
+    {
+        let plain = bytes(&film, Content::Film, Format::Exr, linear);
+        let mut out = Cursor::new(Vec::new());
+        write(&finished, Content::Film, Format::Exr, &linear, &mut out).unwrap();
+        assert_eq!(out.into_inner(), plain, "not even beside the picture");
+    }
 }
 
 #[test]

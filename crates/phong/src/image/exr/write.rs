@@ -35,7 +35,7 @@ struct Channel<'a> {
 }
 
 /// Writes all layers: `R G B A`, `finished.R` where anything is drawn onto the picture, `diffuse.R`,
-/// `normal.X`, `uv.U`, `depth`, … Premultiplied.
+/// `normal.X`, `uv.U`, `depth`, … Premultiplied light, which no exposure, white balance or curve has changed.
 pub(in crate::image) fn write(
     picture: &Finished<'_>,
     out: &mut (impl Write + Seek),
