@@ -7,12 +7,12 @@ use glam::DVec2;
 use phong_scene::{Encoding, Rgb, TexelFilter, TexelValues, Texels, Wrap};
 
 use super::spread::{Spread, covered, level};
-use super::wrap::{BESIDE, neighbours, number, split, wrapped};
+use super::wrap::{BESIDE, Side, neighbours, number, split, wrapped};
 
 /// An image that can be looked up.
 #[derive(Clone, Debug)]
 pub(super) struct ImageTexture {
-    texels: Arc<Texels>,
+    whole: Level,
     /// Beside it, and above and below.
     wrap: [Wrap; 2],
     border: [f32; 4],
@@ -21,7 +21,21 @@ pub(super) struct ImageTexture {
     filter: TexelFilter,
     encoding: Encoding,
     /// The image and its halves, of linear values and of sRGB ones, found when they are first needed.
-    levels: [OnceLock<Vec<Arc<Texels>>>; 2],
+    levels: [OnceLock<Vec<Level>>; 2],
+}
+
+/// An image, or a half of one.
+#[derive(Clone, Debug)]
+struct Level {
+    texels: Arc<Texels>,
+    /// Its columns and its rows.
+    sides: [Side<f64>; 2],
+}
+
+impl Level {
+    fn new(texels: &Arc<Texels>) -> Self {
+        Self { texels: Arc::clone(texels), sides: texels.size().map(Side::new) }
+    }
 }
 
 /// How an image was looked up.
@@ -42,7 +56,7 @@ impl ImageTexture {
     ) -> Self {
         let Rgb { r, g, b } = border;
         Self {
-            texels: Arc::clone(texels),
+            whole: Level::new(texels),
             wrap,
             border: [r, g, b, 0.0],
             tint,
@@ -60,7 +74,7 @@ impl ImageTexture {
             TexelFilter::Linear => [[0.0; 2]; 2],
             TexelFilter::Auto => sides.map(|side| [side.x, side.y]),
         };
-        let size = self.texels.size().map(f64::from);
+        let size = self.whole.texels.size().map(f64::from);
         let (along, taps, width) = covered(size, sides);
         let (level, part) = level(size, width);
         let levels = if level > 0 || part > 0.0 { self.levels(srgb) } else { self.only_level() };
@@ -105,7 +119,7 @@ impl ImageTexture {
             TexelFilter::Linear => {}
             TexelFilter::Auto => {
                 levels = self.levels(srgb);
-                spread = Spread::of(simd, self.texels.size(), lanes, sides);
+                spread = Spread::of(simd, self.whole.texels.size(), lanes, sides);
             }
         }
         let mut sums = self.sums(simd, levels, lanes, at, &spread, srgb);
@@ -122,7 +136,7 @@ impl ImageTexture {
     pub(super) fn look_up(&self, sides: [DVec2; 2]) -> ImageLookUp {
         match self.filter {
             TexelFilter::Auto => {
-                let size = self.texels.size().map(f64::from);
+                let size = self.whole.texels.size().map(f64::from);
                 let (_, taps, width) = covered(size, sides.map(|side| [side.x, side.y]));
                 let (level, part) = level(size, width);
                 ImageLookUp { level: level as f32 + part, taps: taps as u32 }
@@ -131,26 +145,28 @@ impl ImageTexture {
         }
     }
 
-    fn levels(&self, srgb: bool) -> &[Arc<Texels>] {
+    fn levels(&self, srgb: bool) -> &[Level] {
         self.levels[usize::from(srgb)].get_or_init(|| {
-            let mut levels = vec![Arc::clone(&self.texels)];
-            while let Some(half) = levels.last().and_then(|last| last.half(srgb)).cloned() {
-                levels.push(half);
+            let mut levels = vec![self.whole.clone()];
+            while let Some(half) = levels.last().and_then(|last| last.texels.half(srgb)) {
+                levels.push(Level::new(half));
             }
             levels
         })
     }
 
     /// The image itself.
-    fn only_level(&self) -> &[Arc<Texels>] {
-        std::slice::from_ref(&self.texels)
+    fn only_level(&self) -> &[Level] {
+        std::slice::from_ref(&self.whole)
     }
 
     fn is_srgb(&self, is_color: bool) -> bool {
         match self.encoding {
             Encoding::Srgb => true,
             Encoding::Linear => false,
-            Encoding::Auto => is_color && !matches!(self.texels.values(), TexelValues::Floats(_)),
+            Encoding::Auto => {
+                is_color && !matches!(self.whole.texels.values(), TexelValues::Floats(_))
+            }
         }
     }
 
@@ -159,19 +175,20 @@ impl ImageTexture {
     }
 
     fn nearest(&self, [u, v]: [f64; 2], srgb: bool) -> [f32; 4] {
-        let [width, height] = self.texels.size().map(f64::from);
+        let [width, height] = self.whole.sides;
         // Rows run down from the upper edge.
-        let [(x, _), (y, _)] = [split(u * width), split((1.0 - v) * height)];
+        let [(x, _), (y, _)] = [split(u * width.count), split((1.0 - v) * height.count)];
         let [column, _] = wrapped(x, width, self.wrap[0]);
         let [row, _] = wrapped(y, height, self.wrap[1]);
-        self.inside(&self.texels, [number(column), number(row)], srgb)
+        self.inside(&self.whole.texels, [number(column), number(row)], srgb)
     }
 
     /// The value between the four pixels about a place, so far to the right and so far down.
-    fn at_place(&self, texels: &Texels, [x, y]: [f64; 2], srgb: bool) -> [f32; 4] {
-        let [width, height] = texels.size().map(f64::from);
-        let ((x, across), (y, down)) = (split(x * width - 0.5), split(y * height - 0.5));
-        let (columns, rows) = (wrapped(x, width, self.wrap[0]), wrapped(y, height, self.wrap[1]));
+    fn at_place(&self, level: &Level, [x, y]: [f64; 2], srgb: bool) -> [f32; 4] {
+        let Level { texels, sides: [width, height] } = level;
+        let (x, across) = split(x * width.count - 0.5);
+        let (y, down) = split(y * height.count - 0.5);
+        let (columns, rows) = (wrapped(x, *width, self.wrap[0]), wrapped(y, *height, self.wrap[1]));
         self.between(texels, [columns, rows], [across, down], srgb)
     }
 
@@ -180,7 +197,7 @@ impl ImageTexture {
     fn sums<S: Simd>(
         &self,
         simd: S,
-        levels: &[Arc<Texels>],
+        levels: &[Level],
         lanes: u32,
         [u, v]: &[[f64; 8]; 2],
         spread: &Spread,
@@ -217,7 +234,7 @@ impl ImageTexture {
     fn between_levels<S: Simd>(
         &self,
         simd: S,
-        levels: &[Arc<Texels>],
+        levels: &[Level],
         four: &Taps,
         srgb: bool,
     ) -> [[f32; 4]; 4] {
@@ -240,23 +257,21 @@ impl ImageTexture {
     fn at_level<S: Simd>(
         &self,
         simd: S,
-        levels: &[Arc<Texels>],
+        levels: &[Level],
         level: &[u32; 4],
         four: &Taps,
         srgb: bool,
     ) -> [[f32; 4]; 4] {
-        let mut size = [[1.0; 4]; 2];
-        for (i, &level) in level.iter().enumerate() {
-            let [width, height] = levels[level as usize].size();
-            (size[0][i], size[1][i]) = (f64::from(width), f64::from(height));
-        }
-        let (columns, across) = neighbours(simd, &four.place[0], &size[0], self.wrap[0]);
-        let (rows, down) = neighbours(simd, &four.place[1], &size[1], self.wrap[1]);
+        let of = |i: usize| &levels[level[i] as usize];
+        let levels = [of(0), of(1), of(2), of(3)];
+        let [a, b, c, d] = levels;
+        let sides = |k: usize| [a.sides[k], b.sides[k], c.sides[k], d.sides[k]];
+        let (columns, across) = neighbours(simd, &four.place[0], sides(0), self.wrap[0]);
+        let (rows, down) = neighbours(simd, &four.place[1], sides(1), self.wrap[1]);
         let mut values = [[0.0; 4]; 4];
         for i in 0..four.count {
             let places = [[columns[0][i], columns[1][i]], [rows[0][i], rows[1][i]]];
-            let texels = &levels[level[i] as usize];
-            values[i] = self.between(texels, places, [across[i], down[i]], srgb);
+            values[i] = self.between(&levels[i].texels, places, [across[i], down[i]], srgb);
         }
         values
     }

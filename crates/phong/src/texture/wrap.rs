@@ -7,18 +7,37 @@ use phong_scene::Wrap;
 /// The column or row of what is beside an image with a border.
 pub(super) const BESIDE: u32 = u32::MAX;
 
-/// The columns of the pixels before and behind four places, of images so many pixels wide; and how far each is from the
+/// The columns of an image, or its rows.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Side<F> {
+    /// How many there are.
+    pub(super) count: F,
+    /// 1 over that.
+    pub(super) share: F,
+}
+
+impl Side<f64> {
+    pub(super) fn new(count: u32) -> Self {
+        let count = f64::from(count);
+        Self { count, share: 1.0 / count }
+    }
+}
+
+/// The columns of the pixels before and behind four places, each of an image of its own; and how far each is from the
 /// one towards the other. Or rows.
 #[inline(always)]
 pub(super) fn neighbours<S: Simd>(
     simd: S,
     at: &[f64; 4],
-    size: &[f64; 4],
+    sides: [Side<f64>; 4],
     wrap: Wrap,
 ) -> ([[f64; 4]; 2], [f64; 4]) {
-    let (at, size) = (f64x4::load_array_ref(simd, at), f64x4::load_array_ref(simd, size));
-    let (before, part) = split(at * size - 0.5);
-    let [before, behind] = wrapped(before, size, wrap);
+    let [a, b, c, d] = sides;
+    let four = |all: [f64; 4]| f64x4::load_array(simd, all);
+    let count = four([a.count, b.count, c.count, d.count]);
+    let share = four([a.share, b.share, c.share, d.share]);
+    let (before, part) = split(f64x4::load_array_ref(simd, at) * count - 0.5);
+    let [before, behind] = wrapped(before, Side { count, share }, wrap);
     ([before.into(), behind.into()], part.into())
 }
 
@@ -54,16 +73,17 @@ pub(super) fn number(x: f64) -> u32 {
     (x + WHOLE).to_bits() as u32
 }
 
-/// The columns or rows, of so many, that stand for one which may be beside the image, and for the next; −1: its
-/// border. All are whole numbers.
+/// The columns or rows that stand for one which may be beside the image, and for the next; −1: its border. All are
+/// whole numbers.
 #[inline(always)]
-pub(super) fn wrapped<F: Lanes<Scalar = f64>>(i: F, count: F, wrap: Wrap) -> [F; 2] {
+pub(super) fn wrapped<F: Lanes<Scalar = f64>>(i: F, side: Side<F>, wrap: Wrap) -> [F; 2] {
+    let Side { count, share } = side;
     let (none, next) = (i.splat(0.0), i + 1.0);
     let least = |a: F, b: F| F::select(a.lt(b), a, b);
     match wrap {
-        Wrap::Repeat => rest(i, count),
+        Wrap::Repeat => rest(i, side),
         Wrap::Mirror => {
-            let [a, b] = rest(i, count * 2.0);
+            let [a, b] = rest(i, Side { count: count * 2.0, share: share * 0.5 });
             let last = count * 2.0 - 1.0;
             [least(a, last - a), least(b, last - b)]
         }
@@ -80,14 +100,14 @@ pub(super) fn wrapped<F: Lanes<Scalar = f64>>(i: F, count: F, wrap: Wrap) -> [F;
 
 /// What is left of a whole number, and of the next, without full periods.
 #[inline(always)]
-fn rest<F: Lanes<Scalar = f64>>(i: F, period: F) -> [F; 2] {
+fn rest<F: Lanes<Scalar = f64>>(i: F, Side { count, share }: Side<F>) -> [F; 2] {
     // How many these are may be off by one, but not what is taken away for them.
-    let rest = i - period * floor(i / period);
+    let rest = i - count * floor(i * share);
     let none = i.splat(0.0);
-    let rest = F::select(rest.lt(none), rest + period, rest);
-    let rest = F::select(rest.lt(period), rest, rest - period);
+    let rest = F::select(rest.lt(none), rest + count, rest);
+    let rest = F::select(rest.lt(count), rest, rest - count);
     let next = rest + 1.0;
-    [rest, F::select(next.lt(period), next, none)]
+    [rest, F::select(next.lt(count), next, none)]
 }
 
 #[cfg(test)]
@@ -112,7 +132,7 @@ mod tests {
         let far = (1_i64 << 50) - 1;
         let places = (-40..40).chain([far, far - 1, -far, 999_999_937]);
         for (i, count) in places.flat_map(|i| [1, 2, 3, 7, 8, 1000].map(|count| (i, count))) {
-            let both = |wrap| wrapped(i as f64, count as f64, wrap).map(|i| i as i64);
+            let both = |wrap| wrapped(i as f64, Side::new(count as u32), wrap).map(|i| i as i64);
             let next = [i, i + 1];
             assert_eq!(both(Wrap::Repeat), next.map(|i| i.rem_euclid(count)), "{i}, {count}");
             let mirrored = next.map(|i| i.rem_euclid(2 * count)).map(|i| i.min(2 * count - 1 - i));
