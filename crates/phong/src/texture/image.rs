@@ -7,7 +7,7 @@ use glam::DVec2;
 use phong_scene::{Encoding, Rgb, TexelFilter, TexelValues, Texels, Wrap};
 
 use super::spread::{Spread, covered, level};
-use super::wrap::{BESIDE, Side, neighbours, number, split, wrapped};
+use super::wrap::{BESIDE, Side, neighbours, number, split, wrapped_alone};
 
 /// An image that can be looked up.
 #[derive(Clone, Debug)]
@@ -81,10 +81,11 @@ impl ImageTexture {
         let mut sum = [0.0; 4];
         for tap in 0..taps as u32 {
             let place = tap_place([at.x, at.y], along, (tap, taps));
-            let mut value = self.at_place(&levels[level as usize], place, srgb);
+            let mut value = self.at_place(&levels[level as usize].texels, place, srgb);
             if part > 0.0 {
                 // What is between two levels is before the last.
-                value = mix(value, self.at_place(&levels[level as usize + 1], place, srgb), part);
+                let far = self.at_place(&levels[level as usize + 1].texels, place, srgb);
+                value = mix(value, far, part);
             }
             for (sum, value) in sum.iter_mut().zip(value) {
                 *sum += value;
@@ -175,20 +176,21 @@ impl ImageTexture {
     }
 
     fn nearest(&self, [u, v]: [f64; 2], srgb: bool) -> [f32; 4] {
-        let [width, height] = self.whole.sides;
+        let [width, height] = self.whole.texels.size();
         // Rows run down from the upper edge.
-        let [(x, _), (y, _)] = [split(u * width.count), split((1.0 - v) * height.count)];
-        let [column, _] = wrapped(x, width, self.wrap[0]);
-        let [row, _] = wrapped(y, height, self.wrap[1]);
-        self.inside(&self.whole.texels, [number(column), number(row)], srgb)
+        let ((x, _), (y, _)) = (split(u * f64::from(width)), split((1.0 - v) * f64::from(height)));
+        let column = wrapped_alone(x, width, self.wrap[0]);
+        let row = wrapped_alone(y, height, self.wrap[1]);
+        self.inside(&self.whole.texels, [column, row], srgb)
     }
 
     /// The value between the four pixels about a place, so far to the right and so far down.
-    fn at_place(&self, level: &Level, [x, y]: [f64; 2], srgb: bool) -> [f32; 4] {
-        let Level { texels, sides: [width, height] } = level;
-        let (x, across) = split(x * width.count - 0.5);
-        let (y, down) = split(y * height.count - 0.5);
-        let (columns, rows) = (wrapped(x, *width, self.wrap[0]), wrapped(y, *height, self.wrap[1]));
+    fn at_place(&self, texels: &Texels, [x, y]: [f64; 2], srgb: bool) -> [f32; 4] {
+        let [width, height] = texels.size();
+        let (x, across) = split(x * f64::from(width) - 0.5);
+        let (y, down) = split(y * f64::from(height) - 0.5);
+        let columns = [x, x + 1.0].map(|x| wrapped_alone(x, width, self.wrap[0]));
+        let rows = [y, y + 1.0].map(|y| wrapped_alone(y, height, self.wrap[1]));
         self.between(texels, [columns, rows], [across, down], srgb)
     }
 
@@ -270,23 +272,23 @@ impl ImageTexture {
         let (rows, down) = neighbours(simd, &four.place[1], sides(1), self.wrap[1]);
         let mut values = [[0.0; 4]; 4];
         for i in 0..four.count {
-            let places = [[columns[0][i], columns[1][i]], [rows[0][i], rows[1][i]]];
+            let columns = [number(columns[0][i]), number(columns[1][i])];
+            let rows = [number(rows[0][i]), number(rows[1][i])];
+            let places = [columns, rows];
             values[i] = self.between(&levels[i].texels, places, [across[i], down[i]], srgb);
         }
         values
     }
 
-    /// Between the pixels of two columns and two rows, which are whole numbers.
+    /// Between the pixels of two columns and two rows.
     #[inline(always)]
     fn between(
         &self,
         texels: &Texels,
-        [columns, rows]: [[f64; 2]; 2],
+        [columns, rows]: [[u32; 2]; 2],
         [across, down]: [f64; 2],
         srgb: bool,
     ) -> [f32; 4] {
-        let columns = [number(columns[0]), number(columns[1])];
-        let rows = [number(rows[0]), number(rows[1])];
         let (across, down) = (across as f32, down as f32);
         if self.wrap.contains(&Wrap::Border) {
             let [upper, lower] = rows.map(|y| {

@@ -73,6 +73,24 @@ pub(super) fn number(x: f64) -> u32 {
     (x + WHOLE).to_bits() as u32
 }
 
+/// The column or row that stands for a whole number which may be beside the image, or [`BESIDE`]: [`wrapped`] of one by
+/// itself, which most often is inside.
+pub(super) fn wrapped_alone(i: f64, count: u32, wrap: Wrap) -> u32 {
+    let (i, n) = ((i + WHOLE).to_bits().wrapping_sub(WHOLE.to_bits()) as i64, i64::from(count));
+    (match wrap {
+        _ if (0..n).contains(&i) => i,
+        // Without a division where it does.
+        Wrap::Repeat if count.is_power_of_two() => i & (n - 1),
+        Wrap::Repeat => i.rem_euclid(n),
+        Wrap::Mirror => {
+            let i = i.rem_euclid(2 * n);
+            i.min(2 * n - 1 - i)
+        }
+        Wrap::Clamp => i.clamp(0, n - 1),
+        Wrap::Border => return BESIDE,
+    }) as u32
+}
+
 /// The columns or rows that stand for one which may be beside the image, and for the next; −1: its border. All are
 /// whole numbers.
 #[inline(always)]
@@ -128,19 +146,24 @@ mod tests {
     }
 
     #[test]
-    fn columns_are_wrapped_as_whole_numbers_are() {
+    fn columns_are_wrapped_alike_side_by_side_and_alone() {
         let far = (1_i64 << 50) - 1;
         let places = (-40..40).chain([far, far - 1, -far, 999_999_937]);
         for (i, count) in places.flat_map(|i| [1, 2, 3, 7, 8, 1000].map(|count| (i, count))) {
-            let both = |wrap| wrapped(i as f64, Side::new(count as u32), wrap).map(|i| i as i64);
-            let next = [i, i + 1];
-            assert_eq!(both(Wrap::Repeat), next.map(|i| i.rem_euclid(count)), "{i}, {count}");
-            let mirrored = next.map(|i| i.rem_euclid(2 * count)).map(|i| i.min(2 * count - 1 - i));
-            assert_eq!(both(Wrap::Mirror), mirrored, "{i}, {count}");
-            assert_eq!(both(Wrap::Clamp), next.map(|i| i.clamp(0, count - 1)), "{i}, {count}");
-            let inside = next.map(|i| if (0..count).contains(&i) { i } else { -1 });
-            assert_eq!(both(Wrap::Border), inside, "{i}, {count}");
+            for wrap in [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp, Wrap::Border] {
+                let both = wrapped(i as f64, Side::new(count), wrap).map(number);
+                let alone = [i, i + 1].map(|i| wrapped_alone(i as f64, count, wrap));
+                assert_eq!(both, alone, "{wrap:?}: {i}, {count}");
+            }
         }
+        let repeated = [-9, -8, -1, 8].map(|i| wrapped_alone(f64::from(i), 8, Wrap::Repeat));
+        assert_eq!(repeated, [7, 0, 7, 0]);
+        let mirrored = [-4, -1, 3, 6].map(|i| wrapped_alone(f64::from(i), 3, Wrap::Mirror));
+        assert_eq!(mirrored, [2, 0, 2, 0]);
+        let clamped = [-4, 1, 3].map(|i| wrapped_alone(f64::from(i), 3, Wrap::Clamp));
+        assert_eq!(clamped, [0, 1, 2]);
+        let beside = [-1, 2, 3].map(|i| wrapped_alone(f64::from(i), 3, Wrap::Border));
+        assert_eq!(beside, [BESIDE, 2, BESIDE]);
         assert_eq!([number(0.0), number(70_000.0), number(-1.0)], [0, 70_000, BESIDE]);
     }
 }
