@@ -358,19 +358,22 @@ fn bounds(values: &TexelValues, channels: usize) -> [[f32; 4]; 2] {
         channels: usize,
         of: impl Fn(T) -> f32,
     ) -> [Vec<f32>; 2] {
-        let mut least: Vec<T> = values[..channels].to_vec();
+        let lesser = |a: T, b: T| if b < a { b } else { a };
+        let greater = |a: T, b: T| if b > a { b } else { a };
+        let mut least = values[..channels].repeat(64);
         let mut most = least.clone();
-        for pixel in values.chunks_exact(channels) {
-            for ((least, most), &value) in least.iter_mut().zip(&mut most).zip(pixel) {
-                if value < *least {
-                    *least = value;
-                }
-                if value > *most {
-                    *most = value;
-                }
+        // Sixty-four pixels side by side, so that none waits for the one before it.
+        for pixels in values.chunks(64 * channels) {
+            for ((least, most), &value) in least.iter_mut().zip(&mut most).zip(pixels) {
+                *least = lesser(*least, value);
+                *most = greater(*most, value);
             }
         }
-        [least, most].map(|bound| bound.into_iter().map(&of).collect())
+        for i in channels..least.len() {
+            least[i % channels] = lesser(least[i % channels], least[i]);
+            most[i % channels] = greater(most[i % channels], most[i]);
+        }
+        [least, most].map(|bound| bound[..channels].iter().map(|&value| of(value)).collect())
     }
     let both = match values {
         TexelValues::Bytes(values) => each(values, channels, |byte| f32::from(byte) / 255.0),
