@@ -311,8 +311,7 @@ fn ticks(from: f64, to: f64, count: u32) -> Vec<(f64, String)> {
     if !(last.abs().max(first.abs()) < 1e12 && last - first < 100.0) {
         return vec![(from, number(from, decimals(from))), (to, number(to, decimals(to)))];
     }
-    let tick = |n: i64| (step.times(n), number(step.times(n), step.decimals()));
-    (first as i64..=last as i64).map(tick).collect()
+    step.multiples(first as i64, last as i64)
 }
 
 /// The camera's right, up and forward.
@@ -369,6 +368,15 @@ mod tests {
         assert_eq!(numbers(1.0, -1.0, 5), ["−1.0", "−0.5", "0.0", "0.5", "1.0"]);
         assert_eq!(numbers(0.0, 3e8, 4), ["0", "10⁸", "2 · 10⁸", "3 · 10⁸"]);
         assert_eq!(numbers(1e15, 1e15 + 1.0, 5).len(), 2);
+    }
+
+    #[test]
+    fn ticks_of_a_legend_are_written_in_one_way() {
+        assert_eq!(numbers(8e5, 1.2e6, 3), ["800000", "1000000", "1200000"]);
+        assert_eq!(numbers(-5e-10, 5e-10, 3), ["−5 · 10⁻¹⁰", "0", "5 · 10⁻¹⁰"]);
+        assert_eq!(numbers(0.0, 1e-9, 3), ["0", "0.5 · 10⁻⁹", "1.0 · 10⁻⁹"]);
+        assert_eq!(numbers(0.0, 2e-3, 3), ["0.000", "0.001", "0.002"]);
+        assert_eq!(numbers(1e6, 1e6 + 2.0, 3), ["1000000", "1000001", "1000002"]);
     }
 
     #[test]

@@ -3,6 +3,9 @@
 /// The digit to the left of the exponent's number, above the line.
 const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
 
+/// About how many letters a power of ten takes behind a number.
+const POWER: usize = 5;
+
 /// A round number: 1, 2 or 5 times a power of ten.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Round {
@@ -34,6 +37,26 @@ impl Round {
         format!("{}e{}", count * i64::from(self.digit), self.exponent).parse().unwrap_or(f64::NAN)
     }
 
+    /// Its multiples from `first` times it to `last` times, fewer than 10¹² times, and how they are written: all of
+    /// them plainly or all with the same power of ten, whichever is shorter.
+    pub(super) fn multiples(self, first: i64, last: i64) -> Vec<(f64, String)> {
+        let most = first.unsigned_abs().max(last.unsigned_abs()) * u64::from(self.digit);
+        let behind = most.checked_ilog10().unwrap_or(0);
+        let power = self.exponent + behind as i32;
+        let decimals = self.decimals();
+        let is_shorter = behind as usize + POWER < power.max(0) as usize + decimals;
+        let scaled = Self { exponent: -(behind as i32), ..self };
+        let written = |count| match count {
+            0 if is_shorter => "0".to_owned(),
+            _ if is_shorter => {
+                let behind = behind as usize;
+                of_power(&format!("{:.behind$}", scaled.times(count)), power).replace('-', "−")
+            }
+            _ => format!("{:.decimals$}", self.times(count)).replace('-', "−"),
+        };
+        (first..=last).map(|count| (self.times(count), written(count))).collect()
+    }
+
     /// Digits behind the point of its multiples.
     pub(super) fn decimals(self) -> usize {
         usize::try_from(-self.exponent).unwrap_or(0)
@@ -47,21 +70,27 @@ pub(super) fn number(value: f64, decimals: usize) -> String {
     let plain = if size != 0.0 && !(1e-4..1e6).contains(&size) {
         let text = format!("{value:.5e}");
         let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-        let raised = exponent.chars().map(|digit| match digit.to_digit(10) {
-            Some(digit) => RAISED[digit as usize],
-            None => '⁻',
-        });
         let digits = digits.trim_end_matches('0').trim_end_matches('.');
-        let power: String = "10".chars().chain(raised).collect();
-        match digits {
-            "1" => power,
-            "-1" => format!("-{power}"),
-            digits => format!("{digits} · {power}"),
-        }
+        of_power(digits, exponent.parse().unwrap_or(0))
     } else {
         format!("{value:.decimals$}")
     };
     plain.replace('-', "−")
+}
+
+/// So many times a power of ten.
+fn of_power(digits: &str, exponent: i32) -> String {
+    let raised = exponent.to_string();
+    let raised = raised.chars().map(|digit| match digit.to_digit(10) {
+        Some(digit) => RAISED[digit as usize],
+        None => '⁻',
+    });
+    let power: String = "10".chars().chain(raised).collect();
+    match digits {
+        "1" => power,
+        "-1" => format!("-{power}"),
+        digits => format!("{digits} · {power}"),
+    }
 }
 
 #[cfg(test)]
