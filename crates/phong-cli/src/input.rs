@@ -133,6 +133,21 @@ impl Input {
     pub(crate) fn files(&self) -> &[PathBuf] {
         &self.files
     }
+
+    /// Tells warnings that what was asked for gives rise to; if `strict`, they are errors.
+    pub(crate) fn tell(&mut self, mut said: Vec<Diagnostic>, strict: bool) -> Result<(), Failure> {
+        if strict && !said.is_empty() {
+            for one in &mut said {
+                one.severity = Severity::Error;
+            }
+            return Err(Failure::Input(said));
+        }
+        if !self.quiet {
+            report::diagnostics(&said);
+        }
+        self.warnings.append(&mut said);
+        Ok(())
+    }
 }
 
 /// What INPUT is, by `--format`, by what it begins with or by its name, for telling.
@@ -393,10 +408,7 @@ pub(crate) fn look(input: &mut Input, args: &ViewArgs) -> Result<(), Failure> {
     }
     if bare {
         let said = scene.frame(&framing(args));
-        if !input.quiet {
-            report::diagnostics(&said);
-        }
-        input.warnings.extend(said);
+        input.tell(said, false)?;
     } else {
         for (given, option) in [(args.view.is_some(), "--view"), (args.color.is_some(), "--color")]
         {

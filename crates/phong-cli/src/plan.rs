@@ -256,6 +256,7 @@ impl Plan {
     ) -> Result<RenderOptions, Failure> {
         let options = settle(&args.image, &args.view, input)?;
         args.tone.over_scene(&mut input.scene);
+        input.tell(furniture::crowded(&input.scene), args.input.strict)?;
         let terms = if self.terms { TermSet::of_scene(&input.scene) } else { TermSet::NONE };
         let passes = if args.work.passes { Passes::CoarseToFine } else { Passes::One };
         let options = options.with_terms(terms).with_aovs(&self.aovs).with_passes(passes);

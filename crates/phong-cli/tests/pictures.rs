@@ -131,6 +131,15 @@ fn letters_that_the_font_lacks_are_told() {
 }
 
 #[test]
+fn furniture_that_has_no_room_is_told_by_the_size_that_is_asked_for() {
+    let folder = given(&[("a.toml", &format!("{BALLS}[title]\ntext = \"Congratulations\"\n"))]);
+    let told = "title: it reaches out of the picture";
+    assert!(folder.done("render a.toml").err.contains(told));
+    assert_eq!(folder.done("render a.toml --size 400x300").err, "");
+    folder.when("render a.toml --strict").is_refused(&[told]);
+}
+
+#[test]
 fn two_eyes_see_one_picture_beside_or_over_the_other() {
     let folder = given(&[("a.toml", &format!("{BALLS}{FURNITURE}"))]);
     for view in ["left", "right", "side-by-side", "anaglyph"] {

@@ -60,6 +60,8 @@ pub(super) struct Standing {
     pub(super) key: &'static str,
     /// All that is written in it.
     pub(super) written: String,
+    /// Its upper left and its lower right corner, without the edge around it.
+    pub(super) bounds: [Point; 2],
     pub(super) group: Group,
 }
 
@@ -92,18 +94,19 @@ impl<'a> Layout<'a> {
         let axes = axes.as_ref().map(|axes| ("axes", self.axes(axes), axes.place));
         let legend = legend.as_ref().map(|legend| ("legend", self.legend(legend), legend.place));
         let all = [title, bar, axes, legend].into_iter().flatten();
-        all.map(|(key, block, place)| {
-            let written = block.written.clone();
-            Standing { key, written, group: self.stand(block, place) }
-        })
-        .collect()
+        all.map(|(key, block, place)| self.stand(key, block, place)).collect()
+    }
+
+    /// Distance from the picture's edges, pixels.
+    fn margin(&self) -> f64 {
+        self.scene.furniture.style.margin * self.point
     }
 
     /// Puts a block at a place of the picture, beside what is there already.
-    fn stand(&mut self, block: Block, place: Anchor) -> Group {
+    fn stand(&mut self, key: &'static str, block: Block, place: Anchor) -> Standing {
         use Anchor::{Bottom, BottomLeft, BottomRight, Left, Right, Top, TopLeft, TopRight};
         let picture = Point::from(self.size.map(f64::from));
-        let margin = self.scene.furniture.style.margin * self.point;
+        let margin = self.margin();
         let taken = &mut self.taken[place.number()];
         let x = match place {
             TopLeft | BottomLeft => margin,
@@ -122,12 +125,14 @@ impl<'a> Layout<'a> {
         // Whole pixels: what is level is sharp.
         let at = Point::new(x.round(), y.round());
         let paints = block.paints.iter().map(|paint| paint.moved(at)).collect();
-        Group { says: block.says, paints, halo: self.halo }
+        let group = Group { says: block.says, paints, halo: self.halo };
+        Standing { key, written: block.written, bounds: [at, at + block.size], group }
     }
 
     fn title(&self, title: &Title) -> Block {
         let size = TITLE * self.letters;
-        let words = self.font.words(&title.text, size);
+        let most = f64::from(self.size[0]) - 2.0 * self.margin();
+        let words = self.font.words(&self.font.broken(&title.text, size, most), size);
         let top = Point::new(0.0, CAPITAL * size);
         Block {
             paints: vec![Paint::Fill(words.path.moved(top), self.ink)],
@@ -137,13 +142,34 @@ impl<'a> Layout<'a> {
         }
     }
 
+    /// Pixels of a unit of a scale bar; `None`: the camera has no one scale.
+    fn bar_unit(&self, bar: &ScaleBar) -> Option<f64> {
+        Some(pixels_a_unit(&self.scene.camera, self.size)? / bar.factor)
+    }
+
+    /// The longest round number that takes no more than [`BAR_SHARE`] of the picture's width.
+    fn bar_length(&self, pixels: f64) -> Option<Round> {
+        Round::below(BAR_SHARE * f64::from(self.size[0]) / pixels)
+    }
+
+    /// How many pixels a scale bar of a length that was asked for takes, where that is less than one or more than
+    /// the picture has, and a length that is neither.
+    pub(super) fn unfit_bar(&self, bar: &ScaleBar) -> Option<(f64, f64)> {
+        let BarLength::Units(length) = bar.length else { return None };
+        let pixels = self.bar_unit(bar)?;
+        let room = f64::from(self.size[0]) - 2.0 * self.margin();
+        let width = length * pixels;
+        let fits = width >= 1.0 && width <= room;
+        (!fits).then_some((width, self.bar_length(pixels)?.value()))
+    }
+
     /// `None`: the camera has no one scale.
     fn scale_bar(&self, bar: &ScaleBar) -> Option<Block> {
-        let pixels = pixels_a_unit(&self.scene.camera, self.size)? / bar.factor;
+        let pixels = self.bar_unit(bar)?;
         let (length, written) = match bar.length {
             BarLength::Units(length) => (length, number(length, decimals(length))),
             BarLength::Auto => {
-                let round = Round::below(BAR_SHARE * f64::from(self.size[0]) / pixels)?;
+                let round = self.bar_length(pixels)?;
                 (round.value(), number(round.value(), round.decimals()))
             }
         };

@@ -103,6 +103,49 @@ pub fn warnings(scene: &Scene) -> Vec<Diagnostic> {
     said
 }
 
+/// What there is to say of furniture for which there is no room in the scene's picture: what reaches out of it, what
+/// stands over something else, and bars too short to be seen.
+pub fn crowded(scene: &Scene) -> Vec<Diagnostic> {
+    let Some(figure) = furniture_of(scene) else { return Vec::new() };
+    let (font, size) = (Font::new(), scene.image.size);
+    let mut layout = Layout::new(&font, &figure, size);
+    let mut said = Vec::new();
+    let warning = |message| Diagnostic::warning(message, None);
+    let bar = figure.furniture.scale_bar.iter().find_map(|bar| layout.unfit_bar(bar));
+    if let Some((pixels, fits)) = bar {
+        let message = if pixels < 1.0 {
+            "scale_bar: it is not seen: it is shorter than a pixel".to_owned()
+        } else {
+            let wide = size[0];
+            format!(
+                "scale_bar: it does not fit: it is {pixels:.0} pixels long in a picture of {wide}"
+            )
+        };
+        said.push(warning(message).with_help(format!("`length = {fits}` fits, or \"auto\"")));
+    }
+    let edges = layout.edges();
+    let [width, height] = size.map(f64::from);
+    for (number, edge) in edges.iter().enumerate() {
+        let [low, high] = edge.bounds;
+        let room =
+            "another `place`, a smaller `size` of `[furniture]` or a larger picture makes room";
+        let reaches_out = low.x < 0.0 || low.y < 0.0 || high.x > width || high.y > height;
+        let is_told = edge.key == "scale_bar" && bar.is_some();
+        if reaches_out && !is_told {
+            let message = format!("{}: it reaches out of the picture", edge.key);
+            said.push(warning(message).with_help(room));
+        }
+        for other in &edges[..number] {
+            let [from, to] = other.bounds;
+            if low.cmplt(to).all() && from.cmplt(high).all() {
+                let message = format!("{}: it stands over the {}", edge.key, other.key);
+                said.push(warning(message).with_help(room));
+            }
+        }
+    }
+    said
+}
+
 /// All furniture that is seen, in the order that it is painted in: labels first.
 fn groups(font: &Font, scene: &Scene, film: &Film, size: [u32; 2]) -> Vec<Group> {
     let mut layout = Layout::new(font, scene, size);

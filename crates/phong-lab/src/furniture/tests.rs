@@ -152,6 +152,35 @@ fn letters_that_the_font_lacks_and_bars_without_a_scale_are_told() {
 }
 
 #[test]
+fn furniture_without_room_is_told() {
+    let told = |text: &str| {
+        let mut scene = scene(text);
+        scene.camera.kind = CameraKind::Orthographic { height: 6.0 };
+        crowded(&scene).into_iter().map(|said| said.to_string()).collect::<Vec<_>>()
+    };
+    let small = "[furniture]\nsize = 4\nmargin = 2\n";
+    assert_eq!(
+        told(&format!("{small}[title]\ntext = \"T\"\n[scale_bar]\n[axes]\nlength = 9\n")),
+        [""; 0]
+    );
+    let long = told(&format!("{small}[scale_bar]\nlength = 50\n"));
+    assert!(
+        long.len() == 1 && long[0].contains("it is 533 pixels long in a picture of 96"),
+        "{long:?}"
+    );
+    let short = told(&format!("{small}[scale_bar]\nlength = 1e-9\n"));
+    assert!(short.len() == 1 && short[0].contains("shorter than a pixel"), "{short:?}");
+    assert!(long[0].contains("`length = 2` fits") && short[0].contains("`length = 2` fits"));
+    let wide = told("[title]\ntext = \"Benzenehexacarboxylicacid\"\n");
+    assert!(
+        wide.len() == 1 && wide[0].contains("title: it reaches out of the picture"),
+        "{wide:?}"
+    );
+    let over = told("[title]\ntext = \"a title\"\n[axes]\nplace = \"top-right\"\nlength = 24\n");
+    assert!(over.len() == 1 && over[0].contains("axes: it stands over the title"), "{over:?}");
+}
+
+#[test]
 fn furniture_of_any_size_is_bounded_by_the_picture() {
     let text =
         "[furniture]\nsize = 1000\n[title]\ntext = \"WWWWWWWW\"\n[scale_bar]\nlength = 1e17\n\

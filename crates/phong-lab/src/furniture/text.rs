@@ -43,6 +43,31 @@ impl Font {
         missing
     }
 
+    /// Words in lines no wider than `most` with letters `size` high, as far as their spaces allow.
+    pub(super) fn broken(&self, text: &str, size: f64, most: f64) -> String {
+        let fits = |line: &str| self.words(line, size).width <= most;
+        let mut lines: Vec<String> = Vec::new();
+        for line in text.split('\n') {
+            if fits(line) {
+                lines.push(line.to_owned());
+                continue;
+            }
+            let mut last = String::new();
+            for word in line.split_whitespace() {
+                let longer = format!("{last} {word}");
+                if last.is_empty() {
+                    word.clone_into(&mut last);
+                } else if fits(&longer) {
+                    last = longer;
+                } else {
+                    lines.push(std::mem::replace(&mut last, word.to_owned()));
+                }
+            }
+            lines.push(last);
+        }
+        lines.join("\n")
+    }
+
     /// Words with letters `size` high, each line shaped as its script wants it. Letters that the font does
     /// not have are left out.
     pub(super) fn words(&self, text: &str, size: f64) -> Words {
@@ -101,6 +126,16 @@ mod tests {
             let words = font.words(&sign.to_string(), 10.0);
             assert!(words.width > 0.0 && !words.path.0.is_empty(), "{sign}");
         }
+    }
+
+    #[test]
+    fn lines_are_broken_at_spaces_where_they_are_too_wide() {
+        let font = Font::new();
+        let broken = |text, most| font.broken(text, 10.0, most);
+        let most = font.words("one two", 10.0).width;
+        assert_eq!(broken("one two", most), "one two");
+        assert_eq!(broken("one two one two\n one", most), "one two\none two\n one");
+        assert_eq!(broken("one two", 1.0), "one\ntwo");
     }
 
     #[test]
