@@ -48,7 +48,7 @@ pub fn finishing(film: &Film, settings: &Settings) -> Finishing {
     finishing
 }
 
-/// The furniture of a scene as [`furniture_of`](phong::part::furniture_of) has it, drawn for a picture of `size`
+/// The furniture of a scene as [`furniture_of`] has it, drawn for a picture of `size`
 /// pixels of which this is the film. All of it together has at most three times as many pixels as the picture.
 pub fn patches(furniture: &Scene, film: &Film, size: [u32; 2]) -> Vec<Patch> {
     let groups = groups(&Font::new(), furniture, film, size);
