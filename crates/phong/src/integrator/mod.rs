@@ -410,14 +410,9 @@ impl Integrator<'_> {
                     continue;
                 }
                 let sampler = samplers.get(i).map(|s| s.get(lane).branch(branch as u32));
-                if let Some(widths) = interactions.widths.get(i) {
+                if !interactions.widths.is_empty() {
                     let behind = paths.cones.get(8 * i + lane).copied();
-                    let width = widths[lane];
-                    let more = match branch {
-                        Branch::Reflection => self.spread_of_mirror(interactions, i, lane, width),
-                        Branch::Transmission | Branch::Through => 0.0,
-                    };
-                    let cone = self.cone_on(&rays[i], behind, lane, (width, more));
+                    let cone = self.cone_on(&rays[i], interactions, behind, (i, lane), branch);
                     secondary.paths.cones.push(cone);
                 }
                 secondary.paths.ways.extend(ways.get(i).map(|ways| ways[lane].on(branch)));

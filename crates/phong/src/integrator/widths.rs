@@ -10,6 +10,7 @@ use super::interactions::Interactions;
 use super::{Integrator, Paths};
 use crate::math::lanes::{direction, get};
 use crate::texture::Cone;
+use crate::witness::Branch;
 
 /// The pixels that a picture has, and the samples that each of them is the mean of.
 #[derive(Clone, Copy, Debug)]
@@ -44,34 +45,42 @@ impl Integrator<'_> {
                     0.0
                 };
                 let cone = behind.unwrap_or_else(|| camera.cone(dir, size, samples));
-                eight[lane] = cone.width_at(before + hits.t[lane]);
+                eight[lane] = cone.after(before + hits.t[lane]).width;
             }
             widths.push(eight);
         }
     }
 
-    /// The cone about a ray that goes on from a surface where the one before is `width` wide, and that a curved mirror
-    /// spreads by so much more.
+    /// The cone about a ray that goes on from a surface where the one before is `width` wide.
     pub(super) fn cone_on(
         &self,
         rays: &Rays8,
+        interactions: &Interactions,
         behind: Option<Cone>,
-        lane: usize,
-        (width, more): (f32, f32),
+        (i, lane): (usize, usize),
+        branch: Branch,
     ) -> Cone {
         let SampleGrid { size, samples } = self.grid;
-        let dir = direction(&rays.dir, lane).to_vec();
-        let before = behind.unwrap_or_else(|| self.scene.camera().cone(dir, size, samples));
-        Cone { width, spread: before.spread + more }
+        let width = interactions.widths[i][lane];
+        let spread = if let Some(behind) = behind {
+            behind.after(interactions.hits[i].t[lane]).spread
+        } else {
+            let dir = direction(&rays.dir, lane).to_vec();
+            self.scene.camera().cone(dir, size, samples).spread
+        };
+        let more = match branch {
+            Branch::Reflection => self.spread_of_mirror(interactions, (i, lane), width),
+            Branch::Transmission | Branch::Through => 0.0,
+        };
+        Cone { width, spread: spread + more }
     }
 
     /// How much more a mirror spreads a ray that is `width` wide: the normal turns by its curvature along that width,
     /// and what it mirrors by twice as much.
-    pub(super) fn spread_of_mirror(
+    fn spread_of_mirror(
         &self,
         interactions: &Interactions,
-        i: usize,
-        lane: usize,
+        (i, lane): (usize, usize),
         width: f32,
     ) -> f32 {
         let [ng, front] = [&interactions.surfaces[i].ng, &interactions.shading[i].front]

@@ -19,9 +19,15 @@ pub struct Cone {
 const LEAST_COSINE: f64 = 1e-4;
 
 impl Cone {
-    /// How wide it is after so long a way.
-    pub fn width_at(self, t: f32) -> f32 {
-        (self.width + self.spread * t).abs()
+    /// What it is after so long a way: it goes apart again behind where it comes together.
+    #[must_use]
+    pub fn after(self, t: f32) -> Self {
+        let width = self.width + self.spread * t;
+        if width < 0.0 {
+            Self { width: -width, spread: -self.spread }
+        } else {
+            Self { width, ..self }
+        }
     }
 }
 
@@ -46,6 +52,16 @@ pub(crate) fn footprint<F: Lanes<Scalar = f64>>(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_cone_that_comes_together_goes_apart_again() {
+        let cone = Cone { width: 1.0, spread: -0.5 };
+        let at = |t| {
+            let Cone { width, spread } = cone.after(t);
+            [width, spread]
+        };
+        assert_eq!([at(1.0), at(2.0), at(4.0)], [[0.5, -0.5], [0.0, -0.5], [1.0, 0.5]]);
+    }
 
     #[test]
     fn a_footprint_is_as_long_as_the_surface_is_grazed() {
