@@ -75,6 +75,7 @@ pub(super) fn number(x: f64) -> u32 {
 
 /// The column or row that stands for a whole number which may be beside the image, or [`BESIDE`]: [`wrapped`] of one by
 /// itself, which most often is inside.
+#[inline(always)]
 pub(super) fn wrapped_alone(i: f64, count: u32, wrap: Wrap) -> u32 {
     let (i, n) = ((i + WHOLE).to_bits().wrapping_sub(WHOLE.to_bits()) as i64, i64::from(count));
     (match wrap {
