@@ -33,6 +33,10 @@ const MOST_BYTES: u64 = 1 << 32;
 pub(crate) fn parse(
     bytes: &[u8],
     limits: &Limits,
+    #[cfg_attr(
+        not(feature = "exr"),
+        expect(unused_variables, reason = "only EXR files have something to warn of")
+    )]
     warn: &mut dyn FnMut(String),
 ) -> Result<Texels, String> {
     match bytes {
