@@ -27,9 +27,6 @@ pub fn json(told: &Explanation) -> Value {
         "tone": toned(told).iter().map(tone).collect::<Vec<_>>(),
         "srgb8": told.encoded().bytes,
     });
-    if !told.drawn_over.is_empty() {
-        out["drawn_over"] = json!(told.drawn_over);
-    }
     if let [only] = told.samples.as_slice()
         && let Some(RayTold { end: End::Surface(surface), .. }) = &only.ray
     {

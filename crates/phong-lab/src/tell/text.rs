@@ -377,12 +377,6 @@ impl Page {
         let [x, y, z] = curve;
         self.line(format_args!("{:<12} ({x:.6}, {y:.6}, {z:.6})", "sRGB"));
         self.line(format_args!("{:<12} ({r}, {g}, {b})  #{r:02x}{g:02x}{b:02x}", "bytes"));
-        if !e.drawn_over.is_empty() {
-            let what = e.drawn_over.join(" and ");
-            let drawn =
-                "of the scene may be drawn over it in the picture: that is no light, and not told";
-            self.line(format_args!("{:<12} the {what} {drawn}", "over it"));
-        }
         self.indent -= 2;
     }
 }

@@ -46,9 +46,6 @@ pub struct Explanation {
     /// By what the steps of luminance scale its light; `None`: there are none, or it is not
     /// found out.
     pub cel: Option<f32>,
-    /// What a PNG may show in place of it, `outline` or `furniture`: drawn over the picture when that is done, so
-    /// no part of the pixel's light. Empty: nothing, or it is not found out.
-    pub drawn_over: Vec<&'static str>,
 }
 
 /// One sample of a pixel.
@@ -340,8 +337,8 @@ pub fn explain(
     let (terms, alpha) = (terms.get(0), alpha[0]);
     let eye = scene.look().camera.eye;
     let (size, linear) = (options.size(), terms.total());
-    let (tone, cel, drawn_over) = (ToneMap::default(), None, Vec::new());
-    Ok(Explanation { pixel, size, eye, samples, terms, linear, alpha, tone, cel, drawn_over })
+    let (tone, cel) = (ToneMap::default(), None);
+    Ok(Explanation { pixel, size, eye, samples, terms, linear, alpha, tone, cel })
 }
 
 /// Options of the picture that [`Explanation::expose`] renders to find automatic exposure, or the steps of a
@@ -428,9 +425,6 @@ impl Explanation {
         listen: &(dyn Fn(Event<'_>) + Sync),
         cancel: &Cancel,
     ) {
-        let over =
-            [("outline", scene.outline.is_some()), ("furniture", !scene.furniture.is_empty())];
-        self.drawn_over = over.into_iter().filter(|over| over.1).map(|over| over.0).collect();
         let Some(options) = exposed_by(scene, options, self.pixel) else {
             self.tone = ToneMap::new(&scene.tone.unwrap_or_default(), &[], None);
             return;
