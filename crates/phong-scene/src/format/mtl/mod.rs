@@ -43,8 +43,8 @@
 //! | `map_d` | of `opacity`, times `d` or 1 − `Tr`: by the image's own opacity, or else its red, unless `-imfchan` |
 //! | `norm`; `bump`, `map_Bump` | `normal`, times `-bm`; `bump`, of which 1 is a hundredth of a unit; an image of normals is one by either name |
 //!
-//! Other textures, the options `-t`, `-boost` and `-cc`, the luminance of colours (`-imfchan l`), `-halo`, spectral and XYZ colours and the physically based extension are
-//! not drawn; each is a warning that names it.
+//! Other textures, the options `-t`, `-boost` and `-cc`, the luminance of colours (`-imfchan l`), `-halo`, spectral
+//! and XYZ colours and the physically based extension are not drawn; each is a warning that names it.
 
 mod draft;
 mod maps;
