@@ -119,8 +119,11 @@ impl ImageTexture {
             }
             TexelFilter::Linear => {}
             TexelFilter::Auto => {
-                levels = self.levels(srgb);
                 spread = Spread::of(simd, self.whole.texels.size(), lanes, sides);
+                // Halves are made only where they are needed.
+                if spread.level != [0; 8] || spread.part != [0.0; 8] {
+                    levels = self.levels(srgb);
+                }
             }
         }
         let mut sums = self.sums(simd, levels, lanes, at, &spread, srgb);

@@ -103,13 +103,12 @@ impl View {
         if let (Some((by, format)), Some(tangents)) = (images.normal, tangents) {
             let value = self.image_values(simd, number(by), there, &places);
             let tangents = Tangents8::of(tangents, &triangles, to_own);
-            let turned = tangents.turn(simd, hits, shading, (value, by.scale.into(), format));
-            let (is_turned, n) = turned;
+            let map = (value, by.scale.into(), format);
+            let (is_turned, n) = tangents.turn(simd, hits, shading, map);
             put3(simd, &mut shading.n, there & is_turned, n);
         }
         if let Some(by) = images.color {
-            let TextureRef { texture, channel, .. } = by;
-            let asked = TextureUse { texture, channel, is_color: true };
+            let asked = TextureUse { texture: by.texture, channel: by.channel, is_color: true };
             let values = self.image_values(simd, asked, there, &places);
             for lane in lanes(there) {
                 let [r, g, b] = get(&values, lane);
