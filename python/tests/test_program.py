@@ -71,9 +71,10 @@ def test_shares_of_both_go_together(tmp_path: Path) -> None:
     assert np.array_equal(phong.merge(parts), phong.render(SCENE, **SMALL))
 
 
-def test_a_pixel_is_explained_alike() -> None:
-    told = program("explain", SCENE, 20, 20, "--json", "--size", "60x40", "--samples", 2)
-    assert phong.explain(SCENE, 20, 20, **SMALL).to_dict() == json.loads(told)
+@pytest.mark.parametrize(("scene", "y"), [(SCENE, 20), (SCENE.with_name("figure.toml"), 3)])
+def test_a_pixel_is_explained_alike(scene: Path, y: int) -> None:
+    told = program("explain", scene, 20, y, "--json", "--size", "60x40", "--samples", 2)
+    assert phong.explain(scene, 20, y, **SMALL).to_dict() == json.loads(told)
 
 
 def test_formulas_have_the_same_values() -> None:

@@ -205,18 +205,29 @@ fn tone_is_the_same_in_shares_of_a_crop_that_of_the_crop_and_typed_as_it_is_writ
 fn what_explain_says_of_tone_ends_in_the_bytes_of_the_picture() {
     let tone = "[tone]\nexposure = \"auto\"\nneutral = \"#ffd0a0\"\ncurve = \"reinhard\"\n";
     let outline = "[outline]\nwidth = 1.5\n";
-    let folder = given(&[("a.toml", &format!("{BALLS}{outline}{tone}"))]);
+    let title = "[title]\ntext = \"Balls\"\n";
+    let labels = "[[label]]\ntext = \"seen\"\nat = [0, 0, 3]\n\n\
+                  [[label]]\ntext = \"hidden\"\nat = [0, 0, -9]\noffset = [0, -9]\n";
+    let written = format!("{BALLS}{outline}{tone}{title}{labels}");
+    let folder = given(&[("a.toml", &written)]);
     folder.done("render a.toml --samples 2 -o a.png");
     let drawn = phong::image::Picture::read(&folder.bytes("a.png")).unwrap();
-    for [x, y] in [[20, 15], [17, 14], [3, 25]] {
+    let (mut outlined, mut covered) = (0, 0);
+    let some = (0..30).step_by(3).flat_map(|y| (0..40).step_by(7).map(move |x| [x, y]));
+    for [x, y] in some {
         let told = folder.done(&format!("explain a.toml {x} {y} --samples 2 --json")).json();
-        let steps: Vec<_> = told["tone"].as_array().unwrap().iter().map(|s| &s["step"]).collect();
-        assert_eq!(steps, ["exposed", "balanced", "toned"]);
+        let steps = told["tone"].as_array().unwrap().iter().map(|s| s["step"].as_str().unwrap());
+        let steps: Vec<_> = steps.collect();
+        let toned = steps.strip_prefix(&["outlined"]).unwrap_or(&steps);
+        assert_eq!(toned, ["exposed", "balanced", "toned"]);
+        outlined += steps.len() - toned.len();
+        covered += usize::from(!told["furniture"].is_null());
         for (c, name) in ["R", "G", "B"].into_iter().enumerate() {
             let level = drawn.plane(name).unwrap()[y * 40 + x] * 255.0;
             assert_eq!(told["srgb8"][c], level.round() as u64, "{name} of {x}, {y}");
         }
     }
+    assert!(outlined > 2 && covered > 2, "{outlined} {covered}");
     let text = String::from_utf8(folder.done("explain a.toml 20 15 --samples 2").out).unwrap();
     for words in ["exposed", "= linear × 2^", "balanced", "Reinhard's curve, white at 4"] {
         assert!(text.contains(words), "{words} in {text}");

@@ -33,6 +33,11 @@ impl Window {
         Self { x0: 0, y0: 0, x1: width, y1: height }
     }
 
+    /// The one pixel at `x`, `y`.
+    pub const fn pixel([x, y]: [u32; 2]) -> Self {
+        Self { x0: x, y0: y, x1: x.saturating_add(1), y1: y.saturating_add(1) }
+    }
+
     /// Pixels across.
     pub const fn width(&self) -> u32 {
         self.x1 - self.x0

@@ -13,10 +13,13 @@ mod svg;
 mod text;
 
 use phong::aov::Aov;
-use phong::film::{Film, LayerKind};
+use phong::film::{Film, LayerKind, Window};
 use phong::finish::{Finished, Finishing, Patch};
 use phong::part::{Settings, furniture_of};
-use phong_scene::{Diagnostic, Furniture, Hidden, PointLabel, Scene};
+use phong::render::{Cancel, RenderOptions, render};
+use phong::terms::TermSet;
+use phong::view::View;
+use phong_scene::{Diagnostic, Furniture, Hidden, Scene};
 
 use layout::{Layout, pixels_a_unit, place_of};
 use sheet::Group;
@@ -51,8 +54,31 @@ pub fn finishing(film: &Film, settings: &Settings) -> Finishing {
 /// The furniture of a scene as [`furniture_of`] has it, drawn for a picture of `size`
 /// pixels of which this is the film. All of it together has at most three times as many pixels as the picture.
 pub fn patches(furniture: &Scene, film: &Film, size: [u32; 2]) -> Vec<Patch> {
-    let groups = groups(&Font::new(), furniture, film, size);
-    raster::patches(&groups, size)
+    let seen = unhidden(furniture, size, |pixel| depth(film, pixel));
+    raster::patches(&groups(&Font::new(), &seen, size), size)
+}
+
+/// What of the furniture of a scene as [`furniture_of`] has it lies over one pixel of the picture, the lowest first:
+/// pieces of that pixel. Which labels are hidden is found by rays of their own.
+pub fn over_pixel(
+    furniture: &Scene,
+    view: &View,
+    options: &RenderOptions,
+    [x, y]: [u32; 2],
+    cancel: &Cancel,
+) -> Vec<Patch> {
+    let (size, depth_alone) = (options.size(), options.clone().with_terms(TermSet::NONE));
+    let depth_alone = depth_alone.with_lights(None).with_aovs(&[Aov::Depth]);
+    let seen = unhidden(furniture, size, |pixel| {
+        let there = depth_alone.clone().with_window(Window::pixel(pixel));
+        let once = there.and_then(|there| there.with_samples(1)?.with_share(0, 1));
+        once.map_or(f32::NEG_INFINITY, |once| {
+            depth(&render(view, &once, &|_| {}, cancel).film, pixel)
+        })
+    });
+    let all = raster::patches(&groups(&Font::new(), &seen, size), size);
+    let cut = all.iter().filter_map(|patch| patch.cut(Window::pixel([x, y]), [x, y]));
+    cut.filter(|patch| patch.pixels.iter().any(|pixel| pixel[3] > 0)).collect()
 }
 
 /// The settings of a film's finished picture as a film of its own, whose furniture is still to be drawn: by
@@ -60,12 +86,8 @@ pub fn patches(furniture: &Scene, film: &Film, size: [u32; 2]) -> Vec<Patch> {
 #[must_use]
 pub fn settled(film: &Film, settings: Settings) -> Settings {
     let Some(scene) = settings.furniture() else { return settings.finished() };
-    let mut furniture = scene.furniture.clone();
-    furniture.labels.retain(|label| is_seen(label, &scene, film, settings.size));
-    for label in &mut furniture.labels {
-        label.hidden = Hidden::Never;
-    }
-    settings.with_furniture(furniture).finished()
+    let seen = unhidden(&scene, settings.size, |pixel| depth(film, pixel));
+    settings.with_furniture(seen.furniture).finished()
 }
 
 /// What there is to say of a scene's furniture before it is drawn: letters that the font does not have, and what
@@ -146,11 +168,10 @@ pub fn crowded(scene: &Scene) -> Vec<Diagnostic> {
     said
 }
 
-/// All furniture that is seen, in the order that it is painted in: labels first.
-fn groups(font: &Font, scene: &Scene, film: &Film, size: [u32; 2]) -> Vec<Group> {
+/// All furniture, in the order that it is painted in: labels first.
+fn groups(font: &Font, scene: &Scene, size: [u32; 2]) -> Vec<Group> {
     let mut layout = Layout::new(font, scene, size);
-    let seen = scene.furniture.labels.iter().filter(|label| is_seen(label, scene, film, size));
-    let labels = seen.filter_map(|label| {
+    let labels = scene.furniture.labels.iter().filter_map(|label| {
         let (place, _) = place_of(label.at, scene, size)?;
         Some(layout.label(label, place))
     });
@@ -159,20 +180,32 @@ fn groups(font: &Font, scene: &Scene, film: &Film, size: [u32; 2]) -> Vec<Group>
     groups
 }
 
-/// Whether a label is in the picture and not hidden.
-fn is_seen(label: &PointLabel, scene: &Scene, film: &Film, size: [u32; 2]) -> bool {
-    let Some((place, away)) = place_of(label.at, scene, size) else { return false };
-    if label.hidden == Hidden::Never {
-        return true;
-    }
-    let (x, y, window) = (place.x as u32, place.y as u32, film.window);
+/// A scene of furniture without the labels that are out of the picture or hidden, so that nothing hides the others.
+/// `depth` says how far what is seen at a pixel is.
+fn unhidden(scene: &Scene, size: [u32; 2], depth: impl Fn([u32; 2]) -> f32) -> Scene {
+    let mut unhidden = scene.clone();
+    unhidden.furniture.labels.retain_mut(|label| {
+        let Some((place, away)) = place_of(label.at, scene, size) else { return false };
+        let is_seen = label.hidden == Hidden::Never || {
+            let seen = depth([place.x as u32, place.y as u32]);
+            f64::from(seen) + label.radius + SLACK * away >= away
+        };
+        label.hidden = Hidden::Never;
+        is_seen
+    });
+    unhidden
+}
+
+/// How far what is seen at a pixel is: of a film without depth farther than anything, and before everything at a
+/// pixel that it does not have.
+fn depth(film: &Film, [x, y]: [u32; 2]) -> f32 {
+    let window = film.window;
     if !(window.x0..window.x1).contains(&x) || !(window.y0..window.y1).contains(&y) {
-        return false;
+        return f32::NEG_INFINITY;
     }
-    let Some(depth) = film.layer(LayerKind::Aov(Aov::Depth)) else { return true };
+    let Some(depth) = film.layer(LayerKind::Aov(Aov::Depth)) else { return f32::INFINITY };
     let pixel = (y - window.y0) as usize * window.width() as usize + (x - window.x0) as usize;
-    let seen = depth.values.get(pixel).copied().unwrap_or(f32::INFINITY);
-    f64::from(seen) + label.radius + SLACK * away >= away
+    depth.values.get(pixel).copied().unwrap_or(f32::INFINITY)
 }
 
 #[cfg(test)]

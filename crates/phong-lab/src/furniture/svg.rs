@@ -10,7 +10,7 @@ use phong::part::Settings;
 use phong::scene::Rgb;
 
 use super::sheet::{Group, Paint, ink};
-use super::{groups, text::Font};
+use super::{depth, groups, text::Font, unhidden};
 use crate::draw::{Point, Stroke, number, shape};
 use crate::markup::{data_url, escaped};
 
@@ -56,7 +56,8 @@ pub fn svg(film: &Film, settings: &Settings, encoding: &Encoding) -> Result<Stri
         data_url("image/png", &png)
     );
     if let Some(scene) = &scene {
-        let all = groups(&Font::new(), scene, film, settings.size);
+        let seen = unhidden(scene, settings.size, |pixel| depth(film, pixel));
+        let all = groups(&Font::new(), &seen, settings.size);
         for (number, group) in all.iter().enumerate() {
             put(&mut out, group, number);
         }

@@ -11,11 +11,12 @@ use phong::witness::{CutReason, Faded};
 use phong_scene::{ConstantMaterial, Place, Rgb, TextureSpace};
 use serde_json::{Map, Value, json};
 
-use super::text::{Toned, hidden, toned};
+use super::text::{Toned, hidden, share, toned};
 
 /// The explanation as one JSON object. Numbers are f32 with all their digits: read as f64 and
 /// rounded to f32 they are the very bits. What is infinite, or not there, is null.
 pub fn json(told: &Explanation) -> Value {
+    let encoded = told.encoded();
     let mut out = json!({
         "pixel": told.pixel,
         "size": told.size,
@@ -25,8 +26,16 @@ pub fn json(told: &Explanation) -> Value {
         "linear": rgb(told.linear),
         "alpha": number(told.alpha),
         "tone": toned(told).iter().map(tone).collect::<Vec<_>>(),
-        "srgb8": told.encoded().bytes,
+        "srgb8": encoded.shown,
     });
+    if !told.furniture.is_empty() {
+        let over = |&[r, g, b, a]: &[u8; 4]| json!({ "srgb8": [r, g, b], "cover": share(a) });
+        let pieces = told.furniture.iter().flat_map(|piece| &piece.pixels);
+        out["furniture"] = json!({
+            "over": encoded.bytes,
+            "pieces": pieces.map(over).collect::<Vec<_>>(),
+        });
+    }
     if let [only] = told.samples.as_slice()
         && let Some(RayTold { end: End::Surface(surface), .. }) = &only.ray
     {

@@ -39,7 +39,7 @@ pub fn latex(told: &Explanation, telling: &Telling) -> String {
         Some(ray) => out.ray(ray),
         None => out.line(format_args!("The sample lies outside the image circle: it is black.")),
     }
-    let [r, g, b] = told.encoded().bytes;
+    let [r, g, b] = told.encoded().shown;
     let linear = out.color(told.linear);
     let mut steps = String::new();
     for Toned { name, color, .. } in toned(told) {

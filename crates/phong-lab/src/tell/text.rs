@@ -356,6 +356,10 @@ impl Page {
         }
     }
 
+    fn bytes(&mut self, name: &str, [r, g, b]: [u8; 3], how: &str) {
+        self.line(format_args!("{name:<12} ({r}, {g}, {b})  #{r:02x}{g:02x}{b:02x}{how}"));
+    }
+
     fn sum(&mut self, e: &Explanation) {
         self.line(format_args!(
             "the pixel: {} in f64, each term rounded to f32",
@@ -372,13 +376,25 @@ impl Page {
         for Toned { name, how, color } in toned(e) {
             self.line(format_args!("{name:<12} {}   {how}", self.numbers.color(color)));
         }
-        let Encoded { clamped, curve, bytes: [r, g, b], .. } = e.encoded();
+        let Encoded { clamped, curve, bytes, shown, .. } = e.encoded();
         self.line(format_args!("{:<12} {}", "clamped", self.numbers.color(clamped)));
         let [x, y, z] = curve;
         self.line(format_args!("{:<12} ({x:.6}, {y:.6}, {z:.6})", "sRGB"));
-        self.line(format_args!("{:<12} ({r}, {g}, {b})  #{r:02x}{g:02x}{b:02x}", "bytes"));
+        self.bytes("bytes", bytes, "");
+        for &[r, g, b, a] in e.furniture.iter().flat_map(|piece| &piece.pixels) {
+            let how = format!("   furniture that covers {} of it", share(a));
+            self.bytes("covered", [r, g, b], &how);
+        }
+        if !e.furniture.is_empty() {
+            self.bytes("shown", shown, "");
+        }
         self.indent -= 2;
     }
+}
+
+/// How much of a pixel something of this opacity covers.
+pub(super) fn share(opacity: u8) -> f32 {
+    f32::from(opacity) / 255.0
 }
 
 /// A step of a pixel's light on its way into a PNG.
@@ -390,14 +406,22 @@ pub(super) struct Toned {
     pub(super) color: Rgb,
 }
 
-/// What steps of luminance and tone do to a pixel, one after the other; nothing where light stays as it is.
+/// What steps of luminance, lines and tone do to a pixel, one after the other; nothing where light stays as it is.
 pub(super) fn toned(told: &Explanation) -> Vec<Toned> {
     let Encoded { stepped, tone: steps, .. } = told.encoded();
     let stops = told.tone.stops();
-    let from = if stepped.is_some() { "stepped" } else { "linear" };
+    let from = match told.lined {
+        Some(_) => "outlined",
+        None if stepped.is_some() => "stepped",
+        None => "linear",
+    };
     let scale = told.cel.unwrap_or(1.0);
     let stepped = stepped
         .map(|color| ("stepped", format!("= linear × {scale}: the step of its luminance"), color));
+    let outlined = told.lined.map(|lined| {
+        let how = format!("a line of the outline covers {} of it", lined.share);
+        ("outlined", how, lined.linear)
+    });
     let exposed =
         (stops != 0.0).then(|| ("exposed", format!("= {from} × 2^{stops}"), steps.exposed));
     let balanced = steps.balanced.map(|color| ("balanced", "white balance".to_owned(), color));
@@ -407,7 +431,7 @@ pub(super) fn toned(told: &Explanation) -> Vec<Toned> {
         ToneCurve::Filmic => "filmic curve".to_owned(),
     };
     let curved = steps.curved.map(|color| ("toned", curve, color));
-    let steps = stepped.into_iter().chain(exposed).chain(balanced).chain(curved);
+    let steps = stepped.into_iter().chain(outlined).chain(exposed).chain(balanced).chain(curved);
     steps.map(|(name, how, color)| Toned { name, how, color }).collect()
 }
 

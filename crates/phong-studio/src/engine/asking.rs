@@ -20,7 +20,10 @@ impl Engine {
         set: &Map<String, Value>,
         emit: Emit<'_>,
     ) -> Result<(), String> {
-        let (told, view, picture) = self.told(pixel, samples, set)?;
+        let (mut told, view, picture) = self.told(pixel, samples, set)?;
+        let painting = self.painting.as_ref();
+        let furniture = painting.map(|painting| painting.furniture_over(pixel));
+        told.furniture = furniture.unwrap_or_default();
         let lines = lines::of(&told, &view);
         let told = phong_lab::tell::json(&told);
         let planted = self.planted.as_ref();

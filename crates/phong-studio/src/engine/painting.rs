@@ -6,12 +6,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use phong::explain::Explanation;
 use phong::film::{Film, Window};
-use phong::finish::{Finishing, ToneMap, finish};
+use phong::finish::{Finishing, Patch, ToneMap, finish};
 use phong::part::furniture_of;
 use phong::render::{Cancel, Event, OptionsError, Passes, RenderOptions, Rendering, render};
 use phong::scene::{Exposure, Scene, Tone};
 use phong::terms::TermSet;
 use phong::view::View;
+use phong_lab::furniture::over_pixel;
 
 use super::finishing::{self, Sent};
 use super::{Emit, Stage, say};
@@ -170,9 +171,9 @@ impl Painting {
         }
     }
 
-    /// Tells how a pixel's light becomes what is seen of it. `view` and `options` are those that it was explained
-    /// with: steps of luminance are found by its neighbours, as few samples of them as of itself, but where
-    /// the picture exposes itself, by what there is of that.
+    /// Tells how a pixel's light becomes what is seen of it, beneath furniture. `view` and `options` are those that
+    /// it was explained with: steps of luminance and lines are found by its neighbours, as few samples of them as of
+    /// itself, but where the picture exposes itself, by what there is of that.
     pub(super) fn finish_told(
         &self,
         told: &mut Explanation,
@@ -181,19 +182,27 @@ impl Painting {
     ) -> Result<(), OptionsError> {
         let exposes_itself = options.tone().exposure == Exposure::Auto;
         let film = self.film.as_ref().filter(|film| film.is_complete());
-        if options.cel().is_none() || exposes_itself && film.is_none() {
+        let is_drawn_onto = options.cel().is_some() || options.lines().is_some();
+        if !is_drawn_onto || exposes_itself && film.is_none() {
             told.tone = self.tone();
         } else if let (true, Some(film)) = (exposes_itself, film) {
             told.finish_as(&finish(film, &Finishing::of(&self.options)));
         } else {
-            let [x, y] = told.pixel;
-            let pixel = Window { x0: x, y0: y, x1: x + 1, y1: y + 1 };
-            let options = options.clone().with_terms(TermSet::NONE).with_window(pixel)?;
+            let options = options.clone().with_terms(TermSet::NONE);
+            let options = options.with_window(Window::pixel(told.pixel))?;
             let options = options.with_passes(Passes::One).with_share(0, 1)?;
             let film = render(view, &options, &|_| {}, &Cancel::new()).film;
             told.finish_as(&finish(&film, &Finishing::of(&options)));
         }
         Ok(())
+    }
+
+    /// What of the furniture lies over a pixel of it.
+    pub(super) fn furniture_over(&self, pixel: [u32; 2]) -> Vec<Patch> {
+        let over = |furniture: &Scene| {
+            over_pixel(furniture, &self.view, &self.options, pixel, &Cancel::new())
+        };
+        self.furniture.as_deref().map(over).unwrap_or_default()
     }
 
     /// How many passes there are, with the first.

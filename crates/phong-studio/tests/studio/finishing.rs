@@ -3,7 +3,7 @@
 use phong::film::Film;
 use phong::finish::finish;
 use phong::image::{Content, Encoding, Format, write};
-use phong::part::Settings;
+use phong::part::{Settings, furniture_of};
 use phong::render::{Cancel, RenderOptions, render};
 use phong::scene::{Limits, Memory, Scene, read};
 use phong::view::View;
@@ -119,26 +119,46 @@ fn tiles_of_a_share_have_their_tone_unless_that_needs_the_whole_picture() {
 }
 
 #[test]
-fn steps_of_luminance_are_seen_and_told_as_the_program_has_them() {
-    let text = SCENE.replacen("[image]\n", "[image]\ncel = 3\n", 1);
-    let files = Memory::new().with("a.toml", text.clone());
+fn what_finishes_a_picture_is_seen_and_told_as_the_program_has_it() {
+    let steps = SCENE.replacen("[image]\n", "[image]\ncel = 3\n", 1);
+    let label = "[[label]]\ntext = \"Here\"\nat = [0, 0, 0]\nhidden = \"never\"\n";
+    let over = format!("{SCENE}\n[outline]\nwidth = 2\n[title]\ntext = \"Over it\"\n{label}");
+    for text in [steps, over] {
+        assert_finished_and_told(&text);
+    }
+}
+
+/// That the engine shows the finished picture of this scene, and tells the bytes of its pixels, as the program does.
+fn assert_finished_and_told(text: &str) {
+    let files = Memory::new().with("a.toml", text);
     let scene = read("a.toml", None, &files, &Limits::default()).scene.unwrap();
-    assert_eq!(scene.image.cel, Some(3), "{text}");
     let options = RenderOptions::of(&scene.image).unwrap().with_finishing_of(&scene);
     let view = View::of(&scene).unwrap();
     let film = render(&view, &options, &|_| {}, &Cancel::new()).film;
     let settings = Settings::of(&scene, &options, Encoding::default());
-    let mut talk = Talk::of(&text);
+    let mut talk = Talk::of(text);
     talk.draw();
-    assert_eq!(seen(&talk.page), bits(&finish(&film, &settings.finishing()).into_film()));
+    let finished = furniture::finish(&film, &settings);
+    assert_eq!(seen(&talk.page), bits(&finished.into_film()));
     let options = options.with_samples(1).unwrap();
-    for mut talk in [talk, Talk::sharing(&text, 1, 2)] {
-        for pixel in [[10, 8], [16, 12], [22, 9]] {
+    let figure = furniture_of(&scene);
+    let mut changed = 0;
+    for mut talk in [talk, Talk::sharing(text, 1, 2)] {
+        for pixel in [[10, 8], [16, 12], [22, 9], [16, 1], [3, 2]] {
             let mut told = phong::explain::explain(&view, &options, pixel).unwrap();
             told.expose(&scene, &view, &options, &|_| {}, &Cancel::new());
+            if let Some(figure) = &figure {
+                told.furniture =
+                    furniture::over_pixel(figure, &view, &options, pixel, &Cancel::new());
+            }
+            changed += u32::from(told.cel.is_some() || !told.furniture.is_empty());
             talk.ask(&json!({ "do": "explain", "id": 1, "pixel": pixel }));
-            let bytes = &talk.page.last("explanation")["told"]["srgb8"];
-            assert_eq!(*bytes, json!(told.encoded().bytes), "{pixel:?}");
+            assert_eq!(
+                talk.page.last("explanation")["told"],
+                phong_lab::tell::json(&told),
+                "{pixel:?}"
+            );
         }
     }
+    assert!(changed > 1, "{changed} of {text}");
 }

@@ -12,7 +12,7 @@ use thiserror::Error;
 
 use crate::film::{Sums8, Window};
 use crate::filter::Filter;
-use crate::finish::{Finished, Finishing, ToneMap, ToneSteps, finish};
+use crate::finish::{Finished, Finishing, Lined, Patch, ToneMap, ToneSteps, finish};
 use crate::integrator::{Integrator, Radiance8, RayCounts, SampleGrid, Shares};
 use crate::math::Dir3;
 use crate::render::{Cancel, Drawn, Event, RenderOptions, camera_ray, render};
@@ -46,6 +46,12 @@ pub struct Explanation {
     /// By what the steps of luminance scale its light; `None`: there are none, or it is not
     /// found out.
     pub cel: Option<f32>,
+    /// The pixel with the line that an outline draws onto it, after those steps; `None`: there is none, or it was
+    /// not found out.
+    pub lined: Option<Lined>,
+    /// What of the figure's furniture lies over it after that, the lowest first, each cut to this pixel; empty:
+    /// nothing does, or it was not found out.
+    pub furniture: Vec<Patch>,
 }
 
 /// One sample of a pixel.
@@ -296,8 +302,10 @@ pub struct Encoded {
     pub clamped: Rgb,
     /// On the sRGB curve, in [0, 1].
     pub curve: [f64; 3],
-    /// The bytes in the file.
+    /// The bytes of that.
     pub bytes: [u8; 3],
+    /// The bytes in the file: those, with the furniture that lies over them.
+    pub shown: [u8; 3],
 }
 
 /// Why a pixel cannot be explained.
@@ -337,25 +345,27 @@ pub fn explain(
     let (terms, alpha) = (terms.get(0), alpha[0]);
     let eye = scene.look().camera.eye;
     let (size, linear) = (options.size(), terms.total());
-    let (tone, cel) = (ToneMap::default(), None);
-    Ok(Explanation { pixel, size, eye, samples, terms, linear, alpha, tone, cel })
+    let (tone, cel, lined, furniture) = (ToneMap::default(), None, None, Vec::new());
+    Ok(Explanation { pixel, size, eye, samples, terms, linear, alpha, tone, cel, lined, furniture })
 }
 
-/// Options of the picture that [`Explanation::expose`] renders to find automatic exposure, or the steps of a
-/// pixel's luminance, for who makes room for its film; `None`: nothing is rendered. Of a pixel outside the
+/// Options of the picture that [`Explanation::expose`] renders to find automatic exposure, the steps of a
+/// pixel's luminance, or lines, for who makes room for its film; `None`: nothing is rendered. Of a pixel outside the
 /// picture it is the whole.
 pub fn exposed_by(
     scene: &Scene,
     options: &RenderOptions,
-    [x, y]: [u32; 2],
+    pixel: [u32; 2],
 ) -> Option<RenderOptions> {
     let bare = || options.clone().with_terms(TermSet::NONE).with_aovs(&[]).with_lights(None);
     let finished = |bare: RenderOptions| bare.with_finishing_of(scene);
     if scene.tone.unwrap_or_default().exposure == Exposure::Auto {
         return Some(finished(bare()));
     }
-    let pixel = Window { x0: x, y0: y, x1: x.saturating_add(1), y1: y.saturating_add(1) };
-    scene.image.cel.map(|_| finished(bare().with_window(pixel).unwrap_or_else(|_outside| bare())))
+    let is_drawn_onto = scene.image.cel.is_some() || scene.outline.is_some();
+    is_drawn_onto.then(|| {
+        finished(bare().with_window(Window::pixel(pixel)).unwrap_or_else(|_outside| bare()))
+    })
 }
 
 /// Traces sample `index` (from 0) of a pixel, and tells `witness` of every step: of the ray's own
@@ -414,7 +424,7 @@ impl<'a> Road<'a> {
 
 impl Explanation {
     /// Finds out how the pixel's light becomes what a PNG of the scene's picture shows. Automatic exposure is that
-    /// of the picture, and the steps of luminance are those of the pixel among its neighbours, which are
+    /// of the picture, and the steps of luminance and the lines are those of the pixel among its neighbours, which are
     /// rendered to find them ([`exposed_by`]), and tell `listen` how far that is; who cancels it gets some
     /// exposure or other.
     pub fn expose(
@@ -433,32 +443,36 @@ impl Explanation {
         self.finish_as(&finish(&film, &Finishing::of(&options)));
     }
 
-    /// Takes tone and steps from a finished picture that shows the pixel.
+    /// Takes tone, steps and lines from a finished picture that shows the pixel.
     pub fn finish_as(&mut self, picture: &Finished<'_>) {
         let (Window { x0, y0, .. }, [x, y]) = (picture.film().window, self.pixel);
         let place = x.checked_sub(x0).zip(y.checked_sub(y0));
         self.cel = place.and_then(|(x, y)| picture.scale_at([x, y]));
+        self.lined = place.and_then(|(x, y)| picture.lined_at([x, y]));
         self.tone = *picture.tone();
     }
 
     /// The pixel as a PNG of 8 bits has it.
     pub fn encoded(&self) -> Encoded {
         let stepped = self.cel.map(|scale| self.linear * scale);
-        let straight = |v: f32| if self.alpha > 0.0 { v / self.alpha } else { 0.0 };
-        let straight = Rgb::from(stepped.unwrap_or(self.linear).to_array().map(straight));
+        let beneath = (stepped.unwrap_or(self.linear), self.alpha);
+        let (linear, alpha) = self.lined.map_or(beneath, |lined| (lined.linear, lined.alpha));
+        let straight = |v: f32| if alpha > 0.0 { v / alpha } else { 0.0 };
+        let straight = Rgb::from(linear.to_array().map(straight));
         let tone = self.tone.steps(straight);
         // NaN becomes 0, as in files.
         let clamped =
             tone.last().to_array().map(|v| if v.is_nan() { 0.0 } else { v.clamp(0.0, 1.0) });
         let curve = clamped.map(|v| srgb_encode(f64::from(v)));
-        Encoded {
-            stepped,
-            straight,
-            tone,
-            clamped: clamped.into(),
-            curve,
-            bytes: curve.map(|v| (v * 255.0 + 0.5).floor() as u8),
+        let level = |v: f64| (v * 255.0 + 0.5).floor() as u8;
+        let bytes = curve.map(level);
+        let [r, g, b] = bytes;
+        let mut shown = [r, g, b, level(f64::from(alpha.clamp(0.0, 1.0)))];
+        for patch in &self.furniture {
+            patch.over_levels(patch.window, &mut shown, true, 1, false);
         }
+        let [r, g, b, _] = shown;
+        Encoded { stepped, straight, tone, clamped: clamped.into(), curve, bytes, shown: [r, g, b] }
     }
 }
 

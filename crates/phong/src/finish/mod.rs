@@ -11,7 +11,7 @@ mod tone;
 use std::borrow::Cow;
 use std::sync::OnceLock;
 
-use phong_scene::Tone;
+use phong_scene::{Rgb, Tone};
 
 use crate::film::{Film, LayerKind, Window};
 use crate::render::{Lines, RenderOptions};
@@ -92,6 +92,8 @@ pub struct Finished<'a> {
     lined: Option<[Vec<f32>; 2]>,
     /// By what steps scale the light of each pixel; empty: there are none.
     scales: Vec<f32>,
+    /// How much of each pixel lines cover; empty: there are none.
+    coverage: Vec<f32>,
     /// What lies over that.
     patches: Vec<Patch>,
     /// The picture and its alpha with all that is drawn onto it, where that is patches.
@@ -100,6 +102,17 @@ pub struct Finished<'a> {
     scene: Option<u32>,
     picture: Option<u32>,
     tone: ToneMap,
+}
+
+/// A pixel with the line that is drawn onto it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lined {
+    /// How much of it the line covers, above 0 and at most 1.
+    pub share: f32,
+    /// It, linear, and as far as it is opaque.
+    pub linear: Rgb,
+    /// How opaque it is, in [0, 1].
+    pub alpha: f32,
 }
 
 /// Finishes a film's picture.
@@ -135,17 +148,18 @@ fn drawn<'a>(film: &'a Film, finishing: &Finishing) -> Finished<'a> {
         exposed = ToneMap::new(tone, &picture, Some(&alpha));
         scales = cut(cel::scales(film, steps, exposed.gain()));
     }
-    let coverage = lines.and_then(|lines| Some((cut(outline::coverage(film, &lines)?), lines)));
-    let lined = (coverage.is_some() || !scales.is_empty()).then(|| {
+    let lines = lines.and_then(|lines| Some((cut(outline::coverage(film, &lines)?), lines)));
+    let lined = (lines.is_some() || !scales.is_empty()).then(|| {
         let mut drawn = values(&shown_film);
         cel::scale(&mut drawn[0], &scales);
-        if let Some((coverage, lines)) = &coverage {
+        if let Some((coverage, lines)) = &lines {
             line(&mut drawn, coverage, lines);
         }
         drawn
     });
+    let coverage = lines.map(|(coverage, _)| coverage).unwrap_or_default();
     let (film, covered, tone) = (shown_film, OnceLock::new(), exposed);
-    Finished { film, lined, scales, patches, covered, dpi, scene, picture, tone }
+    Finished { film, lined, scales, coverage, patches, covered, dpi, scene, picture, tone }
 }
 
 /// A film's picture and alpha; where it has none, all of it is covered.
@@ -210,10 +224,23 @@ impl Finished<'_> {
 
     /// By what steps of luminance scale the light of a pixel, which counts from the upper left corner of what
     /// is shown; `None`: there are none, or no such pixel.
-    pub fn scale_at(&self, [x, y]: [u32; 2]) -> Option<f32> {
-        let within = x < self.film.width() && y < self.film.height();
-        let place = y as usize * self.film.width() as usize + x as usize;
-        self.scales.get(place).copied().filter(|_| within)
+    pub fn scale_at(&self, pixel: [u32; 2]) -> Option<f32> {
+        self.scales.get(self.number_of(pixel)?).copied()
+    }
+
+    /// A pixel, which counts in the same way, with the line on it; `None`: there is none, or no such pixel.
+    pub fn lined_at(&self, pixel: [u32; 2]) -> Option<Lined> {
+        let number = self.number_of(pixel)?;
+        let share = self.coverage.get(number).copied().filter(|share| *share > 0.0)?;
+        let [picture, alpha] = self.lined.as_ref()?;
+        let (linear, alpha) = (picture.as_chunks::<3>().0.get(number)?, *alpha.get(number)?);
+        Some(Lined { share, linear: Rgb::from(*linear), alpha })
+    }
+
+    /// The number of a pixel of what is shown; `None`: there is no such pixel.
+    fn number_of(&self, [x, y]: [u32; 2]) -> Option<usize> {
+        let (width, height) = (self.film.width(), self.film.height());
+        (x < width && y < height).then(|| y as usize * width as usize + x as usize)
     }
 
     /// How its light becomes what a PNG shows.
@@ -267,7 +294,6 @@ impl Finished<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use phong_scene::Rgb;
 
     use crate::aov::Aov;
 
