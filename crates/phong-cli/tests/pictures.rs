@@ -190,6 +190,21 @@ fn tone_is_the_same_in_shares_of_a_crop_that_of_the_crop_and_typed_as_it_is_writ
     assert_eq!(folder.bytes("whole.png"), folder.bytes("typed.png"));
     let part = folder.done("render toned.toml --crop 0,0,20,12 -o part.png --json").json();
     assert_ne!(part["exposure"], told["exposure"]);
+    // OpenEXR has the light as it is, and what a PNG makes levels of beside it; by exposure alone nothing is beside it.
+    folder.done(&format!("render a.toml --exposure {stops} -o exposed.exr"));
+    folder.done("render a.toml -o plain.exr");
+    assert_eq!(folder.bytes("plain.exr"), folder.bytes("exposed.exr"));
+    folder.done("render toned.toml -o toned.exr");
+    let picture = |name| phong::image::Picture::read(&folder.bytes(name)).unwrap();
+    let (plain, toned, seen) = (picture("plain.exr"), picture("toned.exr"), picture("whole.png"));
+    for name in ["R", "G", "B"] {
+        assert_eq!(plain.plane(name), toned.plane(name));
+        let finished = toned.plane(&format!("finished.{name}")).unwrap();
+        for (&value, level) in finished.iter().zip(seen.plane(name).unwrap()) {
+            let encoded = phong_scene::srgb_encode(f64::from(value.clamp(0.0, 1.0)));
+            assert_eq!((encoded * 255.0 + 0.5).floor(), f64::from(level * 255.0).round());
+        }
+    }
     // No other file has it.
     folder.done("render a.toml -o plain.pfm");
     folder.done("render toned.toml -o toned.pfm");

@@ -4,7 +4,7 @@
 use std::borrow::Cow;
 
 use phong::film::{Film, LayerKind};
-use phong::finish::{Finishing, ToneMap, finish};
+use phong::finish::{Finishing, finish};
 use phong::image::{Encoding, srgb8};
 use phong::render::{Lines, RenderOptions};
 use phong::scene::{Scene, Tone};
@@ -68,7 +68,9 @@ pub(super) fn whole(
             let colors = if finishing.tone == Tone::default() {
                 Cow::Borrowed(colors)
             } else {
-                Cow::Owned(toned(colors, alphas, finished.tone()))
+                let mut toned = colors.to_vec();
+                finished.tone().apply(&mut toned, alphas);
+                Cow::Owned(toned)
             };
             for (color, alpha) in colors.as_chunks::<3>().0.iter().zip(alphas) {
                 color.iter().chain([alpha]).for_each(|v| bytes.extend(v.to_le_bytes()));
@@ -76,16 +78,6 @@ pub(super) fn whole(
         }
     }
     bytes
-}
-
-/// Colours, premultiplied with their alphas, as tone makes them; not yet clamped.
-pub(super) fn toned(colors: &[f32], alphas: &[f32], tone: &ToneMap) -> Vec<f32> {
-    let pixels = colors.as_chunks::<3>().0.iter().zip(alphas);
-    let toned = pixels.flat_map(|(color, &alpha)| {
-        let straight = color.map(|v| if alpha > 0.0 { v / alpha } else { 0.0 });
-        (tone.steps(straight.into()).last() * alpha).to_array()
-    });
-    toned.collect()
 }
 
 /// The film whose picture lacks the terms that are left out.

@@ -240,7 +240,11 @@ impl Painting {
             });
             let colors = sum.as_deref().unwrap_or(colors);
             let colors = match &tone {
-                Some(tone) => Cow::Owned(finishing::toned(colors, alphas, tone)),
+                Some(tone) => {
+                    let mut toned = colors.to_vec();
+                    tone.apply(&mut toned, alphas);
+                    Cow::Owned(toned)
+                }
                 None => Cow::Borrowed(colors),
             };
             let frame = TileFrame {

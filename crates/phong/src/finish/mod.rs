@@ -42,8 +42,8 @@ pub struct Finishing {
     pub dpi: Option<f64>,
     /// What lies over all that, one upon the other: the furniture of a figure.
     pub patches: Vec<Patch>,
-    /// How light becomes what a PNG shows, last of all. Nothing else is changed by it: the film, terms,
-    /// EXR and PFM files hold light as it is.
+    /// How light becomes what a PNG shows. The film is not changed by it, nor are terms and PFM files; EXR files hold
+    /// light as it is, and the finished picture beside it.
     pub tone: Tone,
 }
 
@@ -205,6 +205,25 @@ impl Finished<'_> {
             })
         };
         Some([&drawn[0], &drawn[1]])
+    }
+
+    /// Red, green and blue of the finished picture, and its alpha, as a PNG clamps it and puts it on its curve;
+    /// `None`: nothing but exposure finishes it.
+    #[cfg(feature = "exr")]
+    pub(crate) fn toned(&self) -> Option<[Cow<'_, [f32]>; 2]> {
+        if self.tone.only_gain().is_some_and(|gain| gain == 1.0) {
+            return Some(self.drawn()?.map(Cow::Borrowed));
+        }
+        if self.lined.is_none() && self.patches.is_empty() && self.tone.only_gain().is_some() {
+            return None;
+        }
+        let mut drawn = self.lined.clone().unwrap_or_else(|| values(&self.film));
+        let [picture, alpha] = &mut drawn;
+        self.tone.apply(picture, alpha);
+        for patch in &self.patches {
+            patch.over_linear(self.film.window, &mut drawn);
+        }
+        Some(drawn.map(Cow::Owned))
     }
 
     /// What is to be laid over the levels of a file that [`beneath`](Self::beneath) becomes.

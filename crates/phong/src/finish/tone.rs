@@ -101,6 +101,14 @@ impl ToneMap {
         (self.balance.is_none() && self.curve == ToneCurve::Clamp).then_some(self.gain)
     }
 
+    /// What becomes of a picture: three values a pixel, premultiplied with its alpha. Not yet clamped.
+    pub fn apply(&self, picture: &mut [f32], alpha: &[f32]) {
+        for (pixel, &alpha) in picture.as_chunks_mut::<3>().0.iter_mut().zip(alpha) {
+            let straight = pixel.map(|v| if alpha > 0.0 { v / alpha } else { 0.0 });
+            *pixel = (self.steps(straight.into()).last() * alpha).to_array();
+        }
+    }
+
     /// What becomes of a pixel's light, whose alpha is divided out.
     pub fn steps(&self, linear: Rgb) -> ToneSteps {
         let exposed = linear * self.gain;

@@ -2,6 +2,7 @@
 //!
 //! After the format's description (openexr.com, *OpenEXR File Layout* and *Technical Introduction*).
 
+use std::borrow::Cow;
 use std::io::{Seek, SeekFrom, Write};
 use std::ops::Range;
 
@@ -34,15 +35,17 @@ struct Channel<'a> {
     index: usize,
 }
 
-/// Writes all layers: `R G B A`, `finished.R` where anything is drawn onto the picture, `diffuse.R`,
-/// `normal.X`, `uv.U`, `depth`, … Premultiplied light, which no exposure, white balance or curve has changed.
+/// Writes all layers: `R G B A`, `finished.R` where anything but exposure finishes the picture, `diffuse.R`,
+/// `normal.X`, `uv.U`, `depth`, … Premultiplied light, linear; only in `finished` have exposure, white balance and curve
+/// changed it.
 pub(in crate::image) fn write(
     picture: &Finished<'_>,
     out: &mut (impl Write + Seek),
 ) -> Result<(), WriteError> {
     let film = picture.film();
     let [width, height] = [film.width() as usize, film.height() as usize];
-    let channels = channels(picture);
+    let finished = picture.toned();
+    let channels = channels(picture, finished.as_ref());
     let begin = out.stream_position()?;
     let mut head = header(picture, &channels, [film.width(), film.height()])?;
     // Where each block of rows is stands before them, and is known after them.
@@ -79,7 +82,10 @@ fn wave(width: usize, channels: usize, threads: usize) -> usize {
 }
 
 /// All channels, by their names.
-fn channels<'a>(picture: &'a Finished<'_>) -> Vec<Channel<'a>> {
+fn channels<'a>(
+    picture: &'a Finished<'_>,
+    finished: Option<&'a [Cow<'_, [f32]>; 2]>,
+) -> Vec<Channel<'a>> {
     let film = picture.film();
     let mut list = Vec::new();
     let mut add = |name: String, values, stride, index| {
@@ -91,7 +97,7 @@ fn channels<'a>(picture: &'a Finished<'_>) -> Vec<Channel<'a>> {
             add(name, Some(&*layer.values), stride, channel);
         }
     }
-    if let Some([picture, alpha]) = picture.drawn() {
+    if let Some([picture, alpha]) = finished {
         for (channel, name) in ["R", "G", "B"].into_iter().enumerate() {
             add(format!("finished.{name}"), Some(picture), 3, channel);
         }
