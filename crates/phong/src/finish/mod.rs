@@ -209,7 +209,6 @@ impl Finished<'_> {
 
     /// Red, green and blue of the finished picture, and its alpha, as a PNG clamps it and puts it on its curve;
     /// `None`: nothing but exposure finishes it.
-    #[cfg(feature = "exr")]
     pub(crate) fn toned(&self) -> Option<[Cow<'_, [f32]>; 2]> {
         if self.tone.only_gain().is_some_and(|gain| gain == 1.0) {
             return Some(self.drawn()?.map(Cow::Borrowed));
