@@ -142,6 +142,19 @@ fn what_is_farther_than_numbers_go_is_told() {
 }
 
 #[test]
+fn what_is_smaller_than_numbers_tell_apart_is_told() {
+    let of = |radius: f64| {
+        let mut scene = lit(vec![Shape::Sphere { center: DVec3::ZERO, radius }.into()]);
+        (scene.camera.eye, scene.camera.look_at) = (DVec3::Z * 5.0 * radius, DVec3::ZERO);
+        scene
+    };
+    assert_eq!(of(1e-16).check(), []);
+    let [warning] = &of(1e-20).check()[..] else { panic!("one warning") };
+    let told = "warning: nothing is larger than 3.5e-20 units: below 1e-17 pictures are wrong";
+    assert_eq!(warning.to_string(), told);
+}
+
+#[test]
 fn what_was_found_sound_is_not_read_again_and_what_changes_about_it_is_told() {
     let mut mesh = triangle();
     mesh.face_materials = [1].into();

@@ -22,10 +22,14 @@ const MOST_PAIRS: usize = 10_000_000;
 /// Most names that a message lists.
 const MOST_NAMED: usize = 5;
 
+/// A scene that is smaller than this in all is drawn wrong: the square of its lengths is 0 as an f32.
+const SMALLEST: f64 = 1e-17;
+
 /// Says everything suspicious about a scene, each with its place but without an excerpt.
 /// `bounds` are the boxes of the objects.
 pub(super) fn check(scene: &Scene, bounds: &[Bounds], say: &mut dyn FnMut(Diagnostic)) {
     unseen(scene, bounds, say);
+    minute(scene, bounds, say);
     without_coordinates(scene, say);
     scene.materials.iter().for_each(|material| nowhere_above_0(scene, material, say));
     if scene.objects.is_empty() {
@@ -69,6 +73,20 @@ fn without_coordinates(scene: &Scene, say: &mut dyn FnMut(Diagnostic)) {
         let help =
             "each of its triangles shows the texture for itself; `space = \"object\"` needs none";
         say(Diagnostic::warning(message, at(&object.place)).with_help(help));
+    }
+}
+
+/// Says if all there is is so small that numbers do not tell its parts apart.
+fn minute(scene: &Scene, bounds: &[Bounds], say: &mut dyn FnMut(Diagnostic)) {
+    let sizes =
+        bounds.iter().filter(|bounds| !bounds.is_empty()).map(|bounds| bounds.size().length());
+    let largest = sizes.reduce(f64::max).filter(|&largest| largest < SMALLEST);
+    if let (Some(largest), Some(first)) = (largest, scene.objects.first()) {
+        let message = format!(
+            "nothing is larger than {largest:.1e} units: below {SMALLEST:e} pictures are wrong"
+        );
+        let help = "give all lengths in a smaller unit";
+        say(Diagnostic::warning(message, at(&first.place)).with_help(help));
     }
 }
 
