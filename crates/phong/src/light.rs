@@ -8,10 +8,10 @@ use glam::{DVec3, Vec3};
 use phong_bvh::{Lanes, halves};
 use phong_scene::{LightKind, Rgb};
 
-use crate::math::lanes::{add, dot, normalize, scale, select3, splat3, sub};
+use crate::math::lanes::{add, dot, normalize, scale, splat3, sub};
 use crate::math::{Dir3, wide};
 use crate::sampling::concentric_disc;
-use area::{Area, Chosen};
+use area::{Area, Chosen, choose_of_sphere};
 use mesh::LuminousMesh;
 
 /// The share of its way by which the surface of a light may lie behind another and still be seen: one that is
@@ -315,12 +315,7 @@ impl Light {
             Kind::Point { attenuation, radius, cone, .. } => {
                 let middle = toward;
                 if let Some(place) = place {
-                    let axis = normalize(toward);
-                    let aside = across(width.splat(*radius), axis, concentric_disc(place));
-                    // Where the light is there is no way aside.
-                    let (zero, length) = (width.splat(0.0), dot(axis, axis));
-                    let aside = select3(zero.lt(length), aside, [zero; 3]);
-                    toward = add(toward, aside);
+                    toward = choose_of_sphere(*radius, toward, concentric_disc(place)).toward;
                 }
                 let Reach { l, distance, mut share } = arrival(toward, *attenuation);
                 if let Some(cone) = cone {
@@ -423,8 +418,7 @@ fn narrow<S: Simd>(low: [f64x4<S>; 3], high: [f64x4<S>; 3]) -> [f32x8<S>; 3] {
     [low[0].narrow(high[0]), low[1].narrow(high[1]), low[2].narrow(high[2])]
 }
 
-/// A point, of the unit disc, of the disc of this radius perpendicular to `axis`: a luminous sphere
-/// seen from there is a disc. (The frame is that of Duff and others, *Building an orthonormal basis,
+/// A point, of the unit disc, of the disc of this radius perpendicular to `axis`. (The frame is that of Duff and others, *Building an orthonormal basis,
 /// revisited*, 2017.)
 #[inline(always)]
 pub(crate) fn across<F: Lanes<Scalar = f32>>(

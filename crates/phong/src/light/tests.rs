@@ -109,11 +109,15 @@ fn a_spot_fades_from_its_cone_to_its_edge() {
 }
 
 #[test]
-fn a_soft_light_is_sampled_over_its_disc() {
-    let position = DVec3::new(0.0, 4.0, 0.0);
-    let lamp = light(LightKind::Point { position, attenuation: [1.0, 0.0, 0.0], radius: 1.0 });
-    assert_eq!(lamp.sample(DVec3::ZERO, MIDDLE).unwrap().l, Dir3::Y);
-    let rim = lamp.sample(DVec3::ZERO, [0.0, 0.5]).unwrap();
+fn a_soft_light_is_the_sphere_that_cannot_be_seen() {
+    let (position, attenuation) = (DVec3::new(0.0, 4.0, 0.0), [1.0, 0.0, 0.0]);
+    let soft = light(LightKind::Point { position, attenuation, radius: 1.0 });
+    let sphere = light(LightKind::Sphere { position, attenuation, radius: 1.0 });
+    assert_eq!(soft.sample(DVec3::ZERO, MIDDLE).unwrap().l, Dir3::Y);
+    let rim = soft.sample(DVec3::ZERO, [0.0, 0.5]).unwrap();
     let sin = (1.0 - rim.l.dot(Dir3::Y) * rim.l.dot(Dir3::Y)).sqrt();
-    assert!((sin - 1.0 / 17.0_f32.sqrt()).abs() < 1e-6, "a unit off at a distance of four");
+    assert!((sin - 0.25).abs() < 1e-6, "it is seen out to where rays touch it");
+    for (at, place) in [(DVec3::ZERO, [0.2, 0.7]), (DVec3::X, [0.9, 0.4]), (position, MIDDLE)] {
+        assert_eq!(soft.sample(at, place), sphere.sample(at, place));
+    }
 }
