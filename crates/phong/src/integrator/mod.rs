@@ -412,7 +412,8 @@ impl Integrator<'_> {
                 let sampler = samplers.get(i).map(|s| s.get(lane).branch(branch as u32));
                 if !interactions.widths.is_empty() {
                     let behind = paths.cones.get(8 * i + lane).copied();
-                    let cone = self.cone_on(&rays[i], interactions, behind, (i, lane), branch);
+                    let on = (branch, scattered);
+                    let cone = self.cone_on(&rays[i], interactions, behind, (i, lane), on);
                     secondary.paths.cones.push(cone);
                 }
                 secondary.paths.ways.extend(ways.get(i).map(|ways| ways[lane].on(branch)));

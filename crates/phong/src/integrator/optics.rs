@@ -1,7 +1,7 @@
 //! The directions and weights of mirror and refracted rays, eight at a time.
 
 use fearless_simd::{Simd, f32x8, prelude::*};
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use phong_bvh::{Kernel, Lanes, Ray, Rays8, offset_origins};
 use phong_scene::Rgb;
 
@@ -23,6 +23,8 @@ pub(super) struct Scattered8 {
     weight: Lanes3,
     /// The reflectance F where the material uses it, else NaN.
     fresnel: [f32; 8],
+    /// The index of refraction of the far side relative to the near one.
+    pub(super) eta: [f32; 8],
     /// The surfaces whose ray has a weight above 0, one bit each.
     pub(super) there: u32,
 }
@@ -33,13 +35,19 @@ impl Scattered8 {
         dir: [[0.0; 8]; 3],
         weight: [[0.0; 8]; 3],
         fresnel: [f32::NAN; 8],
+        eta: [1.0; 8],
         there: 0,
     };
+
+    /// The direction of the ray of one surface.
+    pub(super) fn dir(&self, lane: usize) -> Vec3 {
+        get(&self.dir, lane).into()
+    }
 
     /// The ray of one surface.
     pub(super) fn ray(&self, lane: usize) -> Ray {
         let origin = self.origin.map(|all| all[lane]);
-        Ray::new(DVec3::from_array(origin), get(&self.dir, lane).into())
+        Ray::new(DVec3::from_array(origin), self.dir(lane))
     }
 
     /// Its weight, and F where the material uses it.
@@ -107,15 +115,17 @@ impl Kernel for Scatter<'_> {
                 if lanes == 0xff {
                     offset_origins(simd, surface, dir, &mut to.origin);
                     to.fresnel = share.into();
+                    to.eta = at.eta.into();
                 } else {
                     let mut origins = [[0.0; 8]; 3];
                     offset_origins(simd, surface, dir, &mut origins);
-                    let shares: [f32; 8] = share.into();
+                    let (shares, etas) = (<[f32; 8]>::from(share), <[f32; 8]>::from(at.eta));
                     for lane in phong_bvh::lanes(lanes) {
                         for (to, from) in to.origin.iter_mut().zip(origins) {
                             to[lane] = from[lane];
                         }
                         to.fresnel[lane] = shares[lane];
+                        to.eta[lane] = etas[lane];
                     }
                 }
                 put3(simd, &mut to.dir, lanes, dir);

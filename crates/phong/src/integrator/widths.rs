@@ -7,6 +7,7 @@ use glam::Vec3;
 use phong_bvh::{Hits8, Rays8, lanes};
 
 use super::interactions::Interactions;
+use super::optics::Scattered8;
 use super::{Integrator, Paths};
 use crate::math::lanes::{direction, get};
 use crate::texture::Cone;
@@ -20,6 +21,9 @@ pub(crate) struct SampleGrid {
     /// Samples of each pixel, when all is done.
     pub(crate) samples: u32,
 }
+
+/// How grazing refraction counts at most: the least cosine.
+const LEAST_COSINE: f32 = 1e-2;
 
 impl Integrator<'_> {
     /// Finds out how wide rays are where they meet something: of each in `widths`, by its lane.
@@ -52,41 +56,43 @@ impl Integrator<'_> {
     }
 
     /// The cone about a ray that goes on from a surface where the one before is `width` wide.
+    ///
+    /// Along that width the normal turns by the curvature. A mirror turns what is seen in it by twice as much. Where
+    /// light is refracted, rays beside one another go on by Coddington's two equations, one across the plane of
+    /// incidence and one within it; a cone is round, and takes the geometric mean of what they bring.
     pub(super) fn cone_on(
         &self,
         rays: &Rays8,
         interactions: &Interactions,
         behind: Option<Cone>,
         (i, lane): (usize, usize),
-        branch: Branch,
+        (branch, scattered): (Branch, &Scattered8),
     ) -> Cone {
         let SampleGrid { size, samples } = self.grid;
         let width = interactions.widths[i][lane];
+        let dir = direction(&rays.dir, lane).to_vec();
         let spread = if let Some(behind) = behind {
             behind.after(interactions.hits[i].t[lane]).spread
         } else {
-            let dir = direction(&rays.dir, lane).to_vec();
             self.scene.camera().cone(dir, size, samples).spread
         };
-        let more = match branch {
-            Branch::Reflection => self.spread_of_mirror(interactions, (i, lane), width),
-            Branch::Transmission | Branch::Through => 0.0,
-        };
-        Cone { width, spread: spread + more }
-    }
-
-    /// How much more a mirror spreads a ray that is `width` wide: the normal turns by its curvature along that width,
-    /// and what it mirrors by twice as much.
-    fn spread_of_mirror(
-        &self,
-        interactions: &Interactions,
-        (i, lane): (usize, usize),
-        width: f32,
-    ) -> f32 {
         let [ng, front] = [&interactions.surfaces[i].ng, &interactions.shading[i].front]
             .map(|all| Vec3::from(get(all, lane)));
-        let curvature = self.scene.curvature(&interactions.hits[i].get(lane), ng);
-        let curvature = if ng.dot(front) < 0.0 { -curvature } else { curvature };
-        2.0 * curvature * width
+        let turn = || {
+            let curvature = self.scene.curvature(&interactions.hits[i].get(lane), ng);
+            width * if ng.dot(front) < 0.0 { -curvature } else { curvature }
+        };
+        match branch {
+            Branch::Reflection => Cone { width, spread: spread + 2.0 * turn() },
+            Branch::Transmission => {
+                let eta = scattered.eta[lane];
+                let [cos_i, cos_t] =
+                    [dir, scattered.dir(lane)].map(|dir| (-dir.dot(front)).max(LEAST_COSINE));
+                let bent = (cos_t - cos_i / eta) / (cos_i * cos_t).sqrt();
+                let stretch = (cos_i / cos_t).sqrt();
+                Cone { width: width / stretch, spread: spread * stretch / eta - turn() * bent }
+            }
+            Branch::Through => Cone { width, spread },
+        }
     }
 }
