@@ -5,6 +5,7 @@ mod atoms;
 mod cif;
 pub(crate) mod export;
 mod faces;
+mod facets;
 pub(crate) mod frames;
 pub(crate) mod gltf;
 mod gro;

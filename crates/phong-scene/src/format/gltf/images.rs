@@ -13,7 +13,7 @@ use crate::diagnostic::Place;
 use crate::format::text::{Findings, whole};
 use crate::limits::Limits;
 use crate::source::{Source, trouble};
-use crate::texels::{self, TexelValues, Texels, TexelsError};
+use crate::texels::{self, Texels, TexelsError};
 use crate::texture::{
     Encoding, TexelFilter, Texture, TextureId, TextureKind, TextureRef, TextureSpace, Wrap,
 };
@@ -246,35 +246,6 @@ impl Named {
     pub(super) fn lies_as(&self, other: &Self) -> bool {
         (self.wrap, self.wrap_v) == (other.wrap, other.wrap_v) && self.transform == other.transform
     }
-}
-
-/// A channel of an image made anew, as 16-bit numbers: of green what `value` says.
-pub(super) fn green(
-    texels: &Texels,
-    value: impl Fn(f32) -> f64,
-) -> std::result::Result<Texels, TexelsError> {
-    let [width, height] = texels.size();
-    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
-    let short = |at| (value(texels.get(at, false)[1]).clamp(0.0, 1.0) * 65535.0 + 0.5) as u16;
-    Texels::new([width, height], 1, TexelValues::Shorts(pixels.map(short).collect()))
-}
-
-/// The colours of an image, each made anew by what another image has there, as floats.
-pub(super) fn mixed(
-    base: &Texels,
-    other: &Texels,
-    value: impl Fn([f32; 4], [f32; 4]) -> Rgb,
-) -> std::result::Result<Texels, TexelsError> {
-    let [width, height] = base.size();
-    let [w, h] = other.size();
-    let there =
-        |i: u32, count: u32, of: u32| (u64::from(i) * u64::from(of) / u64::from(count)) as u32;
-    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
-    let color = |[x, y]: [u32; 2]| {
-        let beside = other.get([there(x, width, w), there(y, height, h)], false);
-        value(base.get([x, y], true), beside).to_array()
-    };
-    Texels::new([width, height], 3, TexelValues::Floats(pixels.flat_map(color).collect()))
 }
 
 /// Where an image lies: `KHR_texture_transform` is of coordinates whose second one grows down the image, and is

@@ -3,27 +3,19 @@
 use std::sync::Arc;
 
 use super::buffer::Buffers;
-use super::images::{Images, Made, Named, green, mixed};
+use super::images::{Images, Made, Named};
 use super::json::{At, Result};
 use crate::color::Rgb;
 use crate::diagnostic::Place;
-use crate::format::text::{Findings, whole};
-use crate::material::{
-    ConstantMaterial, Distribution, Fresnel, Material, Model, OpacityMode, Shadowing,
+use crate::format::facets::{
+    F0, ambient, imaged, microfacets, mirrored, mixed, numbers, parted, reflectance, width,
 };
+use crate::format::text::{Findings, whole};
+use crate::material::{Fresnel, Material, Model, OpacityMode};
 use crate::texture::{Channel, TextureRef};
-
-/// The least width of a highlight: one of nothing would not be seen in the light of a point.
-const LEAST_ALPHA: f64 = 1e-3;
-
-/// The weight of ambient light; and how much more metals have, in place of what they would mirror.
-const AMBIENT: [f32; 2] = [0.1, 0.3];
 
 /// What a material takes whose colour is an image that cannot be read.
 const GREY: f64 = 0.8;
-
-/// Reflectance at normal incidence of what is no metal, where the file does not say it.
-const F0: f64 = 0.04;
 
 /// What a material does to primitives, besides being theirs.
 #[derive(Clone, Debug)]
@@ -38,37 +30,14 @@ pub(super) struct Surface {
 /// The format calls it metal, of which nothing but what is mirrored would be seen: colours of vertices
 /// are scattered as they are.
 pub(super) fn plain() -> Surface {
-    Surface { color: Rgb::WHITE, ..surface([1.0; 3], 1.0, 1.0, Rgb::grey(F0 as f32)) }
-}
-
-/// The weight of ambient light of what is metal to this share.
-fn ambient(metal: f32) -> f32 {
-    AMBIENT[0] + AMBIENT[1] * metal
+    Surface { color: Rgb::WHITE, ..surface([1.0; 3], 1.0, 1.0, F0) }
 }
 
 /// Microfacets over a diffuse base, which metals have none of.
 fn surface(base: [f64; 3], metallic: f64, roughness: f64, dielectric: Rgb) -> Surface {
-    let rgb = |channel: fn(f64) -> f64| Rgb::from(base.map(|c| channel(c) as f32));
-    let base_color = rgb(|c| c);
-    let (metal, other) = (metallic as f32, (1.0 - metallic) as f32);
-    let color = base_color * other;
-    let f0 = dielectric * other + base_color * metal;
-    let material = ConstantMaterial {
-        model: Model::Microfacet {
-            distribution: Distribution::Ggx,
-            roughness: (roughness * roughness).max(LEAST_ALPHA) as f32,
-            shadowing: Shadowing::Correlated,
-            fresnel: Fresnel::Schlick { f0: f0.map(|c| c.clamp(0.0, 1.0)) },
-        },
-        color,
-        ambient_color: Some(base_color),
-        specular_color: Some(Rgb::WHITE),
-        k_a: ambient(metal),
-        k_d: 1.0,
-        k_s: 1.0,
-        ..ConstantMaterial::default()
-    };
-    Surface { material: material.into(), color }
+    let base = Rgb::from(base.map(|c| c as f32));
+    let material = microfacets(base, [metallic, roughness], dielectric);
+    Surface { color: material.color, material: material.into() }
 }
 
 /// Reads one material. What of it is not drawn is told.
@@ -101,12 +70,11 @@ pub(super) fn read(
     maps.normal = drawn.named(at, "normalTexture", from, findings);
     maps.occlusion = drawn.named(at, "occlusionTexture", from, findings);
     maps.emissive = drawn.named(at, "emissiveTexture", from, findings);
-    let mut f0 = Rgb::grey(F0 as f32);
+    let mut f0 = F0;
     if let Some(ior) = at.extension("KHR_materials_ior") {
         let n = ior.number_or("ior", 1.5)?;
         // 0 stands for infinite: everything is reflected.
-        let r = if n <= 0.0 { 1.0 } else { (n - 1.0) / (n + 1.0) };
-        f0 = Rgb::grey((r * r) as f32);
+        f0 = if n <= 0.0 { Rgb::WHITE } else { reflectance(n) };
     }
     if let Some(specular) = at.extension("KHR_materials_specular") {
         let weight = unit(specular.number_or("specularFactor", 1.0)?) as f32;
@@ -223,13 +191,10 @@ impl Maps {
                     || format!("{}: {message} (material `{name}`)", at.pointer),
                 );
             };
-            let alpha = |green: f32| {
-                let rough = f64::from(green) * roughness;
-                (rough * rough).max(LEAST_ALPHA)
-            };
             let (of, size) = (vec![facets.image], facets.texels.size());
             let of = Made { what: "roughness", images: of, factors: vec![roughness.to_bits()] };
-            match images.made(of, (size, 2), || green(&facets.texels, alpha)) {
+            let alpha = |[_, green, ..]: [f32; 4]| width(f64::from(green) * roughness);
+            match images.made(of, (size, 2), || numbers(&facets.texels, alpha)) {
                 Ok(texels) => {
                     let named = (name.as_str(), "roughness");
                     let by = images.texture(&facets.with(texels), Rgb::WHITE, named, &place);
@@ -283,22 +248,17 @@ impl Maps {
                     let make = || mixed(&larger.texels, &facets.texels, of);
                     images.made(from, (larger.texels.size(), 12), make)
                 };
-                let diffuse = made("diffuse", &|c, other| of(c) * (1.0 - metal(other)));
-                let mirrored = made("specular", &|c, other| {
-                    let m = metal(other);
-                    f0 * (1.0 - m) + of(c) * m
-                });
-                match diffuse.and_then(|diffuse| Ok((diffuse, mirrored?))) {
-                    Ok((diffuse, mirrored)) => {
+                let parts = |c, other| parted(of(c), metal(other).into(), f0);
+                let diffuse = made("diffuse", &|c, other| parts(c, other)[0]);
+                let specular = made("specular", &|c, other| parts(c, other)[1]);
+                match diffuse.and_then(|diffuse| Ok((diffuse, specular?))) {
+                    Ok((diffuse, specular)) => {
                         let mut texture = |texels, key| {
                             let named = (name.as_str(), key);
                             images.texture(&larger.with(texels), Rgb::WHITE, named, &place)
                         };
-                        material.color = texture(diffuse, "diffuse").into();
-                        material.specular_color = Some(texture(mirrored, "specular").into());
-                        if let Model::Microfacet { fresnel, .. } = &mut material.model {
-                            *fresnel = Fresnel::None;
-                        }
+                        let diffuse = texture(diffuse, "diffuse");
+                        imaged(material, diffuse, Some(texture(specular, "specular")));
                     }
                     Err(why) => {
                         tell(format!("it is everywhere as metallic as the mean: {why}"));
@@ -315,29 +275,23 @@ impl Maps {
             material.normal = Some(TextureRef { scale, ..by });
         }
         if let Some(metal) = even.filter(|_| self.facets.is_some() && !is_unlit) {
-            let (metal, other) = (metal as f32, (1.0 - metal) as f32);
-            material.color = (base_color * other).into();
+            let [diffuse, f0] = parted(base_color, metal, f0);
+            material.color = diffuse.into();
             if let Model::Microfacet { fresnel, .. } = &mut material.model {
-                let f0 = f0 * other + base_color * metal;
                 *fresnel = Fresnel::Schlick { f0: f0.map(|c| c.clamp(0.0, 1.0)) };
             }
-            *color = base_color * other;
+            *color = diffuse;
         }
         if let Some(base) = &self.base {
             let by = texture(base, base_color, "base color");
             material.ambient_color = (!is_unlit).then(|| by.into());
             if let Some(metal) = even {
                 let diffuse = base_color * (1.0 - metal) as f32;
-                material.color = texture(base, diffuse, "color").into();
-                if metal > 0.0 && !is_unlit {
-                    // What metal mirrors has its colour at every angle.
-                    let mirrored = texture(base, base_color, "metal");
-                    material.specular_color = Some(mirrored.into());
-                    if let Model::Microfacet { fresnel, .. } = &mut material.model {
-                        *fresnel = Fresnel::None;
-                    }
-                    let metal = metal as f32;
-                    material.k_s = (metal + (1.0 - metal) * f0.max_channel()).into();
+                let diffuse = texture(base, diffuse, "color");
+                let is_metal = metal > 0.0 && !is_unlit;
+                imaged(material, diffuse, is_metal.then(|| texture(base, base_color, "metal")));
+                if is_metal {
+                    material.k_s = mirrored(metal, f0).into();
                 }
             }
             *color = Rgb::WHITE;

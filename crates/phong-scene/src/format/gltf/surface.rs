@@ -5,6 +5,7 @@ use serde_json::{Map, Value, json};
 use crate::color::Rgb;
 use crate::format::export::Account;
 use crate::format::export::flat::warning;
+use crate::format::facets::of_exponent;
 use crate::material::{ConstantMaterial, Distribution, Fresnel, Material, Model};
 use crate::wording::Word;
 
@@ -87,7 +88,6 @@ pub(super) fn base_color(m: &ConstantMaterial) -> Rgb {
 
 /// The roughness of which α is the square, and by which formula.
 fn roughness(m: &ConstantMaterial) -> (f32, Option<&'static str>) {
-    let of_exponent = |n: f32| (2.0 / (n + 2.0)).sqrt().sqrt();
     match m.model {
         _ if m.k_s == 0.0 => (1.0, None),
         Model::Phong => {
