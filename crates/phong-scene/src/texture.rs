@@ -79,7 +79,7 @@
 //! | `texture` | the name of a texture, in quotes | required | Where the values come from. |
 //! | `scale` | a number | `1` | What they are multiplied by. |
 //! | `offset` | a number | `0` | What is added then; what comes below 0 is 0. |
-//! | `channel` | `r`, `g`, `b` or `a` | all three; of a number `r` | The channel that is taken. |
+//! | `channel` | `r`, `g`, `b`, `a` or `luminance` | all three; of a number `r` | The channel that is taken; `luminance`: 0.2126 r + 0.7152 g + 0.0722 b, of a colour in linear light, of a number as the image holds them. |
 
 mod kind;
 mod map;
@@ -141,6 +141,8 @@ pub enum Channel {
     Blue,
     /// Opacity: 1 of textures that have none.
     Alpha,
+    /// All three by the weights of Rec. 709: of a colour in linear light, of a number as an image holds them.
+    Luminance,
 }
 
 /// What a parameter asks a texture for.
@@ -295,17 +297,20 @@ impl Textured for Rgb {
     }
 }
 
-words!(Channel { "r" = Red, "g" = Green, "b" = Blue, "a" = Alpha });
+words!(Channel { "r" = Red, "g" = Green, "b" = Blue, "a" = Alpha, "luminance" = Luminance });
 
 words!(TextureSpace { "object" = Object, "world" = World, "uv" = Uv });
 
 impl Channel {
-    fn of(self, Rgb { r, g, b }: Rgb) -> f32 {
+    /// What it is of a value.
+    pub(crate) fn of(self, Rgb { r, g, b }: Rgb) -> f32 {
         match self {
             // Whoever is asked for an opacity gives it as a grey.
             Self::Red | Self::Alpha => r,
             Self::Green => g,
             Self::Blue => b,
+            // The weights add up to 1: written so, a grey is itself to the bit.
+            Self::Luminance => g + 0.2126 * (r - g) + 0.0722 * (b - g),
         }
     }
 }
@@ -323,5 +328,10 @@ mod tests {
         let blue = TextureRef { channel: Some(Channel::Blue), ..by };
         assert_eq!(Param::<Rgb>::from(blue).at(|_| value), Rgb::grey(1.5));
         assert_eq!(Param::<f32>::from(blue).at(|_| value), 1.5);
+        let grey =
+            TextureRef { channel: Some(Channel::Luminance), ..TextureRef::new(TextureId(0)) };
+        let luminance = 0.125 + 0.2126 * 0.375 + 0.0722 * 0.875;
+        assert_eq!(Param::<f32>::from(grey).at(|_| value), luminance);
+        assert_eq!(Param::<Rgb>::from(grey).at(|_| value), Rgb::grey(luminance));
     }
 }

@@ -375,7 +375,8 @@ pub(crate) static TEXTURED: Table = Table {
             "channel",
             Kind::Word(Channel::WORDS),
             Default::Said("all three; of a number `r`"),
-            "The channel that is taken.",
+            "The channel that is taken; `luminance`: 0.2126 r + 0.7152 g + 0.0722 b, of a colour in linear light, \
+             of a number as the image holds them.",
         ),
     ]],
 };
