@@ -33,17 +33,13 @@ const MOST_BYTES: u64 = 1 << 32;
 pub(crate) fn parse(
     bytes: &[u8],
     limits: &Limits,
-    #[cfg_attr(
-        not(feature = "exr"),
-        expect(unused_variables, reason = "only EXR files have something to warn of")
-    )]
     warn: &mut dyn FnMut(String),
 ) -> Result<Texels, String> {
     match bytes {
         [] => Err("it is empty".to_owned()),
         [0x89, b'P', b'N', b'G', ..] => png::decode(bytes, limits),
         [0xff, 0xd8, ..] => jpeg::decode(bytes, limits),
-        [b'#', b'?', ..] => radiance::decode(bytes, limits),
+        [b'#', b'?', ..] => radiance::decode(bytes, limits, warn),
         #[cfg(feature = "exr")]
         [0x76, 0x2f, 0x31, 0x01, ..] => openexr::decode(bytes, limits, warn),
         #[cfg(not(feature = "exr"))]

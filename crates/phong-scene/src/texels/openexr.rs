@@ -6,6 +6,7 @@ use exr::block::reader::Reader;
 use exr::image::read::image::ReadLayers;
 use exr::image::read::layers::ReadChannels;
 use exr::image::read::read;
+use exr::meta::header::{Header, LayerAttributes};
 
 use super::allowed::allow;
 use super::{TexelValues, Texels};
@@ -34,6 +35,7 @@ pub(super) fn decode(
         .from_buffered(Cursor::new(bytes))
         .map_err(broken)?;
     let layer = image.layer_data;
+    tell_of_parts(headers.headers(), &layer.attributes, warn);
     let size = [layer.size.width(), layer.size.height()].map(|side| side as u32);
     let channels = &layer.channel_data.list;
     if channels.is_empty() {
@@ -50,6 +52,18 @@ pub(super) fn decode(
     }
     let values = (0..pixels).flat_map(|i| planes.iter().map(move |plane| plane[i])).collect();
     Texels::new(size, planes.len(), TexelValues::Floats(values)).map_err(|error| error.to_string())
+}
+
+/// Says which parts of a file of several are not drawn: all but one. No two are called the same.
+fn tell_of_parts(parts: &[Header], taken: &LayerAttributes, warn: &mut dyn FnMut(String)) {
+    let name = |of: &LayerAttributes| of.layer_name.as_ref().map(ToString::to_string);
+    let others = parts.iter().map(|part| &part.own_attributes).filter(|of| name(of) != name(taken));
+    let others: Vec<_> = others.filter_map(name).collect();
+    if !others.is_empty() {
+        let (taken, others) =
+            (name(taken).unwrap_or_default(), list(others.iter().map(|name| &**name), "and"));
+        warn(format!("of its parts {} is taken, not {others}", quoted(&taken)));
+    }
 }
 
 /// The numbers of the channels that are drawn: red, green and blue without a layer or of the first layer that has

@@ -12,9 +12,13 @@ use crate::limits::Limits;
 /// The largest side that a header may say: the pixels are counted besides.
 const MOST_SIDE: usize = 1 << 20;
 
-/// The pixels, or a clause that says what is wrong.
-pub(super) fn decode(bytes: &[u8], limits: &Limits) -> Result<Texels, String> {
-    let Header { axes, exposure, pixels } = Header::read(bytes)?;
+/// The pixels, or a clause that says what is wrong; `warn` is told of colours that are not those they are drawn as.
+pub(super) fn decode(
+    bytes: &[u8],
+    limits: &Limits,
+    warn: &mut dyn FnMut(String),
+) -> Result<Texels, String> {
+    let Header { axes, exposure, pixels } = Header::read(bytes, warn)?;
     let [lines, length] = axes.map(|axis| axis.count);
     let size = if axes[0].is_y { [length, lines] } else { [lines, length] };
     let is_upright = axes[0].is_y && !axes[0].is_turned && !axes[1].is_turned;
@@ -59,6 +63,12 @@ fn upright(values: &[f32], axes: [Axis; 2], [width, height]: [u32; 2]) -> Vec<f3
 /// The name of the only format of pixels that is read.
 const RGBE: &str = "32-bit_rle_rgbe";
 
+/// Where Rec. 709 has red, green, blue and white, as x and y each.
+const REC_709: [f32; 8] = [0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.329];
+
+/// By how much what files round differs.
+const ROUNDED: f32 = 0.002;
+
 /// What stands before the pixels.
 struct Header<'a> {
     /// That along which the lines follow one another, and that of each line.
@@ -78,7 +88,7 @@ struct Axis {
 }
 
 impl<'a> Header<'a> {
-    fn read(mut rest: &'a [u8]) -> Result<Self, String> {
+    fn read(mut rest: &'a [u8], warn: &mut dyn FnMut(String)) -> Result<Self, String> {
         let mut exposure = [1.0; 3];
         loop {
             let line = line(&mut rest)?;
@@ -96,6 +106,19 @@ impl<'a> Header<'a> {
                 Some(("COLORCORR", by)) => {
                     let by: Option<Vec<f32>> = by.split_whitespace().map(number).collect();
                     by.and_then(|by| by.try_into().ok())
+                }
+                Some(("PRIMARIES", places)) => {
+                    let places: Option<Vec<f32>> =
+                        places.split_whitespace().map(|text| text.parse().ok()).collect();
+                    let near = |(said, known): (&f32, f32)| (said - known).abs() <= ROUNDED;
+                    let is_known = |places: Vec<f32>| {
+                        places.len() == REC_709.len() && places.iter().zip(REC_709).all(near)
+                    };
+                    if !places.is_some_and(is_known) {
+                        let drawn = "its colours are drawn as those of Rec. 709";
+                        warn(format!("{drawn}, and not by `{line}`"));
+                    }
+                    continue;
                 }
                 _ => continue,
             };

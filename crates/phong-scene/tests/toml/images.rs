@@ -165,6 +165,56 @@ fn hdr_exposures_are_divided_out() {
     assert_eq!(pixel("FORMAT=32-bit_rle_rgbe\nCOLORCORR=1 2 4\n"), corrected);
 }
 
+/// The one warning that there is, where the file is named.
+fn warning(image: &[u8]) -> String {
+    let reading = reading(image, &Limits::default());
+    assert!(reading.scene.is_some());
+    let [warning] = &reading.diagnostics[..] else { panic!("{:#?}", reading.diagnostics) };
+    let span = warning.span.as_ref().expect("a place");
+    assert_eq!((span.place.line, span.place.column), (7, 8), "{}", warning.message);
+    warning.message.clone()
+}
+
+#[test]
+fn hdr_primaries_other_than_those_of_rec_709_are_told() {
+    for (said, is_told) in [
+        ("0.640 0.330 0.300 0.600 0.150 0.060 0.3127 0.3290", false),
+        ("0.64 0.33 0.30 0.60 0.15 0.06 0.313 0.329", false),
+        // Radiance's own, whose white is of equal energy.
+        ("0.640 0.330 0.290 0.600 0.150 0.060 0.333 0.333", true),
+        ("0.7347 0.2653 0 1 0.0001 -0.077 0.3217 0.3377", true),
+        ("0.64 0.33", true),
+        ("red", true),
+    ] {
+        let image = hdr(&format!("PRIMARIES= {said}\n\n-Y 1 +X 1"), &[64]);
+        if is_told {
+            let told = warning(&image);
+            assert!(told.contains(&format!("not by `PRIMARIES= {said}`")), "{told}");
+        } else {
+            texels(&image);
+        }
+    }
+}
+
+#[test]
+fn parts_of_an_exr_beside_the_first_are_told() {
+    use exr::prelude::{
+        AnyChannel, AnyChannels, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds,
+        Layer, LayerAttributes, WritableImage,
+    };
+    let part = |name: &str| {
+        let channel = |name: &str| AnyChannel::new(name, FlatSamples::F32(vec![0.5]));
+        let channels = AnyChannels::sort(["R", "G", "B"].map(channel).into_iter().collect());
+        Layer::new((1, 1), LayerAttributes::named(name), Encoding::UNCOMPRESSED, channels)
+    };
+    let attributes = ImageAttributes::new(IntegerBounds::from_dimensions((1, 1)));
+    let image = Image::from_layers(attributes, ["beauty", "shadow", "depth"].map(part).to_vec());
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    image.write().to_buffered(&mut bytes).expect("memory");
+    let told = warning(&bytes.into_inner());
+    assert!(told.contains("of its parts \"beauty\" is taken, not `shadow` and `depth`"), "{told}");
+}
+
 #[test]
 fn what_is_no_image_is_an_error_where_it_is_named() {
     let whole = png([2, 1], (png::ColorType::Rgb, png::BitDepth::Eight), &[9; 6]);
