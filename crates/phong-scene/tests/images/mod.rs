@@ -2,16 +2,20 @@
 
 use std::collections::BTreeMap;
 
-use phong_scene::{Fresnel, Limits, Material, Model, Reading, Rgb, Scene, TextureKind, Wrap};
+use phong_scene::{
+    Channel, Fresnel, Limits, Material, Model, Reading, Rgb, Scene, TextureKind, Wrap,
+};
 
 use super::{read_with, scene, told};
 
-/// The only material of an MTL file beside which lies `s.png`, a grey of 0.2, and what was told.
+/// The only material of an MTL file beside which lie `s.png`, a grey of 0.2, and `m.png`, black and white; and
+/// what was told.
 fn material_with_image(mtl: &str) -> (Material, Scene, String) {
     let obj = "mtllib a.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n";
-    let image = png([1, 1], &[51; 3]);
-    let files: [(&str, &[u8]); 3] =
-        [("a.obj", obj.as_bytes()), ("a.mtl", mtl.as_bytes()), ("s.png", &image)];
+    let grey = png([1, 1], &[51; 3]);
+    let metal = png([2, 1], &[0, 0, 0, 255, 255, 255]);
+    let files: [(&str, &[u8]); 4] =
+        [("a.obj", obj.as_bytes()), ("a.mtl", mtl.as_bytes()), ("s.png", &grey), ("m.png", &metal)];
     let reading = read_with(&files, &Limits::default());
     let told = told(&reading);
     let scene = scene(reading);
@@ -40,6 +44,112 @@ fn an_image_of_the_highlight_is_that_of_the_mirror() {
     }
     let (material, ..) = material_with_image("newmtl a\nKs 0 0 0\nmap_Ks s.png\nillum 2\n");
     assert_eq!(material.reflection, Rgb::BLACK.into());
+}
+
+/// How wide facets are, and what they mirror at normal incidence.
+fn facets(material: &Material) -> (Option<f32>, Option<Rgb>) {
+    match material.model {
+        Model::Microfacet { roughness, fresnel, .. } => match fresnel {
+            Fresnel::Schlick { f0 } => (roughness.constant(), Some(f0)),
+            _ => (roughness.constant(), None),
+        },
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn roughness_and_metal_of_the_physically_based_extension_are_those_of_gltf() {
+    let red = Rgb::new(0.5, 0.25, 0.0);
+    let read = |said: &str| {
+        let mtl = format!("newmtl a\nKd 0.5 0.25 0\nKa 1 1 1\nKs 1 1 1\nNs 32\nillum 3\n{said}");
+        let (material, _, told) = material_with_image(&mtl);
+        assert_eq!(told, "", "{said}");
+        assert_eq!((material.reflection, material.k_s), (Rgb::BLACK.into(), 1.0.into()));
+        assert_eq!(material.ambient_color, Some(red.into()));
+        (facets(&material), material.color, material.k_a.constant().expect("a number"))
+    };
+    let grey = |f0| (Some(0.25), Some(Rgb::grey(f0)));
+    assert_eq!(read("Pr 0.5\nPm 0\nNi 1\nPc 0\nPcr 0.03\n"), (grey(0.04), red.into(), 0.1));
+    assert_eq!(read("Pr 0.5\nNi 3\n"), (grey(0.25), red.into(), 0.1));
+    let ((width, mirrored), color, k_a) = read("Pr 0.5\nPm 1\n");
+    assert_eq!(((width, mirrored), color), ((Some(0.25), Some(red)), Rgb::BLACK.into()));
+    assert!((k_a - 0.4).abs() < 1e-6, "{k_a}");
+    // α² = 2/(32 + 2) without `Pr`.
+    let ((width, _), ..) = read("Pm 1\n");
+    assert!((width.expect("a number") - (2.0_f32 / 34.0).sqrt()).abs() < 1e-6, "{width:?}");
+}
+
+#[test]
+fn zeros_of_the_physically_based_extension_say_nothing_and_the_rest_is_told() {
+    let (plain, _, told) = material_with_image("newmtl a\nPr 0\nPm 0\nPs 0\nPc 0\naniso 0\n");
+    assert_eq!((plain.model, told.as_str()), (Model::Lambert, ""));
+    for word in ["Ps", "Pc", "aniso"] {
+        let (_, _, told) = material_with_image(&format!("newmtl a\nPr 0.5\n{word} 0.5\n"));
+        assert!(told.starts_with("a.mtl:3:1: warning: ") && told.contains(word), "{told}");
+    }
+    let (rough, _, told) = material_with_image("newmtl a\nPr 2\n");
+    assert_eq!(facets(&rough).0, Some(1.0));
+    assert!(told.contains("`Pr` must not be above 1: 2 is read as 1"), "{told}");
+    let (_, _, told) = material_with_image("newmtl a\nPr 0.5\nKs 1 1 1\nmap_Ks s.png\n");
+    assert!(told.contains("a.mtl:4:1: warning: `map_Ks` of `s.png` is not drawn beside"), "{told}");
+}
+
+#[test]
+fn images_of_roughness_and_of_metal_take_the_place_of_both() {
+    // α = 0.2², whatever `Pr` is.
+    let (material, scene, told) = material_with_image("newmtl a\nPr 0.5\nmap_Pr s.png\n");
+    let rough = pixels(&material, &scene)["roughness"][0][0];
+    assert!((rough - 0.04).abs() < 1e-5, "{rough} {told}");
+    let (material, scene, told) = material_with_image("newmtl a\nKd 0.5 0.5 0.5\nmap_Pm m.png\n");
+    let images = pixels(&material, &scene);
+    assert_eq!((facets(&material).1, told.as_str()), (None, ""));
+    let reds = |key: &str| images[key].iter().map(|[r, ..]| *r).collect::<Vec<_>>();
+    assert_eq!((reds("color"), reds("specular_color")), (vec![0.5, 0.0], vec![0.04, 0.5]));
+    assert!((material.k_a.constant().expect("a number") - 0.25).abs() < 1e-6);
+    // One that is everywhere the same is as good as a number, and a texture is multiplied.
+    let (material, ..) = material_with_image("newmtl a\nmap_Kd m.png\nmap_Pm s.png\n");
+    let by = material.color.texture().expect("an image");
+    assert!((by.scale - 0.8).abs() < 1e-6 && material.k_s.constant() == Some(0.2 + 0.8 * 0.04));
+}
+
+#[test]
+fn an_image_of_metal_that_lies_otherwise_than_that_of_colour_counts_by_its_mean() {
+    for (options, is_told) in [("", false), ("-s 2 2 ", true), ("-mm 0 0.5 ", true)] {
+        let mtl = format!("newmtl a\nmap_Kd {options}m.png\nmap_Pm m.png\n");
+        let (material, _, told) = material_with_image(&mtl);
+        assert_eq!(told.contains("a.mtl:3:1: warning: the image `m.png` lies"), is_told, "{told}");
+        let by = material.color.texture().expect("an image");
+        let want = match options {
+            "" => 1.0,
+            "-s 2 2 " => 0.5,
+            _ => 0.25,
+        };
+        assert_eq!(by.scale, want, "{options}");
+    }
+}
+
+#[test]
+fn a_displacement_is_a_bump_unless_there_is_one() {
+    for (beside, told) in [
+        ("", "a.mtl:2:1: warning: `disp` of `s.png` is drawn as `bump`"),
+        ("bump s.png\n", "a.mtl:2:1: warning: `disp` of `s.png` is not drawn beside `bump`"),
+        ("norm s.png\n", "a.mtl:2:1: warning: `disp` of `s.png` is not drawn beside `norm`"),
+    ] {
+        let mtl = format!("newmtl a\ndisp -mm 0.5 2 s.png\n{beside}");
+        let (material, _, all) = material_with_image(&mtl);
+        assert!(all.starts_with(told), "{all}");
+        assert_eq!(material.bump.is_some(), !beside.contains("norm"), "{mtl}");
+        // Of the file's heights 1 is a hundredth of a unit.
+        let scale = material.bump.map(|by| (by.scale, by.offset));
+        assert!(!beside.is_empty() || scale == Some((0.02, 0.005)), "{scale:?}");
+    }
+}
+
+#[test]
+fn what_stands_for_an_image_that_mirrors_show_is_told() {
+    let (_, _, told) = material_with_image("newmtl a\nrefl -type sphere s.png\ndecal s.png\n");
+    assert!(told.contains("`[sky] kind = \"image\"`"), "{told}");
+    assert!(told.contains("a.mtl:3:1: warning: `decal` of `s.png` is not drawn\n"), "{told}");
 }
 
 #[test]
@@ -91,7 +201,8 @@ fn options_of_images_that_are_not_drawn_are_told_and_the_rest_is_drawn() {
         ("-s 0 0 0", "`-s 0 0` of the image `s.png` is not drawn"),
         ("-s 1e400", "`-s 1e400` of"),
         ("-mm 0 nan", "`-mm 0 nan` of"),
-        ("-imfchan l", "`-imfchan l` of"),
+        ("-imfchan z", "`-imfchan z` of"),
+        ("-imfchan l", ""),
         ("-s 2 2 0", ""),
     ] {
         let mtl = format!("newmtl a\nmap_d {options} s.png\n");
@@ -99,6 +210,8 @@ fn options_of_images_that_are_not_drawn_are_told_and_the_rest_is_drawn() {
         assert_eq!(all.contains("is not drawn"), !told.is_empty(), "{all}");
         assert!(all.contains(told), "{all}");
         assert_eq!(material.textured()[0].0, "opacity");
+        let channel = material.textured()[0].1.channel;
+        assert_eq!(channel, options.ends_with('l').then_some(Channel::Luminance), "{options}");
         let scale = scene.textures[0].transform.matrix3.x_axis.x;
         assert_eq!(scale, if options == "-s 2 2 0" { 0.5 } else { 1.0 }, "{options}");
     }
@@ -163,6 +276,14 @@ fn pbr(pbr: &str, more: &str) -> (Material, Pixels, String) {
     let told = told(&reading);
     let scene = scene(reading);
     let material = scene.materials[scene.objects[0].material.0 as usize].clone();
+    let images = pixels(&material, &scene);
+    (material, images, told)
+}
+
+type Pixels = BTreeMap<&'static str, Vec<[f32; 4]>>;
+
+/// The pixels in the first row of a material's images, by key.
+fn pixels(material: &Material, scene: &Scene) -> Pixels {
     let image = |key: &str| {
         let textured = material.textured();
         let by = textured.into_iter().find(|(other, _)| *other == key)?.1;
@@ -174,11 +295,8 @@ fn pbr(pbr: &str, more: &str) -> (Material, Pixels, String) {
         }
     };
     let keys = ["color", "specular_color", "roughness"];
-    let images = keys.into_iter().filter_map(|key| Some((key, image(key)?))).collect();
-    (material, images, told)
+    keys.into_iter().filter_map(|key| Some((key, image(key)?))).collect()
 }
-
-type Pixels = BTreeMap<&'static str, Vec<[f32; 4]>>;
 
 const METAL: &str = r#""metallicRoughnessTexture": {"index": 1}"#;
 

@@ -1,6 +1,6 @@
 //! A material as its statements say it, and what it becomes.
 
-use super::maps::{Maps, Said};
+use super::maps::{Maps, Physical, Said};
 use super::texture::{Map, MapOf};
 use crate::color::Rgb;
 use crate::diagnostic::Span;
@@ -24,6 +24,8 @@ pub(super) struct Draft {
     pub(super) dissolve: Option<f32>,
     pub(super) transparency: Option<f32>,
     pub(super) illum: Option<(u8, Span)>,
+    pub(super) roughness: Option<f32>,
+    pub(super) metallic: Option<f32>,
     /// The images that it names, and where.
     pub(super) maps: Vec<(Map, Span)>,
     /// What was found in its statements.
@@ -45,6 +47,8 @@ impl Draft {
             dissolve: None,
             transparency: None,
             illum: None,
+            roughness: None,
+            metallic: None,
             maps: Vec::new(),
             findings: Findings::default(),
         }
@@ -64,6 +68,8 @@ impl Draft {
             emission: *emission,
             exponent: self.exponent,
             dissolve: self.dissolve.or(transparency.map(|tr| 1.0 - tr)),
+            // What is out of range is told where the material is made.
+            physical: self.physical(&mut Findings::default()),
         }
     }
 
@@ -95,7 +101,9 @@ impl Draft {
             _ if maps.specular.is_some() => Rgb::WHITE,
             _ => Rgb::BLACK,
         };
-        let highlight = !k_s.is_black() && !self.has_no_highlight(findings);
+        let physical = self.physical(findings);
+        let is_plain = physical.is_none();
+        let highlight = is_plain && !k_s.is_black() && !self.has_no_highlight(findings);
         let illum = self.illum.as_ref().map_or(if highlight { 2 } else { 1 }, |(n, _)| *n);
         let most = LARGEST as f32;
         let exponent = self.in_range("Ns", self.exponent.unwrap_or(32.0), 0.0, most, findings);
@@ -106,7 +114,7 @@ impl Draft {
         self.warn_of_model(illum, highlight, findings);
 
         let filter = self.filter.unwrap_or(Rgb::WHITE);
-        let mirrors = matches!(illum, 3..=7);
+        let mirrors = is_plain && matches!(illum, 3..=7);
         let refracts = matches!(illum, 6 | 7);
         let transmission = if refracts {
             // Not of the white that stands for an image.
@@ -165,6 +173,10 @@ impl Draft {
         }
         if let Some(by) = maps.dissolve {
             material.opacity = by.into();
+        }
+        if let Some(physical) = physical {
+            let base = diffuse.unwrap_or(PLAIN);
+            Physical { base, ..physical }.put(&mut material, maps, opacity);
         }
         (material.normal, material.bump) = (maps.normal, maps.bump);
         material
@@ -271,7 +283,7 @@ impl Draft {
         findings.warning("illumination models", || span.clone(), || message.to_owned());
     }
 
-    fn in_range(
+    pub(super) fn in_range(
         &self,
         what: &str,
         value: f32,

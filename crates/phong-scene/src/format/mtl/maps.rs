@@ -11,7 +11,7 @@ use crate::diagnostic::Span;
 use crate::format::text::Findings;
 use crate::limits::Limits;
 use crate::source::{Source, byte_letter};
-use crate::texels::{self, Texels};
+use crate::texels::{self, Texels, TexelsError};
 use crate::texture::{
     Channel, Encoding, TexelFilter, Texture, TextureId, TextureKind, TextureRef, TextureSpace, Wrap,
 };
@@ -24,6 +24,8 @@ pub(crate) struct Images<'a> {
     source: &'a dyn Source,
     limits: &'a Limits,
     read: BTreeMap<String, Result<Arc<Texels>, String>>,
+    /// What was made of them for materials.
+    made: Vec<Arc<Texels>>,
     /// The textures, in the order in which materials asked for them.
     pub(crate) textures: Vec<Texture>,
 }
@@ -31,7 +33,7 @@ pub(crate) struct Images<'a> {
 impl<'a> Images<'a> {
     /// No textures yet.
     pub(crate) fn new(source: &'a dyn Source, limits: &'a Limits) -> Self {
-        Self { source, limits, read: BTreeMap::new(), textures: Vec::new() }
+        Self { source, limits, read: BTreeMap::new(), made: Vec::new(), textures: Vec::new() }
     }
 
     /// A texture of the colours of the image of that name, which stands there in the file at `file`; else why
@@ -44,15 +46,37 @@ impl<'a> Images<'a> {
         findings: &mut Findings,
     ) -> Result<TextureId, String> {
         let texels = load(name, file, self, (span, findings))?;
-        let texture = TextureId(self.textures.len() as u32);
-        self.textures.push(Texture {
+        Ok(self.push(Texture {
             name: name.to_owned(),
             kind: TextureKind::image(name, texels),
             space: TextureSpace::Uv,
             place: span.place.clone(),
             ..Texture::default()
-        });
-        Ok(texture)
+        }))
+    }
+
+    fn push(&mut self, texture: Texture) -> TextureId {
+        let id = TextureId(self.textures.len() as u32);
+        self.textures.push(texture);
+        id
+    }
+
+    /// The limits of the next image: all together stay within those of the file.
+    fn left(&self) -> Limits {
+        let read = self.read.values().flatten();
+        Texels::left(self.limits, read.chain(&self.made).map(AsRef::as_ref))
+    }
+
+    /// An image made of another one, of that size and so many bytes a pixel; or a clause that says why it cannot be.
+    pub(super) fn made(
+        &mut self,
+        (size, bytes): ([u32; 2], u64),
+        make: impl FnOnce() -> Result<Texels, TexelsError>,
+    ) -> Result<Arc<Texels>, String> {
+        texels::allow(size, bytes, &self.left())?;
+        let made = Arc::new(make().map_err(|error| error.to_string())?);
+        self.made.push(Arc::clone(&made));
+        Ok(made)
     }
 }
 
@@ -66,6 +90,36 @@ pub(super) struct Said<'a> {
     pub(super) emission: Option<Rgb>,
     pub(super) exponent: Option<f32>,
     pub(super) dissolve: Option<f32>,
+    /// What it says that uses the physically based extension.
+    pub(super) physical: Option<Physical>,
+}
+
+/// What a material says that uses the physically based extension.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Physical {
+    /// `Kd`.
+    pub(super) base: Rgb,
+    /// `Pm`, from 0 to 1.
+    pub(super) metallic: f64,
+    /// `Pr`, from 0 to 1.
+    pub(super) roughness: f64,
+    /// What it mirrors at normal incidence where it is no metal.
+    pub(super) dielectric: Rgb,
+}
+
+impl Said<'_> {
+    /// Beside what an image of that kind is not drawn; `None`: it is drawn.
+    fn not_drawn(&self, of: MapOf) -> Option<&'static str> {
+        let is_there = |of| self.maps.iter().any(|(map, _)| map.of == of);
+        match of {
+            MapOf::Specular | MapOf::Exponent if self.physical.is_some() => {
+                Some("beside `Pr` and `Pm`")
+            }
+            MapOf::Displacement if is_there(MapOf::Bump) => Some("beside `bump`"),
+            MapOf::Displacement if is_there(MapOf::Normal) => Some("beside `norm`"),
+            _ => None,
+        }
+    }
 }
 
 /// What the images say that could be read.
@@ -79,8 +133,20 @@ pub(super) struct Maps {
     pub(super) dissolve: Option<TextureRef>,
     pub(super) bump: Option<TextureRef>,
     pub(super) normal: Option<TextureRef>,
+    pub(super) roughness: Option<TextureRef>,
+    /// How metallic it is everywhere or in the mean, where an image says so.
+    pub(super) metal: Option<f64>,
+    /// Where that varies: what it scatters and what it mirrors.
+    pub(super) parts: Option<[TextureRef; 2]>,
     /// Whether the image that says the diffuse colour could not be read.
     pub(super) lost: bool,
+}
+
+/// An image that a statement names, and that could be read.
+pub(super) struct Drawn<'a> {
+    pub(super) map: &'a Map,
+    pub(super) span: &'a Span,
+    pub(super) texels: Arc<Texels>,
 }
 
 impl Maps {
@@ -92,7 +158,13 @@ impl Maps {
         findings: &mut Findings,
     ) -> Self {
         let mut maps = Self::default();
+        let mut all = Vec::new();
         for (map, span) in said.maps {
+            if let Some(why) = said.not_drawn(map.of) {
+                let tell = || format!("`{}` of `{}` is not drawn {why}", map.of.word(), map.name);
+                findings.warning("textures", || span.clone(), tell);
+                continue;
+            }
             let texels = match load(&map.name, file, images, (span, findings)) {
                 Ok(texels) => texels,
                 Err(message) => {
@@ -105,63 +177,39 @@ impl Maps {
                     continue;
                 }
             };
-            maps.take(said, (map, span), texels, images, findings);
+            let drawn = Drawn { map, span, texels };
+            drawn.tell_of_options(findings);
+            if map.of == MapOf::Displacement {
+                let tell =
+                    || format!("`disp` of `{}` is drawn as `bump`: nothing is moved", map.name);
+                findings.warning("displacements", || span.clone(), tell);
+            }
+            maps.take(said, &drawn, images);
+            all.push(drawn);
+        }
+        if let Some(physical) = &said.physical {
+            maps.take_physical((said.name, physical), &all, images, findings);
         }
         maps
     }
 
-    fn take(
-        &mut self,
-        said: &Said<'_>,
-        (map, span): (&Map, &Span),
-        texels: Arc<Texels>,
-        images: &mut Images<'_>,
-        findings: &mut Findings,
-    ) {
-        let transform = placed(map);
-        let mut ignored = map.ignored.clone();
-        if transform.is_none() {
-            let [u, v, _] = map.scale;
-            ignored.push(format!("-s {u} {v}"));
-        }
-        if map.luminance && texels.channels() >= 3 {
-            ignored.push("-imfchan l".to_owned());
-        }
-        for option in ignored {
-            let tell = || format!("`{option}` of the image `{}` is not drawn", map.name);
-            findings.warning("options of images", || span.clone(), tell);
-        }
+    fn take(&mut self, said: &Said<'_>, drawn: &Drawn<'_>, images: &mut Images<'_>) {
+        let Drawn { map, texels, .. } = drawn;
         // Black is what programs write beside an image that says it all.
         let tint = |color: Option<Rgb>| color.filter(|c| !c.is_black()).unwrap_or(Rgb::WHITE);
-        let is_normal = map.of == MapOf::Normal || map.of == MapOf::Bump && is_blue(&texels);
+        let is_normal = map.of == MapOf::Normal || map.of == MapOf::Bump && is_blue(texels);
         let has_opacity = texels.channels().is_multiple_of(2);
-        let (word, tint) = match map.of {
-            MapOf::Ambient => ("map_Ka", tint(said.ambient)),
-            MapOf::Diffuse => ("map_Kd", tint(said.diffuse)),
-            MapOf::Specular => ("map_Ks", tint(said.specular)),
-            MapOf::Emission => ("map_Ke", tint(said.emission)),
-            MapOf::Exponent => ("map_Ns", Rgb::WHITE),
-            MapOf::Dissolve => ("map_d", Rgb::WHITE),
-            MapOf::Bump | MapOf::Normal => (if is_normal { "norm" } else { "bump" }, Rgb::WHITE),
-            MapOf::Other => return,
+        let tint = match map.of {
+            MapOf::Ambient => tint(said.ambient),
+            MapOf::Diffuse => tint(said.diffuse),
+            MapOf::Specular => tint(said.specular),
+            MapOf::Emission => tint(said.emission),
+            MapOf::Roughness | MapOf::Metallic | MapOf::Reflection | MapOf::Other => return,
+            _ => Rgb::WHITE,
         };
-        let texture = TextureId(images.textures.len() as u32);
-        images.textures.push(Texture {
-            name: format!("{} {word}", said.name),
-            kind: TextureKind::Image {
-                file: map.name.clone(),
-                texels,
-                wrap: if map.clamp { Wrap::Clamp } else { Wrap::Repeat },
-                wrap_v: None,
-                border: Rgb::BLACK,
-                tint,
-                filter: TexelFilter::Auto,
-                encoding: Encoding::Auto,
-            },
-            space: TextureSpace::Uv,
-            transform: transform.unwrap_or_default(),
-            place: span.place.clone(),
-        });
+        let of = if is_normal { MapOf::Normal } else { map.of };
+        let name = format!("{} {}", said.name, of.word());
+        let texture = drawn.texture(name, Arc::clone(texels), tint, images);
         let by = TextureRef {
             texture,
             scale: map.gain as f32,
@@ -174,7 +222,7 @@ impl Maps {
             channel: map.channel.or(channel),
             ..by
         };
-        match map.of {
+        match of {
             MapOf::Ambient => self.ambient = Some(by),
             MapOf::Diffuse => self.diffuse = Some(by),
             MapOf::Specular => self.specular = Some(by),
@@ -186,10 +234,52 @@ impl Maps {
                 let shown = said.dissolve.unwrap_or(1.0).clamp(0.0, 1.0);
                 self.dissolve = Some(number(shown.into(), has_opacity.then_some(Channel::Alpha)));
             }
-            _ if is_normal => {
+            MapOf::Normal => {
                 self.normal = Some(TextureRef { scale: map.bump as f32, offset: 0.0, ..by });
             }
             _ => self.bump = Some(number(map.bump * BUMP, None)),
+        }
+    }
+}
+
+impl Drawn<'_> {
+    /// These pixels as a texture that lies as the image does.
+    pub(super) fn texture(
+        &self,
+        name: String,
+        texels: Arc<Texels>,
+        tint: Rgb,
+        images: &mut Images<'_>,
+    ) -> TextureId {
+        let Self { map, span, .. } = self;
+        images.push(Texture {
+            name,
+            kind: TextureKind::Image {
+                file: map.name.clone(),
+                texels,
+                wrap: if map.clamp { Wrap::Clamp } else { Wrap::Repeat },
+                wrap_v: None,
+                border: Rgb::BLACK,
+                tint,
+                filter: TexelFilter::Auto,
+                encoding: Encoding::Auto,
+            },
+            space: TextureSpace::Uv,
+            transform: placed(map).unwrap_or_default(),
+            place: span.place.clone(),
+        })
+    }
+
+    fn tell_of_options(&self, findings: &mut Findings) {
+        let Self { map, span, .. } = self;
+        let mut ignored = map.ignored.clone();
+        if placed(map).is_none() {
+            let [u, v, _] = map.scale;
+            ignored.push(format!("-s {u} {v}"));
+        }
+        for option in ignored {
+            let tell = || format!("`{option}` of the image `{}` is not drawn", map.name);
+            findings.warning("options of images", || (*span).clone(), tell);
         }
     }
 }
@@ -233,8 +323,7 @@ fn load(
     if let Some(read) = images.read.get(&path) {
         return read.clone();
     }
-    let all = images.read.values().flatten().map(AsRef::as_ref);
-    let limits = Texels::left(images.limits, all);
+    let limits = images.left();
     let mut warn = |message: String| {
         let tell = || format!("the image `{name}`: {message}");
         findings.warning("images that are not wholly drawn", || span.clone(), tell);

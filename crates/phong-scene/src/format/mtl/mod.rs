@@ -32,6 +32,11 @@
 //! **`d` below 1** mixes the surface with what is behind it: all local terms are weighted by d,
 //! and, unless `illum` 6 or 7 refract, `transmission` = (1 − d) Tf goes straight on (`ior` 1).
 //!
+//! **`Pr`, `Pm`** of the physically based extension, where one is above 0 or has an image, make the surface that of
+//! glTF: GGX with α = `Pr`², Smith, Schlick, over `Kd`, of which `Pm` is metal. F₀ is that of an `Ni` above 1, else
+//! 0.04. Without `Pr` α² is 2/(`Ns` + 2). `Ks`, `Ns` and the mirrors of `illum` are then not drawn; nor a white `Ka`,
+//! in place of which ambient light has a weight of 0.1, of metals 0.4.
+//!
 //! **Images** are found beside the MTL file if they are not where it says, and repeat unless `-clamp on`; `-s` and `-o`
 //! are of texture coordinates, `-mm` of values. What cannot be read is a warning, and grey.
 //!
@@ -40,14 +45,18 @@
 //! | `map_Kd`, `map_Ks`, `map_Ke` | a texture of `color`, of `specular_color`, of `emission_color`: times `Kd`, `Ks`, `Ke`, unless they are black |
 //! | `map_Ka` | of `ambient_color`, if `Ka` is said and not white; else a warning, unless it is that of `map_Kd` |
 //! | `map_Ns` | of `shininess`, times `Ns` |
-//! | `map_d` | of `opacity`, times `d` or 1 − `Tr`: by the image's own opacity, or else its red, unless `-imfchan` |
+//! | `map_d` | of `opacity`, times `d` or 1 − `Tr`: by the image's own opacity, or else its red, unless `-imfchan` (`l`: the luminance) |
+//! | `map_Pr`, `map_Pm` | of α, and of what is scattered and mirrored, in place of `Pr` and `Pm`: an image beside which `map_Kd` lies differently, or is not as it is (`-mm`, `-imfchan`), counts by its mean, with a warning |
 //! | `norm`; `bump`, `map_Bump` | `normal`, times `-bm`; `bump`, of which 1 is a hundredth of a unit; an image of normals is one by either name |
+//! | `disp` | `bump`, where there is neither that nor `norm`, with a warning: surfaces stay where they are |
 //!
-//! Other textures, the options `-t`, `-boost` and `-cc`, the luminance of colours (`-imfchan l`), `-halo`, spectral
-//! and XYZ colours and the physically based extension are not drawn; each is a warning that names it.
+//! Other textures (of `refl` the warning says what comes near: an image as the scene's sky), the options `-t`,
+//! `-boost`, `-cc` and `-imfchan z`, `-halo`, spectral and XYZ colours, and of the physically based extension sheen,
+//! coats and anisotropy (`Ps`, `Pc`, `aniso`) are not drawn; each is a warning that names it.
 
 mod draft;
 mod maps;
+mod physical;
 mod texture;
 mod write;
 
@@ -199,8 +208,11 @@ impl Reader<'_> {
                 self.number(cursor, |draft, value| draft.dissolve = Some(value));
             }
             b"illum" => self.illum(cursor),
-            b"sharpness" => {}
-            b"Pr" | b"Pm" | b"Ps" | b"Pc" | b"Pcr" | b"aniso" | b"anisor" => {
+            b"Pr" => self.number(cursor, |draft, value| draft.roughness = Some(value)),
+            b"Pm" => self.number(cursor, |draft, value| draft.metallic = Some(value)),
+            // How rough a coat is, and where facets are turned: nothing without `Pc` and `aniso`.
+            b"sharpness" | b"Pcr" | b"anisor" => {}
+            b"Ps" | b"Pc" | b"aniso" => {
                 let mut value = None;
                 self.color_into(cursor, &mut value);
                 if value.is_some_and(|c| c.r != 0.0) {
@@ -210,9 +222,15 @@ impl Reader<'_> {
                 }
             }
             _ => match texture::statement(keyword, cursor.rest_of_line()) {
-                Some(map) if map.of == MapOf::Other => self.warn(&here, "textures", |word| {
-                    format!("`{word}` of `{}` is not drawn", map.name)
-                }),
+                Some(map) if matches!(map.of, MapOf::Other | MapOf::Reflection) => {
+                    self.warn(&here, "textures", |word| {
+                        let end = match map.of {
+                            MapOf::Reflection => "; a scene that names this model as a `[[mesh]]` can show it as `[sky] kind = \"image\"`",
+                            _ => "",
+                        };
+                        format!("`{word}` of `{}` is not drawn{end}", map.name)
+                    });
+                }
                 Some(map) => {
                     let span = here.here(self.file);
                     if let Some(draft) = self.drafts.last_mut() {

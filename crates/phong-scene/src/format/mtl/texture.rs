@@ -23,8 +23,6 @@ pub(super) struct Map {
     pub(super) gain: f64,
     /// `-imfchan`.
     pub(super) channel: Option<Channel>,
-    /// `-imfchan l`: the channel is asked to be the luminance of all.
-    pub(super) luminance: bool,
 }
 
 /// What an image says of a material.
@@ -37,9 +35,36 @@ pub(super) enum MapOf {
     Dissolve,
     Emission,
     Bump,
+    /// Heights by which the surface would be moved: it is shaded as by a bump.
+    Displacement,
     Normal,
-    /// Something that is not drawn.
+    Roughness,
+    Metallic,
+    /// What mirrors show, which is not drawn.
+    Reflection,
+    /// Something else that is not drawn.
     Other,
+}
+
+impl MapOf {
+    /// The statement that says it.
+    pub(super) fn word(self) -> &'static str {
+        match self {
+            Self::Ambient => "map_Ka",
+            Self::Diffuse => "map_Kd",
+            Self::Specular => "map_Ks",
+            Self::Exponent => "map_Ns",
+            Self::Dissolve => "map_d",
+            Self::Emission => "map_Ke",
+            Self::Bump => "bump",
+            Self::Displacement => "disp",
+            Self::Normal => "norm",
+            Self::Roughness => "map_Pr",
+            Self::Metallic => "map_Pm",
+            Self::Reflection => "refl",
+            Self::Other => "decal",
+        }
+    }
 }
 
 /// What a texture statement says; `None` if `keyword` is none.
@@ -54,7 +79,11 @@ pub(super) fn statement(keyword: &[u8], rest: &[u8]) -> Option<Map> {
         b"map_d" => MapOf::Dissolve,
         b"bump" | b"map_bump" | b"bmp" => MapOf::Bump,
         b"norm" | b"map_kn" => MapOf::Normal,
-        b"disp" | b"decal" | b"refl" => MapOf::Other,
+        b"map_pr" => MapOf::Roughness,
+        b"map_pm" => MapOf::Metallic,
+        b"disp" | b"map_disp" => MapOf::Displacement,
+        b"refl" => MapOf::Reflection,
+        b"decal" => MapOf::Other,
         other if other.starts_with(b"map_") => MapOf::Other,
         _ => return None,
     };
@@ -69,7 +98,6 @@ pub(super) fn statement(keyword: &[u8], rest: &[u8]) -> Option<Map> {
         base: 0.0,
         gain: 1.0,
         channel: None,
-        luminance: false,
     };
     let text = name_of(rest);
     // Names may hold blanks: all from the first word that is no option to the last of them.
@@ -134,15 +162,12 @@ impl Map {
             "-bm" => self.bump = numbers.first().copied().unwrap_or(1.0),
             "-clamp" => self.clamp = word.eq_ignore_ascii_case("on"),
             "-imfchan" => {
-                let is_number = matches!(self.of, MapOf::Exponent | MapOf::Dissolve | MapOf::Bump);
-                self.luminance = word == "l" && is_number;
                 self.channel = match word {
                     "r" => Some(Channel::Red),
                     "g" => Some(Channel::Green),
                     "b" => Some(Channel::Blue),
                     "m" => Some(Channel::Alpha),
-                    // Of greys it is their luminance.
-                    "l" if is_number => Some(Channel::Red),
+                    "l" => Some(Channel::Luminance),
                     _ => return false,
                 }
             }
@@ -209,9 +234,8 @@ mod tests {
             assert_eq!(read.ignored, vec![option; usize::from(is_ignored)], "{option}");
             assert_eq!((read.gain, read.scale), (1.0, [1.0; 3]), "{option}");
         }
-        let read = map("map_d -imfchan l a.png").unwrap();
-        assert_eq!((read.channel, read.luminance), (Some(Channel::Red), true));
-        // Of a colour there is no such thing to draw.
-        assert_eq!(map("map_Kd -imfchan l a.png").unwrap().ignored, ["-imfchan l"]);
+        for statement in ["map_d -imfchan l a.png", "map_Kd -imfchan l a.png"] {
+            assert_eq!(map(statement).unwrap().channel, Some(Channel::Luminance), "{statement}");
+        }
     }
 }
