@@ -242,7 +242,9 @@ fn an_image_of_ambient_colour_that_is_not_drawn_is_told() {
 /// `m.png`, which is `metal`, and `nothing.png`, which is not there.
 fn gltf(materials: &[&str], metal: &[u8], limits: &Limits) -> Reading {
     let primitive = |i: usize| {
-        format!(r#"{{"attributes": {{"POSITION": 0, "TEXCOORD_0": 1}}, "material": {i}}}"#)
+        format!(
+            r#"{{"attributes": {{"POSITION": 0, "TEXCOORD_0": 1, "TEXCOORD_1": 2}}, "material": {i}}}"#
+        )
     };
     let primitives: Vec<_> = (0..materials.len()).map(primitive).collect();
     let text = format!(
@@ -253,7 +255,8 @@ fn gltf(materials: &[&str], metal: &[u8], limits: &Limits) -> Reading {
         "samplers": [{{"wrapS": 33071}}],
         "images": [{{"uri": "s.png"}}, {{"uri": "m.png"}}, {{"uri": "nothing.png"}}, {{"uri": "m.png"}}],
         "accessors": [{{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}},
-            {{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC2"}}],
+            {{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC2"}},
+            {{"bufferView": 0, "byteOffset": 12, "componentType": 5126, "count": 3, "type": "VEC2"}}],
         "bufferViews": [{{"buffer": 0, "byteLength": 36}}],
         "buffers": [{{"byteLength": 36, "uri": "b.bin"}}]}}"#,
         primitives.join(", "),
@@ -340,6 +343,34 @@ fn images_of_colour_and_of_metal_that_lie_differently_are_told_and_both_drawn() 
     assert!(told.contains("its images of colour and of metal lie differently"), "{told}");
     assert_eq!(images["color"].len(), 2);
     assert!((material.k_a.constant().expect("a number") - 0.25).abs() < 1e-6);
+}
+
+#[test]
+fn coordinates_are_of_the_set_that_the_first_image_lies_in() {
+    let base = |said: &str| {
+        format!(r#""pbrMetallicRoughness": {{"baseColorTexture": {{"index": 0{said}}}}}"#)
+    };
+    let occlusion = |set: u32| format!(r#""occlusionTexture": {{"index": 1, "texCoord": {set}}}"#);
+    let other = r#", "texCoord": 0, "extensions": {"KHR_texture_transform": {"texCoord": 1}}"#;
+    let beside = "occlusionTexture: its set";
+    let set_1 = r#", "texCoord": 1"#;
+    for (material, set, told) in [
+        (base(""), 0, ""),
+        (base(set_1), 1, ""),
+        (base(other), 1, ""),
+        (base(set_1) + "," + &occlusion(1), 1, ""),
+        (base(set_1) + "," + &occlusion(0), 1, "its set 0 is not that of"),
+        (base("") + "," + &occlusion(1), 0, "its set 1 is not that of"),
+        (occlusion(1), 1, ""),
+    ] {
+        let reading =
+            gltf(&[&format!("{{{material}}}")], &png([1, 1], &[9; 3]), &Limits::default());
+        let all = super::told(&reading);
+        assert_eq!(all.contains(beside), !told.is_empty(), "{material}: {all}");
+        assert!(all.contains(told), "{material}: {all}");
+        // The first corner: (0, 0) in set 0 and (1, 0) in set 1, both turned over.
+        assert_eq!(super::mesh(reading).uvs[0], [set as f32, 1.0].into(), "{material}");
+    }
 }
 
 #[test]

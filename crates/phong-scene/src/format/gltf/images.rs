@@ -29,6 +29,8 @@ pub(super) struct Images<'a> {
     made: BTreeMap<Made, std::result::Result<Arc<Texels>, String>>,
     /// The means of those that were asked for.
     means: BTreeMap<usize, [f32; 4]>,
+    /// The sets of texture coordinates of the images that the material at hand names, and where it does.
+    sets: Vec<(u64, String)>,
     /// The textures, in the order in which materials asked for them.
     pub(super) textures: Vec<Texture>,
 }
@@ -72,6 +74,7 @@ impl<'a> Images<'a> {
             read: BTreeMap::new(),
             made: BTreeMap::new(),
             means: BTreeMap::new(),
+            sets: Vec::new(),
             textures: Vec::new(),
         }
     }
@@ -88,14 +91,7 @@ impl<'a> Images<'a> {
         let at = of.get(key)?;
         match self.find(&at, (buffers, file), findings) {
             Ok(named) => {
-                let set = at.whole_or_zero("texCoord").unwrap_or(0);
-                if set > 0 {
-                    findings.warning(
-                        "texture coordinates of another set",
-                        || whole(file),
-                        || format!("{}: set {set} is not read; set 0 stands in", at.pointer),
-                    );
-                }
+                self.sets.push((set_of(&at), at.pointer));
                 Some(named)
             }
             Err(Fault { pointer, message }) => {
@@ -107,6 +103,25 @@ impl<'a> Images<'a> {
                 None
             }
         }
+    }
+
+    /// The set of texture coordinates in which the images lie that were named since this was last asked: that of
+    /// the first. Others are told.
+    pub(super) fn set(&mut self, file: &Arc<str>, findings: &mut Findings) -> u64 {
+        let named = std::mem::take(&mut self.sets);
+        let first = named.first().map_or(0, |(set, _)| *set);
+        for (set, pointer) in named.iter().filter(|(set, _)| *set != first) {
+            findings.warning(
+                "texture coordinates of another set",
+                || whole(file),
+                || {
+                    format!(
+                        "{pointer}: its set {set} is not that of the material's first image; set {first} stands in"
+                    )
+                },
+            );
+        }
+        first
     }
 
     fn find(
@@ -246,6 +261,12 @@ impl Named {
     pub(super) fn lies_as(&self, other: &Self) -> bool {
         (self.wrap, self.wrap_v) == (other.wrap, other.wrap_v) && self.transform == other.transform
     }
+}
+
+/// The set of texture coordinates that an image lies in: `KHR_texture_transform` may say another.
+fn set_of(at: &At<'_>) -> u64 {
+    let other = at.extension("KHR_texture_transform").and_then(|said| said.get("texCoord"));
+    other.or_else(|| at.get("texCoord")).and_then(|set| set.whole().ok()).unwrap_or(0)
 }
 
 /// Where an image lies: `KHR_texture_transform` is of coordinates whose second one grows down the image, and is

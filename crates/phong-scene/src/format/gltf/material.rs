@@ -23,6 +23,8 @@ pub(super) struct Surface {
     pub(super) material: Material,
     /// What colours of vertices are multiplied by: they replace the material's.
     pub(super) color: Rgb,
+    /// The set of texture coordinates that its images lie in.
+    pub(super) set: u64,
 }
 
 /// The material that a primitive has which names none.
@@ -37,7 +39,7 @@ pub(super) fn plain() -> Surface {
 fn surface(base: [f64; 3], metallic: f64, roughness: f64, dielectric: Rgb) -> Surface {
     let base = Rgb::from(base.map(|c| c as f32));
     let material = microfacets(base, [metallic, roughness], dielectric);
-    Surface { color: material.color, material: material.into() }
+    Surface { color: material.color, material: material.into(), set: 0 }
 }
 
 /// Reads one material. What of it is not drawn is told.
@@ -143,6 +145,7 @@ pub(super) fn read(
     material.name.clone_from(&name);
     material.place = Place { file: Arc::clone(file), ..Place::default() };
     let factors = ([r, g, b, alpha], [unit(metallic), unit(roughness)], f0);
+    surface.set = drawn.set(file, findings);
     maps.put(at, mode, (&mut surface, factors), (drawn, findings))?;
     if !images.is_empty() {
         let names = images.iter().map(String::as_str);
@@ -178,7 +181,7 @@ impl Maps {
     ) -> Result<()> {
         let [r, g, b, alpha] = base.map(|c| c as f32);
         let base_color = Rgb::new(r, g, b);
-        let Surface { material, color } = surface;
+        let Surface { material, color, .. } = surface;
         let (name, place) = (material.name.clone(), material.place.clone());
         let is_unlit = matches!(material.model, Model::Lambert);
         // How metallic it is everywhere, if it is everywhere the same.

@@ -18,6 +18,7 @@
 //! | `KHR_materials_transmission`, `alphaMode` `BLEND` | rays that go straight on, by the factor and by 1 − alpha |
 //! | `KHR_materials_unlit` | a surface that glows in its colour, and is not lit |
 //! | images of base colour, metal and roughness, normals, occlusion, emission | textures, from buffers, texts and files, with `KHR_texture_transform`; α is of an image of its own, and so are the colours where the share of metal varies, whose facets are then perfect mirrors |
+//! | `texCoord`, also of `KHR_texture_transform` | the mesh's coordinates are of the set of the material's first image (colour, metal, normals, occlusion, emission); another image of another set is a warning, and lies by the same |
 //! | `alphaMode` with an image of the base colour | `opacity` by its alpha, a mask by `alphaCutoff` |
 //! | a base colour whose image cannot be read | a warning; the factor, or a grey of 0.8 where that is white |
 //! | images of base colour and of metal that lie differently | a warning; everywhere as metallic as the mean |

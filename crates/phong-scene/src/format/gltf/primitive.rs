@@ -65,7 +65,8 @@ impl Reader<'_> {
         };
         let count = mesh.positions.len();
         let normals = self.rows(&attributes, "NORMAL", count, findings)?;
-        let uvs = self.rows::<2>(&attributes, "TEXCOORD_0", count, findings)?;
+        let set = format!("TEXCOORD_{}", surface.set);
+        let uvs = self.rows::<2>(&attributes, &set, count, findings)?;
         let colors = self.rows::<3>(&attributes, "COLOR_0", count, findings)?;
         let joints = self.rows(&attributes, "JOINTS_0", count, findings)?;
         let weights = (joints, self.rows(&attributes, "WEIGHTS_0", count, findings)?);
