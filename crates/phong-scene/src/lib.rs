@@ -76,7 +76,7 @@ pub use looks::NamedLook;
 pub use maps::{ColorScale, properties_shown};
 pub use material::{
     AmbientRule, ConstantMaterial, Dialect, Distribution, Fresnel, Material, MaterialId, Model,
-    NormalFormat, OpacityMode, ShadowRule, Shadowing, Tint, Viewer, WardForm,
+    NormalFormat, OpacityMode, ShadowRule, Shadowing, Tint, VertexColors, Viewer, WardForm,
 };
 pub use mesh::{Caps, Cylinders, Field, Mesh, NO_INDEX, Points, Shared};
 pub use outline::Outline;

@@ -8,7 +8,7 @@ use crate::bounds::Bounds;
 use crate::color::Rgb;
 use crate::diagnostic::{Diagnostic, Place, Severity, Span};
 use crate::furniture::Legend;
-use crate::material::Material;
+use crate::material::{Material, VertexColors};
 use crate::mesh::Field;
 use crate::scene::{Object, Scene};
 use crate::shape::Shape;
@@ -336,7 +336,8 @@ pub(crate) fn check(scene: &Scene, say: &mut dyn FnMut(Diagnostic)) {
 fn covered(scene: &Scene, texture: u32, users: &Users<'_>, say: &mut dyn FnMut(Diagnostic)) {
     let by_color = |object: &&Object| {
         let material = scene.materials.get(object.material.0 as usize);
-        let color = material.and_then(|material| material.color.texture());
+        let replaced = material.filter(|m| m.vertex_colors == VertexColors::Replace);
+        let color = replaced.and_then(|material| material.color.texture());
         color.is_some_and(|by| by.texture.0 == texture)
     };
     for object in users.objects().filter(|object| object.shape.has_colors()).filter(by_color) {

@@ -24,7 +24,8 @@
 //! | key | value | default | meaning |
 //! |---|---|---|---|
 //! | `model` | `phong`, `lambert`, `blinn-phong`, `blinn-fast`, `cook-torrance`, `ggx`, `oren-nayar` or `ward` | `"phong"` | The lobe. |
-//! | `color` | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name; or `{ texture = .. }` | `0.8` | Diffuse colour; the colours of vertices and points replace it. |
+//! | `color` | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name; or `{ texture = .. }` | `0.8` | Diffuse colour. |
+//! | `vertex_colors` | `replace` or `multiply` | `"replace"` | What colours of vertices and points do with `color`, be it a texture or not: take its place, or be multiplied by it. |
 //! | `ambient_color` | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name; or `{ texture = .. }` | `color` | Ambient colour. |
 //! | `specular_color` (phong, blinn-phong, blinn-fast, cook-torrance, ggx, ward) | a colour (a number, `[r, g, b]`, "#rrggbb", a CSS name) or "object"; or `{ texture = .. }` | `1` | Colour of the highlight; `"object"`: `color`, as metal has it. |
 //! | `k_a` | a number 0 or above; or `{ texture = .. }` | `0.1` | Weight of the ambient term. |
@@ -94,8 +95,10 @@ pub struct Material<N = Param<f32>, C = Param<Rgb>> {
     pub name: String,
     /// Which lobe.
     pub model: Model<N>,
-    /// Diffuse colour, linear. Per-vertex and per-point colours replace it.
+    /// Diffuse colour, linear.
     pub color: C,
+    /// What per-vertex and per-point colours do with it. Default: they replace it.
+    pub vertex_colors: VertexColors,
     /// Ambient colour, linear; `None`: the diffuse colour.
     pub ambient_color: Option<C>,
     /// Specular colour, linear; `None`: the diffuse colour (`"object"` in the text: metal).
@@ -170,6 +173,7 @@ impl Default for ConstantMaterial {
             name: "default".to_owned(),
             model: Model::Phong,
             color: PLAIN,
+            vertex_colors: VertexColors::Replace,
             ambient_color: None,
             specular_color: Some(Rgb::WHITE),
             k_a: 0.1,
@@ -350,6 +354,8 @@ words!(Tint { "light" = Light, "object" = Object, "metallic" = Metallic });
 
 words!(AmbientRule { "once" = Once, "per-light" = PerLight, "both" = Both });
 
+words!(VertexColors { "replace" = Replace, "multiply" = Multiply });
+
 words!(OpacityMode { "plain" = Plain, "angle" = Angle, "mask" = Mask });
 
 words!(NormalFormat { "opengl" = OpenGl, "directx" = DirectX });
@@ -491,6 +497,16 @@ pub enum AmbientRule {
     /// `k_a` times the material's ambient colour, times the ambient light and the lights' colours,
     /// attenuated, in one sum: as where the scene and every light have ambient light of their own.
     Both,
+}
+
+/// What the colours that the geometry brings do with the material's diffuse colour.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum VertexColors {
+    /// They take its place, also where that is a texture.
+    #[default]
+    Replace,
+    /// It is multiplied by them.
+    Multiply,
 }
 
 /// How the share of a surface that is there depends on the angle it is seen at.

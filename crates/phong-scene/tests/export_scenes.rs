@@ -3,7 +3,7 @@
 use glam::Vec3;
 use phong_scene::{
     CameraKind, Cylinders, ExportOptions, Fog, FogKind, Format, Light, LightKind, Limits, Memory,
-    Mesh, Object, Rgb, Scene, Shape, read,
+    Mesh, Object, Rgb, Scene, Shape, VertexColors, read,
 };
 
 const SCENE: &str = r#"version = 1
@@ -88,6 +88,37 @@ fn a_scene_comes_back_from_gltf_with_its_instances_camera_and_lights() {
         assert_eq!(back.groups.len(), 1);
         let red = back.materials.iter().find(|m| m.name == "red").expect("a material");
         assert_eq!(red.color, Rgb::new(0.8, 0.1, 0.1).into());
+    }
+}
+
+#[test]
+fn colours_that_multiply_their_materials_are_the_same_in_gltf_and_worked_in_elsewhere() {
+    let mut scene = scene("");
+    let red = scene.materials.iter_mut().find(|m| m.name == "red").expect("a material");
+    red.vertex_colors = VertexColors::Multiply;
+    let colors = [Rgb::new(1.0, 0.5, 0.25), Rgb::WHITE, Rgb::grey(0.5)];
+    scene.objects[0].shape = Shape::from(Mesh {
+        positions: [Vec3::ZERO, Vec3::X, Vec3::Y].into(),
+        indices: [[0, 1, 2]].into(),
+        colors: colors.into(),
+        ..Mesh::default()
+    });
+    let seen = |scene: &Scene| {
+        let Shape::Mesh(mesh) = &scene.objects[0].shape else { panic!("a mesh") };
+        let number = mesh.face_materials.first().copied();
+        let material = &scene.materials[number.unwrap_or(scene.objects[0].material.0) as usize];
+        (mesh.colors.to_vec(), material.vertex_colors)
+    };
+    let (gltf, ..) = again(scene.clone(), Format::Gltf, "b.glb");
+    assert_eq!(seen(&gltf), (colors.to_vec(), VertexColors::Multiply));
+    let (obj, _, mapped) = again(scene, Format::Obj, "b.obj");
+    assert!(mapped.contains("times the `color` of their material"), "{mapped}");
+    let (worked_in, how) = seen(&obj);
+    assert_eq!(how, VertexColors::Replace);
+    for (color, written) in worked_in.into_iter().zip(colors) {
+        let want = (written * Rgb::new(0.8, 0.1, 0.1)).to_array();
+        let near = color.to_array().into_iter().zip(want).all(|(a, b)| (a - b).abs() < 1e-6);
+        assert!(near, "{color:?}, not {want:?}");
     }
 }
 

@@ -9,7 +9,7 @@ use std::path::Path;
 
 use phong_scene::{
     ConstantMaterial, Framing, Limits, Memory, Mesh, Model, NO_INDEX, Points, Reading, Rgb, Scene,
-    Shape, Side, read,
+    Shape, Side, VertexColors, read,
 };
 
 fn case(name: &str) -> Vec<u8> {
@@ -484,9 +484,24 @@ fn colours_of_vertices_are_seen_on_what_gltf_calls_metal() {
     assert_eq!(mesh(gltf(nodes, "[0]", "", "")).colors[..], colors);
     let reading = gltf(nodes, "[0]", r#", "materials": [{"name": "m"}]"#, r#", "material": 0"#);
     assert_eq!(mesh(reading).colors[..], colors);
-    let half =
-        r#", "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.5, 0.5, 1]}}]"#;
-    assert_eq!(mesh(gltf(nodes, "[0]", half, r#", "material": 0"#)).colors[0].r, 0.5);
+    let with = |metal: &str| {
+        let factor = r#""baseColorFactor": [0.5, 0.5, 0.5, 1]"#;
+        let more = format!(r#", "materials": [{{"pbrMetallicRoughness": {{{factor}{metal}}}}}]"#);
+        let scene = scene(gltf(nodes, "[0]", &more, r#", "material": 0"#));
+        let material = scene.materials[scene.objects[0].material.0 as usize].clone();
+        assert_eq!(material.vertex_colors, VertexColors::Multiply);
+        assert_eq!(material.color.constant(), Some(Rgb::grey(0.5)));
+        assert_eq!(material.ambient_color, None);
+        let Shape::Mesh(mesh) = &scene.objects[0].shape else { panic!("a mesh") };
+        assert_eq!(mesh.colors[..], colors);
+        material
+    };
+    let unsaid = with("");
+    assert_eq!(unsaid.k_d.constant(), Some(1.0), "it scatters them");
+    let half = with(r#", "metallicFactor": 0.5"#);
+    assert_eq!((half.k_d.constant(), half.specular_color), (Some(0.5), None), "both have them");
+    let metal = with(r#", "metallicFactor": 1"#);
+    assert_eq!((metal.k_d.constant(), metal.specular_color), (Some(0.0), None), "it mirrors them");
 }
 
 #[test]

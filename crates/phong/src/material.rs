@@ -5,7 +5,8 @@ use std::f32::consts::PI;
 use glam::Vec3;
 use phong_bvh::Lanes;
 use phong_scene::{
-    self as scene, AmbientRule, ConstantMaterial, Model, OpacityMode, Rgb, ShadowRule, Tint, Viewer,
+    self as scene, AmbientRule, ConstantMaterial, Model, OpacityMode, Rgb, ShadowRule, Tint,
+    VertexColors, Viewer,
 };
 
 use crate::light::LightSample;
@@ -24,6 +25,8 @@ pub struct Material {
     pub reflectance: Reflectance,
     /// The diffuse colour where the geometry brings none of its own.
     pub color: Rgb,
+    /// What it does with one that the geometry brings.
+    pub vertex_colors: VertexColors,
     ambient_color: Option<Rgb>,
     specular_color: Option<Rgb>,
     k_a: f32,
@@ -61,6 +64,7 @@ impl Material {
         Self {
             reflectance: reflectance(material),
             color: material.color,
+            vertex_colors: material.vertex_colors,
             ambient_color: material.ambient_color,
             specular_color: material.specular_color,
             k_a: material.k_a,

@@ -431,7 +431,8 @@ impl View {
         let Surface { p, p_error, ng } = surface;
         let (ng, e) = (Dir3::from_unit(ng), -Dir3::from_unit(ray.dir));
         let Shading { n, is_flipped, material, color } = self.shading(hit, ng, e);
-        let color = color.unwrap_or_else(|| self.color_at(material, ray, hit, &surface));
+        let written = || self.color_at(material, ray, hit, &surface);
+        let color = self.diffuse_color(material, color, written);
         let n = match self.relief(material) {
             Some(relief) => {
                 let (point, front) =

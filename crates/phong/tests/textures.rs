@@ -7,6 +7,8 @@ mod images;
 mod patterns;
 #[path = "textures/relief.rs"]
 mod relief;
+#[path = "textures/vertices.rs"]
+mod vertices;
 
 use phong::aov::Aov;
 use phong::explain::{End, explain};

@@ -255,6 +255,9 @@ impl Scene {
         if let Some(tolerance) = tessellate {
             export::tessellate::tessellate(&mut self, tolerance, max_bytes, &mut account)?;
         }
+        if !matches!(format, Format::Toml | Format::Gltf) {
+            export::tint::work_in(&mut self, &mut account);
+        }
         let files = write(self, &writing, name, &mut account)?;
         Ok(Export { files, account })
     }

@@ -6,7 +6,7 @@ use super::{Default, Key, Kind, Table};
 use crate::limits::Range;
 use crate::material::{
     AmbientRule, Dialect, Distribution, Material, Model, NormalFormat, OpacityMode, ShadowRule,
-    Shadowing, Tint, Viewer, WardForm,
+    Shadowing, Tint, VertexColors, Viewer, WardForm,
 };
 use crate::wording::Word;
 
@@ -30,10 +30,18 @@ pub(crate) static MATERIAL: Table = Table {
             "color",
             Kind::Color,
             Default::Number(0.8),
-            "Diffuse colour; the colours of vertices and points replace it.",
+            "Diffuse colour.",
         )
         .of(field!(Material.color))
         .varies(),
+        Key::new(
+            "vertex_colors",
+            Kind::Word(VertexColors::WORDS),
+            Default::Word("replace"),
+            "What colours of vertices and points do with `color`, be it a texture or not: take its \
+             place, or be multiplied by it.",
+        )
+        .of(field!(Material.vertex_colors)),
         Key::new("ambient_color", Kind::Color, Default::Said("`color`"), "Ambient colour.")
             .of(field!(Material.ambient_color))
             .varies(),

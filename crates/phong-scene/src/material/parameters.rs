@@ -90,6 +90,7 @@ impl<N: Copy, C: Copy> Material<N, C> {
                 },
             },
             color: color("color", self.color),
+            vertex_colors: self.vertex_colors,
             ambient_color: self.ambient_color.map(|c| color("ambient_color", c)),
             specular_color: self.specular_color.map(|c| color("specular_color", c)),
             k_a: number("k_a", self.k_a),

@@ -9,7 +9,7 @@ use phong_scene::{
     LightKind, MapRange, MaterialId, Mesh, Model, NO_INDEX, NormalFormat, Object,
     OcclusionDistance, OpacityMode, Outline, Place, PointLabel, Points, Rgb, ScaleBar, Scene,
     ShadowRule, Shadowing, Shape, Sky, SkyKind, Texture, TextureId, TextureKind, TextureRef,
-    TextureSpace, Tint, Title, Tone, ToneCurve, Viewer, WardForm,
+    TextureSpace, Tint, Title, Tone, ToneCurve, VertexColors, Viewer, WardForm,
 };
 use proptest::prelude::*;
 
@@ -400,6 +400,7 @@ impl Make {
             name: if number == 0 { "default".into() } else { format!("{} {number}", self.name()) },
             model,
             color: self.color(),
+            vertex_colors: self.one(&[VertexColors::Replace, VertexColors::Multiply]),
             ambient_color: if self.flag() { None } else { Some(self.color()) },
             specular_color: match self.below(3) {
                 0 if glossy => None,

@@ -79,7 +79,7 @@ impl View {
         };
         let tangents = self.tangents.get(part as usize).and_then(Option::as_deref);
         let lacks_tangents = images.normal.is_some() && tangents.is_none();
-        if self.clipping.is_some() || !batch.is_bulk() || !batch.has_no_colors() || lacks_tangents {
+        if self.clipping.is_some() || !batch.is_bulk() || lacks_tangents {
             return 0;
         }
         // The other lanes repeat the first.
@@ -110,9 +110,16 @@ impl View {
         if let Some(by) = images.color {
             let asked = TextureUse { texture: by.texture, channel: by.channel, is_color: true };
             let values = self.image_values(simd, asked, there, &places);
+            let brings_none = batch.has_no_colors();
             for lane in lanes(there) {
                 let [r, g, b] = get(&values, lane);
-                let color = Param::<Rgb>::from(by).at(|_| Rgb::new(r, g, b));
+                let written = || Param::<Rgb>::from(by).at(|_| Rgb::new(r, g, b));
+                let color = if brings_none {
+                    written()
+                } else {
+                    let own = self.own_color(batch, &hits.get(lane));
+                    self.diffuse_color(shading.material[lane], own, written)
+                };
                 set(&mut shading.color, lane, color.to_array());
             }
         }

@@ -2,7 +2,7 @@
 
 use fearless_simd::{Simd, f32x8, mask32x8, prelude::*, u32x8};
 use phong_bvh::{Hit, Hits8, Primitives, lanes};
-use phong_scene::Rgb;
+use phong_scene::{Rgb, VertexColors};
 
 use super::View;
 use super::clip::cap_of;
@@ -18,7 +18,7 @@ pub(super) struct Shading {
     pub(super) is_flipped: bool,
     /// Number of the material.
     pub(super) material: u32,
-    /// The diffuse colour, if the geometry brings one.
+    /// The colour that the geometry brings, if it brings one.
     pub(super) color: Option<Rgb>,
 }
 
@@ -61,9 +61,7 @@ impl View {
     pub(super) fn shading(&self, hit: &Hit, ng: Dir3, e: Dir3) -> Shading {
         let batch = self.geometry.batch(hit.part);
         if self.cap_normal(hit, e).is_some() {
-            let own = self.cap_material(hit).is_none();
-            let color = self.own_color(batch, hit).filter(|_| own);
-            let material = self.material_of(hit);
+            let (material, color) = (self.material_of(hit), self.own_color(batch, hit));
             return Shading { n: ng.facing(e), is_flipped: false, material, color };
         }
         let own = self.own_normal(hit).unwrap_or(ng);
@@ -81,19 +79,30 @@ impl View {
 
     /// The colour, where the geometry brings one.
     #[inline]
-    fn own_color(&self, batch: &Batch, hit: &Hit) -> Option<Rgb> {
+    pub(super) fn own_color(&self, batch: &Batch, hit: &Hit) -> Option<Rgb> {
         if self.clipping.is_some() && cap_of(hit).is_some() {
             // On the way through a mesh its colours are not known.
+            let brings_none = batch.is_mesh() || self.cap_material(hit).is_some();
             let beyond = Hit { u: hit.v, ..*hit };
-            return if batch.is_mesh() { None } else { batch.color(hit.prim, None, &beyond) };
+            return if brings_none { None } else { batch.color(hit.prim, None, &beyond) };
         }
         let corners = batch.is_mesh().then(|| self.geometry.corners(hit.part, hit.prim)).flatten();
         batch.color(hit.prim, corners, hit)
     }
 
-    /// Whether the geometry brings the colour at a hit, which counts before the material's.
-    pub(super) fn has_own_color(&self, hit: &Hit) -> bool {
-        self.own_color(self.geometry.batch(hit.part), hit).is_some()
+    /// The diffuse colour where the geometry may bring one of its own, and the material's is `written`.
+    #[inline]
+    pub(super) fn diffuse_color(
+        &self,
+        material: u32,
+        own: Option<Rgb>,
+        written: impl FnOnce() -> Rgb,
+    ) -> Rgb {
+        match (own, self.materials[material as usize].vertex_colors) {
+            (None, _) => written(),
+            (Some(own), VertexColors::Replace) => own,
+            (Some(own), VertexColors::Multiply) => written() * own,
+        }
     }
 
     /// [`View::shading`] of those of eight surfaces that were hit: the same bits, with the
@@ -180,8 +189,8 @@ impl View {
             let Some(n) = self.cap_normal(&hit, direction(e, lane)) else { continue };
             let batch = self.geometry.batch(hit.part);
             let number = self.material_of(&hit);
-            let own = self.own_color(batch, &hit).filter(|_| self.cap_material(&hit).is_none());
-            let color = own.unwrap_or(self.materials[number as usize].color);
+            let written = || self.materials[number as usize].color;
+            let color = self.diffuse_color(number, self.own_color(batch, &hit), written);
             set(&mut shading.n, lane, n.to_array());
             set(&mut shading.front, lane, n.to_array());
             set(&mut shading.color, lane, color.to_array());
@@ -197,9 +206,9 @@ impl View {
             let hit = hits.get(lane);
             let number = batch.material(hit.prim);
             shading.material[lane] = number;
-            let own = self.own_color(batch, &hit);
-            let own = own.unwrap_or(self.materials[number as usize].color);
-            set(&mut shading.color, lane, own.to_array());
+            let written = || self.materials[number as usize].color;
+            let color = self.diffuse_color(number, self.own_color(batch, &hit), written);
+            set(&mut shading.color, lane, color.to_array());
         }
     }
 

@@ -146,10 +146,10 @@ impl View {
                 let n = self.turned_normal(relief, &at);
                 set(&mut shading.n, lane, n.to_array());
             }
-            if let Some(by) = varied.color()
-                && !self.has_own_color(&hit)
-            {
-                let color = Param::<Rgb>::from(by).at(|asked| self.look_up(asked, &point));
+            if let Some(by) = varied.color() {
+                let own = self.own_color(self.geometry.batch(hit.part), &hit);
+                let written = || Param::<Rgb>::from(by).at(|asked| self.look_up(asked, &point));
+                let color = self.diffuse_color(number, own, written);
                 set(&mut shading.color, lane, color.to_array());
             }
             if let Varied::More(_) = varied {
@@ -171,7 +171,7 @@ impl View {
         self.varied.get(material as usize).copied().unwrap_or(Varied::Nothing)
     }
 
-    /// The colour of a surface that brings none of its own.
+    /// The diffuse colour of the material at a surface.
     pub(super) fn color_at(&self, material: u32, ray: &Ray, hit: &Hit, at: &Surface) -> Rgb {
         match self.varied(material).color() {
             Some(by) => {

@@ -6,6 +6,8 @@ use phong::render::{Cancel, RenderOptions, render};
 use phong::view::View;
 use phong_scene::{Limits, Memory, Reading, Scene, read};
 
+use super::vertices::{bare, replaced};
+
 /// A PNG of 8 bits.
 pub(super) fn png(size: [u32; 2], color: png::ColorType, values: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::new();
@@ -282,6 +284,11 @@ fn base64(bytes: &[u8]) -> String {
 /// A sheet of a square as glTF, of this material; images are those of `squares.png`, of the first view and of
 /// a text.
 fn gltf(material: &str) -> Scene {
+    gltf_of(material, "")
+}
+
+/// [`gltf`] with more attributes of its vertices: accessor 3 has colours.
+fn gltf_of(material: &str, attributes: &str) -> Scene {
     let image = png(
         [2, 2],
         png::ColorType::Rgba,
@@ -296,10 +303,14 @@ fn gltf(material: &str) -> Scene {
     buffer.extend([0, 1, 2, 0, 2, 3].into_iter().flat_map(u16::to_le_bytes));
     let images = buffer.len();
     buffer.extend(&image);
+    buffer.resize(buffer.len().next_multiple_of(4), 0);
+    let colors = buffer.len();
+    let rainbow: [f32; 12] = [1.0, 0.2, 0.3, 0.1, 0.9, 0.3, 0.7, 0.7, 0.1, 0.2, 0.1, 1.0];
+    buffer.extend(rainbow.into_iter().flat_map(f32::to_le_bytes));
     let text = format!(
         r#"{{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0]}}],
         "nodes": [{{"mesh": 0}}],
-        "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0, "TEXCOORD_0": 1}},
+        "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0, "TEXCOORD_0": 1 {attributes}}},
             "indices": 2, "material": 0}}]}}],
         "materials": [{{{material}}}],
         "textures": [{{"source": 0}}, {{"source": 1, "sampler": 0}}, {{"source": 2}}, {{"source": 3}}],
@@ -309,12 +320,14 @@ fn gltf(material: &str) -> Scene {
         "accessors": [
             {{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"}},
             {{"bufferView": 1, "componentType": 5126, "count": 4, "type": "VEC2"}},
-            {{"bufferView": 2, "componentType": 5123, "count": 6, "type": "SCALAR"}}],
+            {{"bufferView": 2, "componentType": 5123, "count": 6, "type": "SCALAR"}},
+            {{"bufferView": 4, "componentType": 5126, "count": 4, "type": "VEC3"}}],
         "bufferViews": [
             {{"buffer": 0, "byteOffset": 0, "byteLength": 48}},
             {{"buffer": 0, "byteOffset": 48, "byteLength": 32}},
             {{"buffer": 0, "byteOffset": 80, "byteLength": 12}},
-            {{"buffer": 0, "byteOffset": {images}, "byteLength": {}}}],
+            {{"buffer": 0, "byteOffset": {images}, "byteLength": {}}},
+            {{"buffer": 0, "byteOffset": {colors}, "byteLength": 48}}],
         "buffers": [{{"byteLength": {}, "uri": "data:application/octet-stream;base64,{}"}}]}}"#,
         base64(&image),
         image.len(),
@@ -370,6 +383,25 @@ fn a_gltf_file_brings_its_images_along_the_right_way_up() {
     let lost = "\"pbrMetallicRoughness\": {\"baseColorTexture\": {\"index\": 3}, \
                 \"metallicFactor\": 0}";
     assert_eq!(corners(&gltf(lost)), [[true; 3]; 4]);
+}
+
+#[test]
+fn a_gltf_surface_is_of_its_factor_times_its_image_times_the_colours_of_its_vertices() {
+    let factor = [0.5, 0.25, 0.75];
+    let material = "\"extensions\": {\"KHR_materials_unlit\": {}}, \"pbrMetallicRoughness\": \
+         {\"baseColorFactor\": [0.5, 0.25, 0.75, 1], \"baseColorTexture\": {\"index\": 1}, \
+         \"metallicFactor\": 0}";
+    let scene = gltf_of(material, ", \"COLOR_0\": 3");
+    let [got, vertices, written] =
+        [scene.clone(), replaced(&scene), bare(&scene)].map(|s| shown(&s));
+    let texels = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0; 3]];
+    for (i, texel) in [0, 3, 12, 15].into_iter().zip(texels) {
+        assert_eq!(written[i], [0, 1, 2].map(|c| factor[c] * texel[c]));
+    }
+    for ((got, vertex), written) in got.into_iter().zip(vertices).zip(written) {
+        assert_eq!(got, [0, 1, 2].map(|c| written[c] * vertex[c]));
+        assert!(vertex.into_iter().all(|c| 0.0 < c && c < 1.0), "{vertex:?}");
+    }
 }
 
 #[test]

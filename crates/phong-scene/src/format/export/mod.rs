@@ -4,6 +4,7 @@ pub(crate) mod flat;
 pub(crate) mod merge;
 mod split;
 pub(crate) mod tessellate;
+pub(crate) mod tint;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;

@@ -14,6 +14,7 @@ use crate::format::export::flat::{leave_out, listed, say_fields};
 use crate::format::export::merge::Size;
 use crate::format::export::{Account, File, Writing};
 use crate::light::{Light, LightKind};
+use crate::material::VertexColors;
 use crate::mesh::{Mesh, NO_INDEX};
 use crate::scene::{Image, Object, Scene};
 use crate::shape::Shape;
@@ -350,10 +351,11 @@ impl<'s> Writer<'s> {
         json!({ "attributes": attributes, "indices": indices, "material": material })
     }
 
-    /// Colours, which a reader multiplies by the material's.
+    /// Colours, by which a reader multiplies the material's.
     fn colors(&mut self, colors: &[Rgb], material: u32) -> usize {
         let of = self.scene.materials.get(material as usize);
-        let base = of.map_or(Rgb::WHITE, |m| base_color(&m.at(|_| Rgb::grey(0.5))));
+        let replaced = of.filter(|m| m.vertex_colors == VertexColors::Replace);
+        let base = replaced.map_or(Rgb::WHITE, |m| base_color(&m.at(|_| Rgb::grey(0.5))));
         let share = |c: f32, base: f32| if base > 0.0 { c / base } else { c };
         let all = colors
             .iter()

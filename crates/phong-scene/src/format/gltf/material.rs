@@ -11,46 +11,47 @@ use crate::format::facets::{
     F0, ambient, imaged, microfacets, mirrored, mixed, numbers, parted, reflectance, width,
 };
 use crate::format::text::{Findings, whole};
-use crate::material::{Fresnel, Material, Model, OpacityMode};
+use crate::material::{Fresnel, Material, Model, OpacityMode, VertexColors};
 use crate::texture::{Channel, TextureRef};
 
 /// What a material takes whose colour is an image that cannot be read.
 const GREY: f64 = 0.8;
 
-/// What a material does to primitives, besides being theirs.
-#[derive(Clone, Debug)]
-pub(super) struct Surface {
-    pub(super) material: Material,
-    /// What colours of vertices are multiplied by: they replace the material's.
-    pub(super) color: Rgb,
-    /// The set of texture coordinates that its images lie in.
-    pub(super) set: u64,
-}
-
-/// The material that a primitive has which names none.
-///
-/// The format calls it metal, of which nothing but what is mirrored would be seen: colours of vertices
-/// are scattered as they are.
-pub(super) fn plain() -> Surface {
-    Surface { color: Rgb::WHITE, ..surface([1.0; 3], 1.0, 1.0, F0) }
-}
-
 /// Microfacets over a diffuse base, which metals have none of.
-fn surface(base: [f64; 3], metallic: f64, roughness: f64, dielectric: Rgb) -> Surface {
+fn surface(base: [f64; 3], metallic: f64, roughness: f64, dielectric: Rgb) -> Material {
     let base = Rgb::from(base.map(|c| c as f32));
-    let material = microfacets(base, [metallic, roughness], dielectric);
-    Surface { color: material.color, material: material.into(), set: 0 }
+    microfacets(base, [metallic, roughness], dielectric).into()
 }
 
-/// Reads one material. What of it is not drawn is told.
+/// Makes colours of vertices multiply the base colour of a material that is everywhere as metallic as `even`
+/// says; `None`: as an image says, where they multiply what is scattered alone.
 ///
-/// One whose vertices are `colored` is no metal: metals mirror in one colour, and scatter nothing.
+/// The weights then hold how metallic it is, so that what is scattered, mirrored and ambient has one colour.
+fn follow_vertices(material: &mut Material, even: Option<f64>, f0: Rgb) {
+    material.vertex_colors = VertexColors::Multiply;
+    let (Some(metal), Some(base)) = (even, material.ambient_color) else { return };
+    (material.color, material.ambient_color) = (base, None);
+    if metal > 0.0 {
+        let scattered = |k_d: f32| (k_d * (1.0 - metal) as f32).into();
+        material.k_d = material.k_d.constant().map_or(material.k_d, scattered);
+        material.k_s = mirrored(metal, f0).into();
+        material.specular_color = None;
+        if let Model::Microfacet { fresnel, .. } = &mut material.model {
+            *fresnel = Fresnel::None;
+        }
+    }
+}
+
+/// Reads one material, with the set of texture coordinates that its images lie in. What of it is not drawn is told.
+///
+/// One whose vertices are `colored` is no metal unless it says so: most that do not are coloured scans, of which
+/// nothing but what is mirrored would be seen.
 pub(super) fn read(
     (at, colored): (&At<'_>, bool),
     drawn: &mut Images<'_>,
     from: (&Buffers, &Arc<str>),
     findings: &mut Findings,
-) -> Result<Surface> {
+) -> Result<(Material, u64)> {
     let (_, file) = from;
     let name = at.name("material");
     let unit = |value: f64| value.clamp(0.0, 1.0);
@@ -59,10 +60,12 @@ pub(super) fn read(
     let mut base = [1.0, 1.0, 1.0, 1.0];
     let (mut metallic, mut roughness) = (1.0, 1.0);
     let mut maps = Maps::default();
+    let mut says_metal = false;
     // Whether the colour is an image that cannot be read.
     let mut lost = false;
     if let Some(pbr) = at.get("pbrMetallicRoughness") {
         base = pbr.numbers_or("baseColorFactor", base)?;
+        says_metal |= pbr.get("metallicFactor").is_some();
         metallic = pbr.number_or("metallicFactor", 1.0)?;
         roughness = pbr.number_or("roughnessFactor", 1.0)?;
         maps.base = drawn.named(&pbr, "baseColorTexture", from, findings);
@@ -97,13 +100,13 @@ pub(super) fn read(
         lost = maps.base.is_none() && glossy.get("diffuseTexture").is_some();
         image(&glossy, "specularGlossinessTexture");
     }
-    if colored && maps.base.is_none() {
+    if colored && !says_metal && maps.base.is_none() && maps.facets.is_none() {
         metallic = 0.0;
     }
     let [r, g, b, alpha] = base.map(|c| if c < 0.0 { 0.0 } else { c });
     let white = lost && [r, g, b] == [1.0; 3];
     let [r, g, b] = if white { [GREY; 3] } else { [r, g, b] };
-    let mut surface = surface([r, g, b], unit(metallic), unit(roughness), f0);
+    let mut material = surface([r, g, b], unit(metallic), unit(roughness), f0);
     let mut shown = 1.0;
     let mode = at.get("alphaMode").map_or(Ok("OPAQUE"), |mode| mode.text())?;
     // Where an image says it, each place has an opacity of its own.
@@ -123,7 +126,6 @@ pub(super) fn read(
     }
     let emissive: [f64; 3] = at.numbers_or("emissiveFactor", [0.0; 3])?;
     let glow = Rgb::from(emissive.map(|c| (c * strength).max(0.0) as f32));
-    let material = &mut surface.material;
     material.k_d = shown.into();
     material.k_a = (shown * ambient(unit(metallic) as f32)).into();
     // Light goes straight on: surfaces are thin unless an extension that is not read says otherwise.
@@ -134,10 +136,9 @@ pub(super) fn read(
         (material.k_e, material.emission_color) = (1.0.into(), Some(glow.into()));
     }
     if at.extension("KHR_materials_unlit").is_some() {
-        // The base colour as it is, whatever the light; vertices' own colours take its place.
-        let color = Rgb::from([r, g, b].map(|c| c as f32));
-        surface.color = color;
-        material.color = color.into();
+        // The base colour as it is, whatever the light.
+        material.color = Rgb::from([r, g, b].map(|c| c as f32)).into();
+        material.ambient_color = None;
         material.model = Model::Lambert;
         (material.k_a, material.k_d, material.k_s) = (0.0.into(), 0.0.into(), 0.0.into());
         (material.k_e, material.emission_color) = (shown.into(), None);
@@ -145,8 +146,23 @@ pub(super) fn read(
     material.name.clone_from(&name);
     material.place = Place { file: Arc::clone(file), ..Place::default() };
     let factors = ([r, g, b, alpha], [unit(metallic), unit(roughness)], f0);
-    surface.set = drawn.set(file, findings);
-    maps.put(at, mode, (&mut surface, factors), (drawn, findings))?;
+    let set = drawn.set(file, findings);
+    let even = maps.put(at, mode, (&mut material, factors), (drawn, findings))?;
+    if colored {
+        if even.is_none() {
+            findings.warning(
+                "colours of vertices",
+                || whole(file),
+                || {
+                    format!(
+                        "{}: an image says how metallic it is: colours of vertices tint what is scattered alone (material `{name}`)",
+                        at.pointer
+                    )
+                },
+            );
+        }
+        follow_vertices(&mut material, even, f0);
+    }
     if !images.is_empty() {
         let names = images.iter().map(String::as_str);
         let names = crate::wording::list(names, ",");
@@ -156,7 +172,7 @@ pub(super) fn read(
             || format!("{}: images that are not drawn: {names} (material `{name}`)", at.pointer),
         );
     }
-    Ok(surface)
+    Ok((material, set))
 }
 
 /// The images that a material names and that could be read.
@@ -171,17 +187,16 @@ struct Maps {
 }
 
 impl Maps {
-    /// Puts them in place of the material's own values.
+    /// Puts them in place of the material's own values. How metallic it is everywhere; `None`: as an image says.
     fn put(
         self,
         at: &At<'_>,
         mode: &str,
-        (surface, (base, [metallic, roughness], f0)): (&mut Surface, ([f64; 4], [f64; 2], Rgb)),
+        (material, (base, [metallic, roughness], f0)): (&mut Material, ([f64; 4], [f64; 2], Rgb)),
         (images, findings): (&mut Images<'_>, &mut Findings),
-    ) -> Result<()> {
+    ) -> Result<Option<f64>> {
         let [r, g, b, alpha] = base.map(|c| c as f32);
         let base_color = Rgb::new(r, g, b);
-        let Surface { material, color, .. } = surface;
         let (name, place) = (material.name.clone(), material.place.clone());
         let is_unlit = matches!(material.model, Model::Lambert);
         // How metallic it is everywhere, if it is everywhere the same.
@@ -283,7 +298,6 @@ impl Maps {
             if let Model::Microfacet { fresnel, .. } = &mut material.model {
                 *fresnel = Fresnel::Schlick { f0: f0.map(|c| c.clamp(0.0, 1.0)) };
             }
-            *color = diffuse;
         }
         if let Some(base) = &self.base {
             let by = texture(base, base_color, "base color");
@@ -297,7 +311,6 @@ impl Maps {
                     material.k_s = mirrored(metal, f0).into();
                 }
             }
-            *color = Rgb::WHITE;
             let opacity = TextureRef { scale: alpha.min(1.0), channel: Some(Channel::Alpha), ..by };
             if mode == "BLEND" || mode == "MASK" {
                 material.opacity = opacity.into();
@@ -321,6 +334,6 @@ impl Maps {
         if let (Some(emissive), Some(glow)) = (&self.emissive, glow) {
             material.emission_color = Some(texture(emissive, glow, "emission").into());
         }
-        Ok(())
+        Ok(even)
     }
 }

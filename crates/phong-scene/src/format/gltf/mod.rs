@@ -7,7 +7,7 @@
 //! | a root of the scene that is another node's child | a warning; drawn as a root, or once, below the root that it belongs to |
 //! | primitives: triangles, strips, fans | meshes; without `NORMAL`, flat |
 //! | points; lines, strips and loops of them | spheres, as those of PLY files are; capsules of 0.2 % of their extent in radius, of a bare model thick enough to be seen |
-//! | `COLOR_0` | linear colours, times the material's, which is then no metal; their alpha is not drawn |
+//! | `COLOR_0` | linear colours, times the material's: what it scatters, and what it mirrors where it is everywhere as metallic; a material without images that does not say how metallic it is is then no metal. Their alpha is not drawn |
 //! | accessors: strided, sparse, normalised, without a view | numbers, as the format says |
 //! | skins | the mesh bent to where its bones stand in the file; morph targets are not applied |
 //! | cameras | the camera of the first node that has one |
@@ -55,7 +55,6 @@ use self::buffer::Buffers;
 use self::bytes::Bytes;
 use self::images::Images;
 use self::json::{At, Fault, Result};
-use self::material::Surface;
 use self::nodes::Node;
 use self::primitive::{Pose, Reader, matrix};
 use super::export::free_name;
@@ -234,7 +233,7 @@ fn assemble<'a>(
         reader,
         fragment: Fragment::default(),
         images,
-        surfaces: BTreeMap::new(),
+        materials: BTreeMap::new(),
         names: BTreeSet::new(),
         findings,
     };
@@ -295,9 +294,9 @@ struct Scene<'a, 'f> {
     fragment: Fragment,
     /// The images of materials.
     images: Images<'a>,
-    /// By the number of a material, `None` for what names none, and whether vertices have colours:
-    /// its number here, and itself.
-    surfaces: BTreeMap<(Option<usize>, bool), (MaterialId, Surface)>,
+    /// By the number of a material, and whether vertices have colours: its number here, and the set of texture
+    /// coordinates that its images lie in.
+    materials: BTreeMap<(usize, bool), (MaterialId, u64)>,
     /// The names of groups.
     names: BTreeSet<String>,
     findings: &'f mut Findings,
@@ -413,43 +412,36 @@ impl<'a> Scene<'a, '_> {
 
     fn primitive(&mut self, at: &At<'a>, pose: Option<&Pose>) -> Result<Option<Object>> {
         let colored = at.get("attributes").is_some_and(|all| all.get("COLOR_0").is_some());
-        let (material, surface) = match self.surface(at.get("material").as_ref(), colored) {
-            Ok(surface) => surface,
+        let (material, set) = match self.material(at.get("material").as_ref(), colored) {
+            Ok(material) => material,
             Err(Fault { pointer, message }) => {
                 let message = format!("{pointer}: {message}; the default material is used");
                 self.warn("materials that cannot be read", message);
-                self.surface(None, colored)?
+                (MaterialId::default(), 0)
             }
         };
-        let shape = self.reader.shape(at, &surface, pose, self.findings)?;
+        let shape = self.reader.shape((at, set), pose, self.findings)?;
         let object = |shape| Object { name: String::new(), material, ..Object::from(shape) };
         Ok(shape.map(object))
     }
 
-    /// The material of a primitive, whose vertices may have colours.
-    fn surface(&mut self, at: Option<&At<'a>>, colored: bool) -> Result<(MaterialId, Surface)> {
-        let number = at.map(At::index).transpose()?;
-        if let Some(known) = self.surfaces.get(&(number, colored)) {
-            return Ok(known.clone());
+    /// The material of a primitive, whose vertices may have colours. Material 0 is of what names none: whoever takes
+    /// the model chooses it.
+    fn material(&mut self, at: Option<&At<'a>>, colored: bool) -> Result<(MaterialId, u64)> {
+        let Some(at) = at else { return Ok((MaterialId::default(), 0)) };
+        let number = at.index()?;
+        if let Some(known) = self.materials.get(&(number, colored)) {
+            return Ok(*known);
         }
-        let surface = match (at, number) {
-            (Some(at), Some(number)) => {
-                let root = &self.reader.root;
-                let of = root.item("materials", number).map_err(|f| at.fault(f.message))?;
-                let Reader { buffers, file, .. } = &self.reader;
-                material::read((&of, colored), &mut self.images, (buffers, file), self.findings)?
-            }
-            _ => material::plain(),
-        };
-        let materials = &mut self.fragment.materials;
-        // Material 0 is of what has none: whoever takes the model chooses it.
-        let id = if number.is_some() { materials.len() as u32 } else { 0 };
-        if number.is_some() {
-            materials.push(surface.material.clone());
-        }
-        let known = (MaterialId(id), surface);
-        self.surfaces.insert((number, colored), known.clone());
-        Ok(known)
+        let Reader { root, buffers, file, .. } = &self.reader;
+        let of = root.item("materials", number).map_err(|f| at.fault(f.message))?;
+        let from = (buffers, file);
+        let (material, set) =
+            material::read((&of, colored), &mut self.images, from, self.findings)?;
+        let id = MaterialId(self.fragment.materials.len() as u32);
+        self.fragment.materials.push(material);
+        self.materials.insert((number, colored), (id, set));
+        Ok((id, set))
     }
 
     /// Where the bones of a skin stand.

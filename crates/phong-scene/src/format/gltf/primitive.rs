@@ -7,7 +7,6 @@ use rayon::prelude::*;
 
 use super::buffer::Buffers;
 use super::json::{At, Result};
-use super::material::Surface;
 use crate::color::Rgb;
 use crate::format::faces::Faces;
 use crate::format::text::{Findings, whole};
@@ -34,11 +33,10 @@ pub(super) struct Reader<'a> {
 pub(super) struct Pose(pub(super) Vec<DMat4>);
 
 impl Reader<'_> {
-    /// The shape of a primitive; `None`: nothing is left of it, which is told.
+    /// The shape of a primitive, with texture coordinates of this set; `None`: nothing is left of it, which is told.
     pub(super) fn shape(
         &self,
-        at: &At<'_>,
-        surface: &Surface,
+        (at, set): (&At<'_>, u64),
         pose: Option<&Pose>,
         findings: &mut Findings,
     ) -> Result<Option<Shape>> {
@@ -65,7 +63,7 @@ impl Reader<'_> {
         };
         let count = mesh.positions.len();
         let normals = self.rows(&attributes, "NORMAL", count, findings)?;
-        let set = format!("TEXCOORD_{}", surface.set);
+        let set = format!("TEXCOORD_{set}");
         let uvs = self.rows::<2>(&attributes, &set, count, findings)?;
         let colors = self.rows::<3>(&attributes, "COLOR_0", count, findings)?;
         let joints = self.rows(&attributes, "JOINTS_0", count, findings)?;
@@ -77,25 +75,11 @@ impl Reader<'_> {
             if uv.is_finite() { uv } else { Vec2::ZERO }
         };
         mesh.uvs = uvs.unwrap_or_default().into_iter().map(up).collect();
-        let imaged = surface.material.color.constant().is_none();
-        if colors.is_some() && imaged {
-            findings.warning(
-                "colours of vertices",
-                || whole(&self.file),
-                || {
-                    format!(
-                        "{}: an image gives the colour; those of vertices are left out",
-                        at.pointer
-                    )
-                },
-            );
-        }
-        if let Some(rows) = colors.filter(|_| !imaged) {
-            // As the format says, linear whatever they are stored as; an alpha is not drawn.
-            let tint = |c: Vec3| Rgb::new(c.x, c.y, c.z) * surface.color;
-            let sound = |c: Vec3| if c.is_finite() { c.max(Vec3::ZERO) } else { Vec3::ONE };
-            mesh.colors = rows.into_iter().map(|c| tint(sound(c.into()))).collect();
-        }
+        // As the format says, linear whatever they are stored as; an alpha is not drawn.
+        let sound = |c: [f32; 3]| {
+            if Vec3::from(c).is_finite() { c.map(|c| c.max(0.0)) } else { [1.0; 3] }
+        };
+        mesh.colors = colors.into_iter().flatten().map(|c| Rgb::from(sound(c))).collect();
         if let (Some(pose), (Some(joints), Some(weights))) = (pose, weights) {
             bend(&mut mesh, pose, &joints, &weights);
         }
