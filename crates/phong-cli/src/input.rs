@@ -259,6 +259,13 @@ pub(crate) fn read(args: &InputArgs) -> Result<(Reading, Vec<PathBuf>), Failure>
     Ok((judged(args, reading), files.opened()))
 }
 
+/// Reads INPUT, and all there is to say about it and its picture.
+pub(crate) fn check(args: &InputArgs) -> Result<Reading, Failure> {
+    let (mut reading, _) = read(args)?;
+    reading.diagnostics.extend(reading.scene.iter().flat_map(furniture::crowded));
+    Ok(strictly(args, reading))
+}
+
 /// What was read, by how strict the command line is.
 fn judged(args: &InputArgs, mut reading: Reading) -> Reading {
     // Of a file that cannot be opened nothing else is said.
@@ -268,6 +275,11 @@ fn judged(args: &InputArgs, mut reading: Reading) -> Reading {
         only.help = way_out.or_else(|| only.help.take());
     }
     reading.diagnostics.extend(reading.scene.iter().flat_map(furniture::warnings));
+    strictly(args, reading)
+}
+
+/// What was read; with `--strict`, warnings are errors.
+fn strictly(args: &InputArgs, mut reading: Reading) -> Reading {
     if args.strict {
         for diagnostic in reading.diagnostics.iter_mut().filter(|one| !one.is_note()) {
             diagnostic.severity = Severity::Error;

@@ -137,6 +137,8 @@ fn furniture_that_has_no_room_is_told_by_the_size_that_is_asked_for() {
     assert!(folder.done("render a.toml").err.contains(told));
     assert_eq!(folder.done("render a.toml --size 400x300").err, "");
     folder.when("render a.toml --strict").is_refused(&[told]);
+    assert!(folder.done("check a.toml").err.contains(told));
+    folder.when("check a.toml --strict").is_refused(&[told]);
 }
 
 #[test]

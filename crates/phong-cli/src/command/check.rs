@@ -22,7 +22,7 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(Args { question: args }: &Args) -> Result<(), Failure> {
-    let (reading, _) = input::read(&args.input)?;
+    let reading = input::check(&args.input)?;
     let ok = reading.scene.is_some();
     if args.json {
         let diagnostics: Vec<_> = reading.diagnostics.iter().map(diagnostic).collect();
