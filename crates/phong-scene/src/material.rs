@@ -36,10 +36,10 @@
 //! | `roughness` (cook-torrance, ggx) | a number above 0 up to 10; or `{ texture = .. }` | `0.3` | Beckmann's m or GGX's α, as they stand in the formulas (not squared); Blinn's distribution takes `shininess` instead. |
 //! | `shadowing` (cook-torrance) | `v-cavity`, `separable`, `correlated` or `implicit` | `"v-cavity"` | How facets hide one another: Cook and Torrance's grooves, Smith's function, or (N·L)(N·E), which leaves D F / 4. |
 //! | `shadowing` (ggx) | `correlated`, `separable`, `v-cavity` or `implicit` | `"correlated"` | As for cook-torrance. |
-//! | `f0` (cook-torrance, ggx) | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name | 0.04, unless `eta` is given | Facets follow Schlick's formula from this reflectance at normal incidence; 1: perfect mirrors. |
-//! | `eta` (cook-torrance, ggx) | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name | none | Facets follow the exact Fresnel equations for this index of refraction: a number for a dielectric, one a channel with `k` for a metal; above 0. |
-//! | `k` (cook-torrance, ggx) | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name | none: a dielectric | Imaginary part of the index of refraction, with `eta`. |
-//! | `sigma` (oren-nayar) | a number from 0 to 90 | `20` | Standard deviation of the facets' slope angle, degrees; 0 is Lambert. |
+//! | `f0` (cook-torrance, ggx) | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name; or `{ texture = .. }` | 0.04, unless `eta` is given | Facets follow Schlick's formula from this reflectance at normal incidence; 1: perfect mirrors. |
+//! | `eta` (cook-torrance, ggx) | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name; or `{ texture = .. }` | none | Facets follow the exact Fresnel equations for this index of refraction: a number for a dielectric, one a channel with `k` for a metal; above 0. |
+//! | `k` (cook-torrance, ggx) | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name; or `{ texture = .. }` | none: a dielectric | Imaginary part of the index of refraction, with `eta`. |
+//! | `sigma` (oren-nayar) | a number from 0 to 90; or `{ texture = .. }` | `20` | Standard deviation of the facets' slope angle, degrees; 0 is Lambert. |
 //! | `form` (oren-nayar) | `qualitative` or `full` | `"qualitative"` | Oren and Nayar's short formula, or the full one with interreflection. |
 //! | `roughness_x` (ward) | a number above 0 up to 10; or `{ texture = .. }` | `0.2` | Roughness along the tangent. |
 //! | `roughness_y` (ward) | a number above 0 up to 10; or `{ texture = .. }` | `roughness_x` | Roughness across the tangent. |
@@ -56,7 +56,7 @@
 //! | `bump` | a table `{ texture = .. }` | none | Heights in the object's own units, times `scale`: normals are turned as if the surface were raised. |
 //! | `surfaces` | a whole number from 1 to 1000000 | all | A ray shows the material only until it has passed so many see-through surfaces; 1: the first surface alone. |
 //! | `shadow` | `full` or `filtered` | full for glass, filtered for opacity | What a light loses behind it: all, or what is not let through in a straight line: of `opacity`, and where this says `filtered` of `transmission` as well. |
-//! | `ior` | a number above 0 up to 100 | `1.5` | Index of refraction of the inside relative to the outside. |
+//! | `ior` | a number above 0 up to 100; or `{ texture = .. }` | `1.5` | Index of refraction of the inside relative to the outside. |
 //! | `priority` | a whole number from 0 to 1000000 | `0` | Of surfaces in one place the one of the highest priority is met first; of glasses that fill one place it alone is there. |
 //! | `fresnel` | `true` or `false` | true where `transmission` is not 0 | Whether the exact Fresnel factor F shares light between mirror (× F) and refraction (× (1 − F)). |
 //! | `dialect` | `lecture`, `mtl`, `pov-ray`, `tachyon`, `tachyon-metal`, `vtk`, `opengl`, `direct3d9`, `ospray`, `three-js`, `pymol`, `x3d`, `collada` or `rtc` | `"lecture"` | Whose "Phong" is meant: a preset of the five switches below. |
@@ -94,7 +94,7 @@ pub struct Material<N = Param<f32>, C = Param<Rgb>> {
     /// The name in the text; `default` for the material of shapes that name none.
     pub name: String,
     /// Which lobe.
-    pub model: Model<N>,
+    pub model: Model<N, C>,
     /// Diffuse colour, linear.
     pub color: C,
     /// What per-vertex and per-point colours do with it. Default: they replace it.
@@ -137,7 +137,7 @@ pub struct Material<N = Param<f32>, C = Param<Rgb>> {
     /// What a light loses behind it; `None`: all, but for what `opacity` lets through.
     pub shadow: Option<ShadowRule>,
     /// Index of refraction of the inside relative to the outside, > 0. Default 1.5.
-    pub ior: f32,
+    pub ior: N,
     /// Which of several surfaces in one place is met first: the one of the highest priority. And of
     /// several glasses that fill one place the one of the highest priority is what is there. From 0 to
     /// [`Material::MOST_PRIORITY`]. Default 0.
@@ -240,13 +240,19 @@ impl Material {
 
     /// What it is where textures have the values that `look_up` says.
     pub fn at(&self, look_up: impl Fn(TextureUse) -> Rgb) -> ConstantMaterial {
-        self.map(|_, number| number.at(&look_up), |_, color| color.at(&look_up))
+        let number = |key, number: Param<f32>| match (key, number.at(&look_up)) {
+            ("sigma", degrees) if number.texture().is_some() => {
+                f64::from(degrees).to_radians() as f32
+            }
+            (_, value) => value,
+        };
+        self.map(number, |_, color| color.at(&look_up))
     }
 }
 
 /// The lobe of a material.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Model<N = Param<f32>> {
+pub enum Model<N = Param<f32>, C = Param<Rgb>> {
     /// Diffuse only.
     Lambert,
     /// `(R·E)^α`.
@@ -265,12 +271,12 @@ pub enum Model<N = Param<f32>> {
         /// The shadowing–masking term.
         shadowing: Shadowing,
         /// The facets' Fresnel reflectance.
-        fresnel: Fresnel,
+        fresnel: Fresnel<N, C>,
     },
     /// Rough diffuse surfaces.
     OrenNayar {
-        /// Standard deviation of the facets' slope angle, radians, ≥ 0.
-        sigma: f32,
+        /// Standard deviation of the facets' slope angle, radians, ≥ 0; textures say it in degrees.
+        sigma: N,
         /// The full model, with interreflection; else the qualitative one.
         full: bool,
     },
@@ -319,7 +325,7 @@ impl Word for Model {
 
     fn of_word(word: &str) -> Option<Self> {
         let facets = |distribution, shadowing| {
-            let fresnel = Fresnel::Schlick { f0: Rgb::grey(0.04) };
+            let fresnel = Fresnel::Schlick { f0: Rgb::grey(0.04).into() };
             Self::Microfacet { distribution, roughness: Param::Constant(0.3), shadowing, fresnel }
         };
         let roughness = Param::Constant(0.2);
@@ -330,7 +336,9 @@ impl Word for Model {
             "blinn-fast" => Self::BlinnFast,
             "cook-torrance" => facets(Distribution::Beckmann, Shadowing::VCavity),
             "ggx" => facets(Distribution::Ggx, Shadowing::Correlated),
-            "oren-nayar" => Self::OrenNayar { sigma: 20_f32.to_radians(), full: false },
+            "oren-nayar" => {
+                Self::OrenNayar { sigma: Param::Constant(20_f32.to_radians()), full: false }
+            }
             "ward" => {
                 Self::Ward { roughness_x: roughness, roughness_y: roughness, form: WardForm::Ward }
             }
@@ -364,7 +372,7 @@ words!(ShadowRule { "full" = Full, "filtered" = Filtered });
 
 words!(Viewer { "local" = Local, "distant" = Distant });
 
-impl<N> Model<N> {
+impl<N, C> Model<N, C> {
     /// Whether its diffuse part is Lambert's.
     pub fn is_lambertian(&self) -> bool {
         !matches!(self, Self::OrenNayar { .. })
@@ -408,25 +416,25 @@ pub enum Shadowing {
 
 /// The Fresnel reflectance of microfacets.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Fresnel {
+pub enum Fresnel<N = Param<f32>, C = Param<Rgb>> {
     /// Every facet is a perfect mirror.
     None,
     /// Schlick's approximation from the reflectance at normal incidence.
     Schlick {
         /// Reflectance at normal incidence, linear, in [0, 1].
-        f0: Rgb,
+        f0: C,
     },
     /// A conductor of complex index η + i k, per channel.
     Conductor {
         /// Real part, > 0.
-        eta: Rgb,
+        eta: C,
         /// Imaginary part, ≥ 0.
-        k: Rgb,
+        k: C,
     },
     /// An exact dielectric of relative index `n_t / n_i`.
     Dielectric {
         /// Relative index, > 0.
-        eta: f32,
+        eta: N,
     },
 }
 

@@ -234,7 +234,7 @@ fn a_ball_of_glass_without_fresnel_lets_all_light_through() {
     let mut scene = glass(|m| {
         m.fresnel = false;
         m.reflection = Rgb::BLACK.into();
-        m.ior = 1.0;
+        m.ior = 1.0.into();
     });
     scene.objects.push(sphere([0.3, 0.2, 0.0], 1.0));
     assert_eq!(terms(&scene).transmission, Rgb::WHITE);

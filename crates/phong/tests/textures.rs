@@ -3,6 +3,8 @@
 
 #[path = "textures/images.rs"]
 mod images;
+#[path = "textures/parameters.rs"]
+mod parameters;
 #[path = "textures/patterns.rs"]
 mod patterns;
 #[path = "textures/relief.rs"]

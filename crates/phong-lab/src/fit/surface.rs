@@ -117,7 +117,7 @@ pub fn remodel(material: &mut scene::Material, target: Target) -> Option<Remodel
         }
         Target::OrenNayar { sigma } => {
             let sigma = sigma.to_radians() as f32;
-            material.model = scene::Model::OrenNayar { sigma, full: false };
+            material.model = scene::Model::OrenNayar { sigma: sigma.into(), full: false };
             material.k_s = 0.0.into();
             return None;
         }
@@ -220,7 +220,7 @@ fn peak(material: &ConstantMaterial) -> Rgb {
 }
 
 /// A lobe as the model of a scene, and the exponent that goes with it.
-pub(super) fn written(lobe: Lobe) -> (scene::Model<f32>, f32) {
+pub(super) fn written(lobe: Lobe) -> (scene::Model<f32, Rgb>, f32) {
     let facets = |distribution, shadowing, roughness: f64| scene::Model::Microfacet {
         distribution,
         roughness: roughness as f32,

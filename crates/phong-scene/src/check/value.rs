@@ -66,8 +66,8 @@ fn single(key: &Key, value: &Value, faults: &mut Faults) {
                 faults.say(name, format!("`{name}` is from 1 to {most} pixels; this is {side}"));
             }
         }
-        (Value::Color(color), _) => {
-            faults.color(name, *color, LARGEST);
+        (Value::Color(color), kind) => {
+            faults.color(name, *color, most(kind));
         }
         (Value::Colors(colors), _) => {
             for color in colors {
@@ -81,6 +81,11 @@ fn single(key: &Key, value: &Value, faults: &mut Faults) {
         (Value::Stops(all), _) => stops(name, all, faults),
         _ => {}
     }
+}
+
+/// The most that a channel of a colour is.
+fn most(kind: Kind) -> f64 {
+    if matches!(kind, Kind::Reflectance) { 1.0 } else { LARGEST }
 }
 
 fn stops(name: &'static str, stops: &[(f32, Rgb)], faults: &mut Faults) {
@@ -120,8 +125,12 @@ fn textured(key: &Key, by: &TextureRef, textures: Option<&[Texture]>, faults: &m
             return (!held).then(|| format!("a number {}; it becomes {value}", range.words()));
         }
         let value = Rgb::of(value, by).max_channel();
-        let held = f64::from(value) <= LARGEST;
-        (!held).then(|| format!("at most {LARGEST:e}; it becomes {value:e}"))
+        let most = most(key.kind);
+        let held = f64::from(value) <= most;
+        (!held).then(|| match most {
+            1.0 => format!("at most 1; it becomes {value}"),
+            _ => format!("at most {most:e}; it becomes {value:e}"),
+        })
     };
     if let Some(wrong) = texture.values(by.channel).into_iter().find_map(wrong) {
         let texture = quoted(&texture.name);

@@ -3,11 +3,13 @@
 use super::field::{Access, Field, field, keyed};
 use super::value::{Stored, Value, degrees};
 use super::{Default, Key, Kind, Table};
+use crate::color::Rgb;
 use crate::limits::Range;
 use crate::material::{
-    AmbientRule, Dialect, Distribution, Material, Model, NormalFormat, OpacityMode, ShadowRule,
-    Shadowing, Tint, VertexColors, Viewer, WardForm,
+    AmbientRule, Dialect, Distribution, Fresnel, Material, Model, NormalFormat, OpacityMode,
+    ShadowRule, Shadowing, Tint, VertexColors, Viewer, WardForm,
 };
+use crate::texture::Param;
 use crate::wording::Word;
 
 keyed!(Material, |_| &MATERIAL);
@@ -131,6 +133,8 @@ pub(crate) static MATERIAL: Table = Table {
             "Facets follow Schlick's formula from this reflectance at normal incidence; 1: \
              perfect mirrors.",
         )
+        .of(F0)
+        .varies()
         .only(FACETS),
         Key::new(
             "eta",
@@ -139,6 +143,8 @@ pub(crate) static MATERIAL: Table = Table {
             "Facets follow the exact Fresnel equations for this index of refraction: a \
              number for a dielectric, one a channel with `k` for a metal; above 0.",
         )
+        .of(ETA)
+        .varies()
         .only(FACETS),
         Key::new(
             "k",
@@ -146,6 +152,8 @@ pub(crate) static MATERIAL: Table = Table {
             Default::Said("none: a dielectric"),
             "Imaginary part of the index of refraction, with `eta`.",
         )
+        .of(K)
+        .varies()
         .only(FACETS),
         Key::new(
             "sigma",
@@ -154,6 +162,7 @@ pub(crate) static MATERIAL: Table = Table {
             "Standard deviation of the facets' slope angle, degrees; 0 is Lambert.",
         )
         .of(SIGMA)
+        .varies()
         .only(&["oren-nayar"]),
         Key::new(
             "form",
@@ -282,7 +291,8 @@ pub(crate) static MATERIAL: Table = Table {
             Default::Number(1.5),
             "Index of refraction of the inside relative to the outside.",
         )
-        .of(field!(Material.ior)),
+        .of(field!(Material.ior))
+        .varies(),
         Key::new(
             "priority",
             Kind::Integer(0, Material::MOST_PRIORITY as u64),
@@ -402,15 +412,67 @@ const ROUGHNESS: Field = Field::Material(Access {
     },
 });
 
-/// Degrees in the text.
-const SIGMA: Field = Field::Material(Access {
+/// Perfect mirrors reflect 1.
+const F0: Field = Field::Material(Access {
     get: |m| match m.model {
-        Model::OrenNayar { sigma, .. } => Some(Value::Number(degrees(sigma))),
+        Model::Microfacet { fresnel: Fresnel::None, .. } => Rgb::WHITE.value(),
+        Model::Microfacet { fresnel: Fresnel::Schlick { f0 }, .. } => f0.value(),
         _ => None,
     },
     set: |m, value| {
-        if let (Model::OrenNayar { sigma, .. }, Value::Number(degrees)) = (&mut m.model, value) {
-            *sigma = degrees.to_radians() as f32;
+        if let Model::Microfacet { fresnel, .. } = &mut m.model {
+            *fresnel = Fresnel::Schlick { f0: Stored::of(value)? };
+        }
+        Some(())
+    },
+});
+
+/// That of a metal, until it is known that there is no `k`.
+const ETA: Field = Field::Material(Access {
+    get: |m| match m.model {
+        Model::Microfacet { fresnel: Fresnel::Conductor { eta, .. }, .. } => eta.value(),
+        Model::Microfacet { fresnel: Fresnel::Dielectric { eta }, .. } => match eta {
+            Param::Constant(eta) => Rgb::grey(eta).value(),
+            Param::Textured(by) => by.value(),
+        },
+        _ => None,
+    },
+    set: |m, value| {
+        if let Model::Microfacet { fresnel, .. } = &mut m.model {
+            *fresnel = Fresnel::Conductor { eta: Stored::of(value)?, k: Rgb::BLACK.into() };
+        }
+        Some(())
+    },
+});
+
+const K: Field = Field::Material(Access {
+    get: |m| match m.model {
+        Model::Microfacet { fresnel: Fresnel::Conductor { k, .. }, .. } => k.value(),
+        _ => None,
+    },
+    set: |m, value| {
+        if let Model::Microfacet { fresnel: Fresnel::Conductor { k, .. }, .. } = &mut m.model {
+            *k = Stored::of(value)?;
+        }
+        Some(())
+    },
+});
+
+/// Degrees in the text, and in textures.
+const SIGMA: Field = Field::Material(Access {
+    get: |m| match m.model {
+        Model::OrenNayar { sigma: Param::Constant(sigma), .. } => {
+            Some(Value::Number(degrees(sigma)))
+        }
+        Model::OrenNayar { sigma, .. } => sigma.value(),
+        _ => None,
+    },
+    set: |m, value| {
+        if let Model::OrenNayar { sigma, .. } = &mut m.model {
+            *sigma = match value {
+                Value::Number(degrees) => Param::Constant(degrees.to_radians() as f32),
+                value => Stored::of(value)?,
+            };
         }
         Some(())
     },

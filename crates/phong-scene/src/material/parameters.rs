@@ -2,7 +2,7 @@
 
 use std::cell::{RefCell, RefMut};
 
-use super::{Distribution, Material, Model};
+use super::{Distribution, Fresnel, Material, Model};
 use crate::texture::{Param, TextureId, TextureRef, TextureUse};
 
 impl Material {
@@ -80,9 +80,21 @@ impl<N: Copy, C: Copy> Material<N, C> {
                         Distribution::Beckmann | Distribution::Ggx => "roughness",
                     };
                     let roughness = number(key, roughness);
+                    let fresnel = match fresnel {
+                        Fresnel::None => Fresnel::None,
+                        Fresnel::Schlick { f0 } => Fresnel::Schlick { f0: color("f0", f0) },
+                        Fresnel::Conductor { eta, k } => {
+                            Fresnel::Conductor { eta: color("eta", eta), k: color("k", k) }
+                        }
+                        Fresnel::Dielectric { eta } => {
+                            Fresnel::Dielectric { eta: number("eta", eta) }
+                        }
+                    };
                     Model::Microfacet { distribution, roughness, shadowing, fresnel }
                 }
-                Model::OrenNayar { sigma, full } => Model::OrenNayar { sigma, full },
+                Model::OrenNayar { sigma, full } => {
+                    Model::OrenNayar { sigma: number("sigma", sigma), full }
+                }
                 Model::Ward { roughness_x, roughness_y, form } => Model::Ward {
                     roughness_x: number("roughness_x", roughness_x),
                     roughness_y: number("roughness_y", roughness_y),
@@ -109,7 +121,7 @@ impl<N: Copy, C: Copy> Material<N, C> {
             bump: self.bump,
             surfaces: self.surfaces,
             shadow: self.shadow,
-            ior: self.ior,
+            ior: number("ior", self.ior),
             priority: self.priority,
             fresnel: self.fresnel,
             dialect: self.dialect,

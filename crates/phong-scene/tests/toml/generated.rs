@@ -242,7 +242,7 @@ impl Make {
         }
     }
 
-    fn model(&mut self) -> Model<f32> {
+    fn model(&mut self) -> Model<f32, Rgb> {
         use Shadowing::{Correlated, Implicit, Separable, VCavity};
         match self.below(7) {
             0 => Model::Lambert,

@@ -63,8 +63,12 @@ impl Media {
         }
     }
 
-    fn has(&self, object: u32) -> bool {
-        self.all().iter().any(|glass| glass.object == object)
+    /// Is in this glass, which has this index here: its way may have begun in there.
+    fn hold(&mut self, glass: Glass) {
+        match self.all().iter().rposition(|inside| inside.object == glass.object) {
+            Some(place) => self.glasses[place].ior = glass.ior,
+            None => self.enter(glass),
+        }
     }
 
     /// The highest priority of any; `None`: it is in no glass.
@@ -284,14 +288,16 @@ struct Member {
 impl Member {
     fn new(view: &View, ray: &Ray, hit: Hit) -> Self {
         let batch = view.geometry().batch(hit.part);
-        let material = &view.materials()[view.material_of(&hit) as usize];
+        let number = view.material_of(&hit);
+        let material = &view.materials()[number as usize];
         let surface = view.surface(ray, &hit);
         Self {
             hit,
             surface,
             object: batch.object(hit.prim),
             priority: material.priority,
-            ior: (!material.transmission.is_black()).then_some(material.ior),
+            ior: (!material.transmission.is_black())
+                .then(|| view.ior_at(number, ray, &hit, &surface)),
             entering: surface.ng.dot(ray.dir) < 0.0,
         }
     }
@@ -372,10 +378,7 @@ impl Group {
                     carried.enter(own);
                 }
             } else {
-                // It may have begun its way in there.
-                if !media.has(object) {
-                    before.enter(own);
-                }
+                before.hold(own);
                 after.leave(object);
                 carried.leave(object);
             }
@@ -448,7 +451,18 @@ mod tests {
         media.enter(glass(2, 2, 0.5));
         assert_eq!(media.index(), 0.75);
         media.leave(1);
-        assert_eq!((media.index(), media.has(1), media.has(2)), (0.5, false, true));
+        assert_eq!((media.index(), media.count), (0.5, 1));
+    }
+
+    #[test]
+    fn glass_has_the_index_of_the_place_where_it_is_left() {
+        let mut media = Media::default();
+        media.enter(glass(1, 2, 1.5));
+        media.enter(glass(2, 2, 0.5));
+        media.hold(glass(1, 2, 2.0));
+        assert_eq!((media.index(), media.count), (1.0, 2));
+        media.hold(glass(3, 2, 1.25));
+        assert_eq!((media.index(), media.count), (1.25, 3));
     }
 
     #[test]

@@ -3,9 +3,12 @@
 use std::f32::consts::FRAC_2_PI;
 
 use phong_bvh::Lanes;
-use phong_scene::{Fresnel, Rgb};
+use phong_scene::Rgb;
 
 use crate::math::acos;
+
+/// The Fresnel reflectance of microfacets at a point.
+pub type Fresnel = phong_scene::Fresnel<f32, Rgb>;
 
 /// The share of light that facets of this kind mirror, per channel, in [0, 1], at the angle of
 /// incidence whose cosine is `cos`.

@@ -16,6 +16,7 @@ mod scale;
 mod ward;
 
 pub use blinn_phong::{BlinnPhong, Falloff};
+pub use fresnel::Fresnel;
 pub use lambert::Lambert;
 pub use microfacet::{Distribution, Microfacet};
 pub use oren_nayar::{OrenNayar, OrenNayarForm};
@@ -23,7 +24,7 @@ pub use phong::Phong;
 pub use scale::Switches;
 pub use ward::Ward;
 
-pub use phong_scene::{Fresnel, Shadowing, WardForm};
+pub use phong_scene::{Shadowing, WardForm};
 
 use phong_scene::Rgb;
 

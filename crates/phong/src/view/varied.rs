@@ -3,7 +3,9 @@
 use fearless_simd::{Simd, prelude::*, u32x8};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use phong_bvh::{Hit, Hits8, Ray, Rays8, Surface, Surfaces8, lanes};
-use phong_scene::{ConstantMaterial, Field, Param, Rgb, TextureRef, TextureSpace, TextureUse};
+use phong_scene::{
+    ConstantMaterial, Field, Param, Rgb, TextureRef, TextureSpace, TextureUse, Textured,
+};
 
 use super::View;
 use super::images::Met8;
@@ -174,12 +176,23 @@ impl View {
     /// The diffuse colour of the material at a surface.
     pub(super) fn color_at(&self, material: u32, ray: &Ray, hit: &Hit, at: &Surface) -> Rgb {
         match self.varied(material).color() {
-            Some(by) => {
-                let point = self.texture_point(ray, hit, at.p, at.ng, 0.0);
-                Param::<Rgb>::from(by).at(|asked| self.look_up(asked, &point))
-            }
+            Some(by) => self.value_at(by, ray, hit, at),
             None => self.materials[material as usize].color,
         }
+    }
+
+    /// The index of refraction of the material at a surface.
+    pub(crate) fn ior_at(&self, material: u32, ray: &Ray, hit: &Hit, at: &Surface) -> f32 {
+        match self.look.materials[material as usize].ior {
+            Param::Constant(ior) => ior,
+            Param::Textured(by) => self.value_at(by, ray, hit, at),
+        }
+    }
+
+    /// What a parameter takes from a texture at a surface.
+    fn value_at<T: Textured>(&self, by: TextureRef, ray: &Ray, hit: &Hit, at: &Surface) -> T {
+        let point = self.texture_point(ray, hit, at.p, at.ng, 0.0);
+        Param::<T>::Textured(by).at(|asked| self.look_up(asked, &point))
     }
 
     /// Whether any material takes a value from a texture.

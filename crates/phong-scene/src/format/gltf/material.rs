@@ -130,7 +130,7 @@ pub(super) fn read(
     material.k_a = (shown * ambient(unit(metallic) as f32)).into();
     // Light goes straight on: surfaces are thin unless an extension that is not read says otherwise.
     material.transmission = through.into();
-    material.ior = 1.0;
+    material.ior = 1.0.into();
     material.fresnel = false;
     if !glow.is_black() {
         (material.k_e, material.emission_color) = (1.0.into(), Some(glow.into()));
@@ -296,7 +296,7 @@ impl Maps {
             let [diffuse, f0] = parted(base_color, metal, f0);
             material.color = diffuse.into();
             if let Model::Microfacet { fresnel, .. } = &mut material.model {
-                *fresnel = Fresnel::Schlick { f0: f0.map(|c| c.clamp(0.0, 1.0)) };
+                *fresnel = Fresnel::Schlick { f0: f0.map(|c| c.clamp(0.0, 1.0)).into() };
             }
         }
         if let Some(base) = &self.base {

@@ -70,7 +70,7 @@ fn three_js(v: &Values, material: Material, notes: &mut Notes) -> Option<Materia
         distribution: Distribution::Blinn,
         roughness: material.shininess,
         shadowing: Shadowing::Implicit,
-        fresnel: Fresnel::Schlick { f0 },
+        fresnel: Fresnel::Schlick { f0: f0.into() },
     };
     let (k_s, white) = (Param::Constant(1.0), Param::Constant(Rgb::WHITE));
     Some(Material { model, k_s, specular_color: Some(white), ..material })
@@ -95,7 +95,7 @@ fn model(v: &Values, material: &mut Material, notes: &mut Notes) -> Option<()> {
             if *distribution == Distribution::Blinn {
                 *roughness = material.shininess;
             }
-            *fresnel = self::fresnel(v, notes)?;
+            *fresnel = self::fresnel(v, *fresnel, notes)?;
         }
         Model::Ward { roughness_x, roughness_y, .. } if !v.has("roughness_y") => {
             *roughness_y = *roughness_x;
@@ -105,8 +105,8 @@ fn model(v: &Values, material: &mut Material, notes: &mut Notes) -> Option<()> {
     Some(())
 }
 
-/// `f0`, or `eta` alone, or `eta` with `k`.
-fn fresnel(v: &Values, notes: &mut Notes) -> Option<Fresnel> {
+/// `f0`, or `eta` alone, or `eta` with `k`, where `written` has what was written of them.
+fn fresnel(v: &Values, written: Fresnel, notes: &mut Notes) -> Option<Fresnel> {
     if v.has("f0") && (v.has("eta") || v.has("k")) {
         let help = "`f0` alone (Schlick), `eta` alone (dielectric), or `eta` with `k` (metal)";
         notes.error(v.spot_of("f0"), "`f0` and `eta` both say what facets reflect").help =
@@ -118,21 +118,24 @@ fn fresnel(v: &Values, notes: &mut Notes) -> Option<Fresnel> {
             notes.error(v.spot_of("k"), "`k` goes with `eta`, which is not here");
             return None;
         }
-        let f0 = if v.has("f0") { v.color("f0")? } else { Rgb::grey(0.04) };
         // Schlick's formula is then 1 at every angle.
-        return Some(if f0 == Rgb::WHITE { Fresnel::None } else { Fresnel::Schlick { f0 } });
+        let mirrors = Fresnel::Schlick { f0: Rgb::WHITE.into() };
+        return Some(if written == mirrors { Fresnel::None } else { written });
     }
-    let eta = v.color("eta")?;
-    if v.has("k") {
-        return Some(Fresnel::Conductor { eta, k: v.color("k")? });
+    let Fresnel::Conductor { eta, .. } = written else { return None };
+    match eta {
+        _ if v.has("k") => Some(written),
+        Param::Textured(by) => Some(Fresnel::Dielectric { eta: by.into() }),
+        Param::Constant(Rgb { r, g, b }) if [g, b] == [r; 2] => {
+            Some(Fresnel::Dielectric { eta: r.into() })
+        }
+        Param::Constant(_) => {
+            let help = "write one number, or give `k` as well for a metal";
+            notes.error(v.spot_of("eta"), "a dielectric has one `eta` for all channels").help =
+                Some(help.to_owned());
+            None
+        }
     }
-    if eta != Rgb::grey(eta.r) {
-        let help = "write one number, or give `k` as well for a metal";
-        notes.error(v.spot_of("eta"), "a dielectric has one `eta` for all channels").help =
-            Some(help.to_owned());
-        return None;
-    }
-    Some(Fresnel::Dielectric { eta: eta.r })
 }
 
 /// Says that the model's lobe is none of the dialect's.

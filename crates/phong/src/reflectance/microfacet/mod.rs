@@ -5,12 +5,12 @@ mod shadowing;
 
 use std::f32::consts::PI;
 
-use phong_scene::{Fresnel, Rgb, Shadowing};
+use phong_scene::{Rgb, Shadowing};
 
 pub use distribution::{Distribution, Lean};
 pub use shadowing::visible;
 
-use super::fresnel::mirrored;
+use super::fresnel::{Fresnel, mirrored};
 use super::{GRAZING, HORIZON, Incident};
 use crate::math::Dir3;
 use crate::terms::Terms;

@@ -66,17 +66,7 @@ pub(super) fn material(m: &Material, key: &Key) -> Option<Value> {
         {
             None
         }
-        ("f0", Model::Microfacet { fresnel, .. }) => match fresnel {
-            Fresnel::None => Rgb::WHITE.value(),
-            Fresnel::Schlick { f0 } if f0 != Rgb::grey(0.04) => f0.value(),
-            _ => None,
-        },
-        ("eta", Model::Microfacet { fresnel, .. }) => match fresnel {
-            Fresnel::Conductor { eta, .. } => eta.value(),
-            Fresnel::Dielectric { eta } => Rgb::grey(eta).value(),
-            _ => None,
-        },
-        ("k", Model::Microfacet { fresnel: Fresnel::Conductor { k, .. }, .. }) => k.value(),
+        ("f0", _) if key.get(m) == Rgb::grey(0.04).value() => None,
         ("roughness_y", Model::Ward { roughness_x, roughness_y, .. })
             if roughness_y == roughness_x =>
         {
