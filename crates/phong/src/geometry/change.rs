@@ -119,15 +119,16 @@ pub(crate) fn weights_changes<F: Lanes<Scalar = f64>>(
 ) -> [[F; 2]; 2] {
     let (bb, bc, cc) = (dot(ab, ab), dot(ab, ac), dot(ac, ac));
     let area = bb * cc - bc * bc;
-    let change = |along: [F; 3]| {
+    let mut changes = [[area; 2]; 2];
+    // A closure called twice would be compiled without the level's instructions.
+    for (change, along) in changes.iter_mut().zip(along) {
         let (b, c) = (dot(ab, along), dot(ac, along));
         let [x, y] = [(cc * b - bc * c) / area, (bb * c - bc * b) / area];
         let (most, none) = (x.splat(f64::INFINITY), x.splat(0.0));
         let is_finite = x.abs().lt(most) & y.abs().lt(most);
-        [F::select(is_finite, x, none), F::select(is_finite, y, none)]
-    };
-    let [a, b] = along;
-    [change(a), change(b)]
+        *change = [F::select(is_finite, x, none), F::select(is_finite, y, none)];
+    }
+    changes
 }
 
 /// The mean curvature that the normals at a triangle's corners stand for: how much they turn along its edges. Above 0

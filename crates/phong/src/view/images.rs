@@ -158,39 +158,38 @@ fn places<S: Simd>(
     let (u, v) = (load(&met.hits.u), load(&met.hits.v));
     let w = Lanes::splat(u, 1.0) - u - v;
     let mut places = Places { uv: [[0.0; 8]; 2], sides: [[[0.0; 8]; 2]; 2] };
-    let corners = [uvs[0][0].widen(), uvs[0][1].widen()];
-    let (mut ab, mut ac) = (corners, corners);
+    // Half by half from here on: a closure called for each would be compiled without the level's instructions.
+    let (first, _) = u.widen();
+    let (mut ab, mut ac) = ([[first; 2]; 2], [[first; 2]; 2]);
     for k in 0..2 {
         let at = w * uvs[0][k] + u * uvs[1][k] + v * uvs[2][k];
         let (low, high) = at.widen();
-        store4(low, high, &mut places.uv[k]);
-        let [a, b, c] = [corners[k], uvs[1][k].widen(), uvs[2][k].widen()];
-        (ab[k], ac[k]) = ((b.0 - a.0, b.1 - a.1), (c.0 - a.0, c.1 - a.1));
+        low.store_slice(&mut places.uv[k][..4]);
+        high.store_slice(&mut places.uv[k][4..]);
+        let [a, b, c] = [uvs[0][k].widen(), uvs[1][k].widen(), uvs[2][k].widen()];
+        (ab[0][k], ac[0][k]) = (b.0 - a.0, c.0 - a.0);
+        (ab[1][k], ac[1][k]) = (b.1 - a.1, c.1 - a.1);
     }
     let Some(widths) = met.widths else { return places };
     // Of what is a point the sides are 0.
-    let width = load(widths).at_least(0.0).widen();
+    let (low, high) = load(widths).at_least(0.0).widen();
+    let widths = [low, high];
     let dir = wide3(load3(simd, &met.rays.dir));
     let ng = wide3(load3(simd, &met.surfaces.ng));
     let (a, b, c) = (wide3(load3(simd, &a)), wide3(load3(simd, &b)), wide3(load3(simd, &c)));
-    let sides = |half: usize, width: f64x4<S>, ab: [f64x4<S>; 2], ac: [f64x4<S>; 2]| {
-        let [s, t] = footprint(width, dir[half], ng[half]);
+    for half in 0..2 {
+        let [s, t] = footprint(widths[half], dir[half], ng[half]);
         let along = match to_own {
             Some(to_own) => [times(to_own, s), times(to_own, t)],
             None => [s, t],
         };
         let edges = [sub(b[half], a[half]), sub(c[half], a[half])];
-        let [s, t] = weights_changes(edges, along);
-        [
-            [s[0] * ab[0] + s[1] * ac[0], s[0] * ab[1] + s[1] * ac[1]],
-            [t[0] * ab[0] + t[1] * ac[0], t[0] * ab[1] + t[1] * ac[1]],
-        ]
-    };
-    let low = sides(0, width.0, [ab[0].0, ab[1].0], [ac[0].0, ac[1].0]);
-    let high = sides(1, width.1, [ab[0].1, ab[1].1], [ac[0].1, ac[1].1]);
-    for (side, places) in places.sides.iter_mut().enumerate() {
-        for (k, places) in places.iter_mut().enumerate() {
-            store4(low[side][k], high[side][k], places);
+        let changes = weights_changes(edges, along);
+        for (places, [x, y]) in places.sides.iter_mut().zip(changes) {
+            for (k, places) in places.iter_mut().enumerate() {
+                let side = x * ab[half][k] + y * ac[half][k];
+                side.store_slice(&mut places[4 * half..][..4]);
+            }
         }
     }
     places
@@ -241,23 +240,29 @@ impl Tangents8 {
         let value = wide3(load3(simd, &value));
         let one: f32x8<S> = SimdBase::splat(simd, 1.0);
         let side = mask32x8::from_bitmask(simd, shading.flipped.into()).select(-one, one);
-        let turn = |half: usize, u: f64x4<S>, v: f64x4<S>, side: f64x4<S>, hand: f64x4<S>| {
-            let w = Lanes::splat(u, 1.0) - u - v;
-            let t = add(add(scale(w, a[half]), scale(u, b[half])), scale(v, c[half]));
-            let t = self.to_world.map_or(t, |to_world| times(to_world, t));
-            // The texture lies about the normal as the surface has it, whichever side is seen.
-            let own = scale(side, facing[half]);
-            let (is_there, [t, b]) = frame(t, own);
-            let n = turned(own, [t, scale(hand, b)], mapped(value[half], (strength, format)));
-            (is_there.to_bitmask() as u32, raised(scale(side, n), front[half], facing[half]))
-        };
         let (u, v) = (load(&hits.u).widen(), load(&hits.v).widen());
         let (side, hand) = (side.widen(), load(&self.hand).widen());
-        let (low, n_low) = turn(0, u.0, v.0, side.0, hand.0);
-        let (high, n_high) = turn(1, u.1, v.1, side.1, hand.1);
-        let n =
-            [n_low[0].narrow(n_high[0]), n_low[1].narrow(n_high[1]), n_low[2].narrow(n_high[2])];
-        (low | high << 4, n)
+        let (u, v) = ([u.0, u.1], [v.0, v.1]);
+        let (side, hand) = ([side.0, side.1], [hand.0, hand.1]);
+        let (mut is_turned, mut n) = (0, facing);
+        // A closure called for each half would be compiled without the level's instructions.
+        for half in 0..2 {
+            let (u, v) = (u[half], v[half]);
+            let w = Lanes::splat(u, 1.0) - u - v;
+            let mut t = add(add(scale(w, a[half]), scale(u, b[half])), scale(v, c[half]));
+            if let Some(to_world) = self.to_world {
+                t = times(to_world, t);
+            }
+            // The texture lies about the normal as the surface has it, whichever side is seen.
+            let own = scale(side[half], facing[half]);
+            let (is_there, [t, b]) = frame(t, own);
+            let map = mapped(value[half], (strength, format));
+            let turned = turned(own, [t, scale(hand[half], b)], map);
+            is_turned |= (is_there.to_bitmask() as u32) << (4 * half);
+            n[half] = raised(scale(side[half], turned), front[half], facing[half]);
+        }
+        let [low, high] = n;
+        (is_turned, [low[0].narrow(high[0]), low[1].narrow(high[1]), low[2].narrow(high[2])])
     }
 }
 
@@ -269,11 +274,4 @@ fn times<S: Simd>(m: DMat3, [x, y, z]: [f64x4<S>; 3]) -> [f64x4<S>; 3] {
         x * m.x_axis.y + y * m.y_axis.y + z * m.z_axis.y,
         x * m.x_axis.z + y * m.y_axis.z + z * m.z_axis.z,
     ]
-}
-
-#[inline(always)]
-fn store4<S: Simd>(low: f64x4<S>, high: f64x4<S>, to: &mut [f64; 8]) {
-    let (first, last) = to.split_at_mut(4);
-    low.store_slice(first);
-    high.store_slice(last);
 }
