@@ -1,5 +1,6 @@
 //! What one light sends to one point.
 
+mod angle;
 mod area;
 mod mesh;
 

@@ -11,8 +11,9 @@ use glam::{DVec3, Vec3};
 use phong_bvh::{Lanes, lanes::cross};
 use phong_scene::Light;
 
-use super::area::{clamp, on_circle, turn};
-use crate::math::lanes::{add, dot, normalize, scale, select3, splat3, sub};
+use super::angle::{half_turn, on_circle};
+use super::area::clamp;
+use crate::math::lanes::{add, dot, scale, select3, splat3, sub};
 
 /// A triangle seen at a smaller slope than this is seen from its own plane, where it gives nothing: so does the
 /// surface itself to its own points.
@@ -24,10 +25,40 @@ const FLAT: f32 = 1e-3;
 /// The triangles of a mesh that shines.
 #[derive(Clone, Debug, Default)]
 pub(super) struct LuminousMesh {
-    /// About the middle.
-    triangles: Arc<[[Vec3; 3]]>,
+    triangles: Arc<[Triangle]>,
     /// The middle of its surface.
     pub(super) middle: DVec3,
+}
+
+/// A triangle, about the middle of its mesh.
+#[derive(Clone, Copy, Debug)]
+struct Triangle {
+    corners: [Vec3; 3],
+    /// At right angles to it, and as long as twice its area.
+    normal: Vec3,
+    /// [`GRAZING`] by that length.
+    grazing: f32,
+}
+
+impl Triangle {
+    fn new(corners: [Vec3; 3]) -> Self {
+        let [a, b, c] = corners;
+        let normal = (b - a).cross(c - a);
+        Self { corners, normal, grazing: GRAZING * normal.length() }
+    }
+
+    /// The solid angle that it is seen under from where `toward` leads to the middle of its mesh, by van Oosterom and
+    /// Strackee, *The Solid Angle of a Plane Triangle*, 1983; 0 from its own plane.
+    #[inline(always)]
+    fn solid_angle<F: Lanes<Scalar = f32>>(&self, toward: [F; 3]) -> F {
+        let [a, b, c] = self.corners;
+        let (a, b, c) = (to_corner(toward, a), to_corner(toward, b), to_corner(toward, c));
+        let volume = dot(a, splat3(a[0], self.normal.to_array())).abs();
+        let (la, lb, lc) = (dot(a, a).sqrt(), dot(b, b).sqrt(), dot(c, c).sqrt());
+        let grazing = la.max(lb).max(lc) * self.grazing;
+        let rest = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
+        F::select(volume.gt(grazing), half_turn([rest, volume]) * 2.0, volume.splat(0.0))
+    }
 }
 
 impl LuminousMesh {
@@ -40,14 +71,16 @@ impl LuminousMesh {
         };
         let sum = triangles.iter().map(middle).sum::<DVec3>();
         let middle = if sum.is_finite() { sum } else { DVec3::ZERO };
-        let about = |triangle: &[DVec3; 3]| triangle.map(|corner| (corner - middle).as_vec3());
+        let about = |triangle: &[DVec3; 3]| {
+            Triangle::new(triangle.map(|corner| (corner - middle).as_vec3()))
+        };
         Self { triangles: triangles.iter().map(about).collect(), middle }
     }
 
     /// How far from a point its farthest corner is.
     pub(super) fn reach_about(&self, center: DVec3) -> f64 {
-        let corners = self.triangles.iter().flatten();
-        let distance = |corner: &Vec3| (self.middle + corner.as_dvec3()).distance(center);
+        let corners = self.triangles.iter().flat_map(|triangle| triangle.corners);
+        let distance = |corner: Vec3| (self.middle + corner.as_dvec3()).distance(center);
         corners.map(distance).fold(0.0, f64::max)
     }
 
@@ -59,7 +92,7 @@ impl LuminousMesh {
         let mut angles = [zero; Light::MOST_TRIANGLES];
         let mut whole = zero;
         for (angle, triangle) in angles.iter_mut().zip(&*self.triangles) {
-            *angle = solid_angle(seen(toward, triangle));
+            *angle = triangle.solid_angle(toward);
             whole = whole + *angle;
         }
         // Of those that are seen, the last that begins before the place.
@@ -68,10 +101,10 @@ impl LuminousMesh {
         let (mut before, mut begin, mut angle) = (zero, zero, zero);
         for (triangle, &own) in self.triangles.iter().zip(&angles) {
             let is_next = own.gt(zero) & !target.lt(before);
-            let [a, b, c] = seen(toward, triangle);
-            chosen[0] = select3(is_next, a, chosen[0]);
-            chosen[1] = select3(is_next, b, chosen[1]);
-            chosen[2] = select3(is_next, c, chosen[2]);
+            let [a, b, c] = triangle.corners;
+            chosen[0] = select3(is_next, splat3(zero, a.to_array()), chosen[0]);
+            chosen[1] = select3(is_next, splat3(zero, b.to_array()), chosen[1]);
+            chosen[2] = select3(is_next, splat3(zero, c.to_array()), chosen[2]);
             begin = F::select(is_next, before, begin);
             angle = F::select(is_next, own, angle);
             before = before + own;
@@ -79,7 +112,9 @@ impl LuminousMesh {
         let is_seen = angle.gt(zero);
         let part = (target - begin) / F::select(is_seen, angle, one);
         let part = F::select(part.gt(one), one, part);
-        let way = within(chosen, [part, place[1]], angle);
+        let [a, b, c] = chosen;
+        let ways = [add(toward, a), add(toward, b), add(toward, c)];
+        let way = within(ways, [part, place[1]], angle);
         let (half, none) = (place[0].splat(0.5), [zero; 3]);
         let is_middle = place[0].eq(half) & place[1].eq(half);
         let way = select3(is_middle, toward, way);
@@ -87,26 +122,9 @@ impl LuminousMesh {
     }
 }
 
-/// The ways to the corners of a triangle.
 #[inline(always)]
-fn seen<F: Lanes<Scalar = f32>>(toward: [F; 3], [a, b, c]: &[Vec3; 3]) -> [[F; 3]; 3] {
-    [
-        add(toward, splat3(toward[0], a.to_array())),
-        add(toward, splat3(toward[0], b.to_array())),
-        add(toward, splat3(toward[0], c.to_array())),
-    ]
-}
-
-/// The solid angle of a triangle whose corners these are the ways to, by van Oosterom and Strackee, *The Solid
-/// Angle of a Plane Triangle*, 1983; 0 from its own plane.
-#[inline(always)]
-fn solid_angle<F: Lanes<Scalar = f32>>([a, b, c]: [[F; 3]; 3]) -> F {
-    let normal = cross(sub(b, a), sub(c, a));
-    let volume = dot(a, normal).abs();
-    let (la, lb, lc) = (dot(a, a).sqrt(), dot(b, b).sqrt(), dot(c, c).sqrt());
-    let grazing = dot(normal, normal).sqrt() * la.max(lb).max(lc) * GRAZING;
-    let rest = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
-    F::select(volume.gt(grazing), turn([rest, volume]) * 2.0, volume.splat(0.0))
+fn to_corner<F: Lanes<Scalar = f32>>(toward: [F; 3], corner: Vec3) -> [F; 3] {
+    add(toward, splat3(toward[0], corner.to_array()))
 }
 
 /// The way to a point of a triangle that fills its solid angle evenly: after Arvo, *Stratified Sampling of
@@ -120,11 +138,11 @@ fn within<F: Lanes<Scalar = f32>>([a, b, c]: [[F; 3]; 3], [u, v]: [F; 2], angle:
     if F::all(is_flat) {
         return flat;
     }
-    let (x, y, z) = (normalize(a), normalize(b), normalize(c));
+    let (x, y, z) = (unit(a), unit(b), unit(c));
     let (across, along) = (cross(x, y), cross(x, z));
-    let sizes = (dot(across, across) * dot(along, along)).sqrt();
+    let share = one / (dot(across, across) * dot(along, along)).sqrt();
     // The angle at the first corner, by its cosine and sine.
-    let (cos, sin) = (dot(across, along) / sizes, dot(x, cross(y, z)).abs() / sizes);
+    let (cos, sin) = (dot(across, along) * share, dot(x, cross(y, z)).abs() * share);
     let [area_cos, area_sin] = on_circle(u * angle);
     let (s, t) = (area_sin * cos - area_cos * sin, area_cos * cos + area_sin * sin);
     let (p, q) = (t - cos, s + sin * dot(x, y));
@@ -141,8 +159,14 @@ fn within<F: Lanes<Scalar = f32>>([a, b, c]: [[F; 3]; 3], [u, v]: [F; 2], angle:
 fn edge<F: Lanes<Scalar = f32>>(from: [F; 3], to: [F; 3], cosine: F) -> [F; 3] {
     let one = cosine.splat(1.0);
     let cosine = clamp(cosine, -one, one);
-    let aside = normalize(sub(to, scale(dot(to, from), from)));
+    let aside = unit(sub(to, scale(dot(to, from), from)));
     add(scale(cosine, from), scale((one - cosine * cosine).at_least(0.0).sqrt(), aside))
+}
+
+/// The direction of `v`; NaN where there is none.
+#[inline(always)]
+fn unit<F: Lanes<Scalar = f32>>(v: [F; 3]) -> [F; 3] {
+    scale(v[0].splat(1.0) / dot(v, v).sqrt(), v)
 }
 
 #[cfg(test)]
@@ -159,22 +183,28 @@ mod tests {
         triangle.map(|corner| (corner - p).as_vec3().to_array())
     }
 
+    fn solid_angle(triangle: [DVec3; 3], p: DVec3) -> f32 {
+        let [a, b, c] = triangle;
+        let middle = (a + b + c) / 3.0;
+        let about = Triangle::new(triangle.map(|corner| (corner - middle).as_vec3()));
+        about.solid_angle((middle - p).as_vec3().to_array())
+    }
+
     const TRIANGLE: [DVec3; 3] =
         [DVec3::new(-0.5, -0.4, 0.0), DVec3::new(0.7, -0.3, 0.1), DVec3::new(0.0, 0.6, -0.2)];
 
     #[test]
     fn a_corner_of_a_cube_is_an_eighth_of_all_directions() {
-        let angle = solid_angle(ways([DVec3::X, DVec3::Y, DVec3::Z], DVec3::ZERO));
+        let angle = solid_angle([DVec3::X, DVec3::Y, DVec3::Z], DVec3::ZERO);
         assert!((angle - std::f32::consts::FRAC_PI_2).abs() < 1e-6, "{angle}");
-        let from_its_plane = ways(TRIANGLE, TRIANGLE[0].midpoint(TRIANGLE[1]));
-        assert_eq!(solid_angle(from_its_plane), 0.0);
+        assert_eq!(solid_angle(TRIANGLE, TRIANGLE[0].midpoint(TRIANGLE[1])), 0.0);
     }
 
     #[test]
     fn places_of_a_triangle_are_even_over_its_solid_angle() {
         for p in [[0.1, 0.0, 0.3], [0.0, 0.1, 2.0], [3.0, -1.0, 1.0], [20.0, 10.0, -40.0]] {
             let corners = ways(TRIANGLE, DVec3::from_array(p));
-            let angle = solid_angle(corners);
+            let angle = solid_angle(TRIANGLE, DVec3::from_array(p));
             // The mean over the area, each point by the solid angle that it is seen under.
             let [a, b, c] = TRIANGLE.map(|corner| corner - DVec3::from_array(p));
             let normal = (b - a).cross(c - a);
@@ -204,7 +234,7 @@ mod tests {
         let beside = TRIANGLE.map(|corner| corner + DVec3::new(4.0, 0.0, 0.0));
         let mesh = LuminousMesh::new(&[TRIANGLE, beside]);
         let p = DVec3::new(0.2, 0.1, 1.0);
-        let [near, far] = [TRIANGLE, beside].map(|triangle| solid_angle(ways(triangle, p)));
+        let [near, far] = [TRIANGLE, beside].map(|triangle| solid_angle(triangle, p));
         let toward = (mesh.middle - p).as_vec3().to_array();
         let way = |place: [f64; 2]| mesh.choose(toward, place.map(|v| v as f32));
         let chosen = grid(100).filter(|&place| way(place)[0] < 1.0).count();
