@@ -108,7 +108,7 @@ class Material(Keys):
     ``model``: The lobe. Default: "phong".
     ``color``: Diffuse colour. Default: 0.8.
     ``vertex_colors``: What colours of vertices and points do with `color`, be it a texture or
-        not: take its place, or be multiplied by it. Default: "replace".
+        not: take its place, be multiplied by it, or nothing. Default: "replace".
     ``ambient_color``: Ambient colour.
     ``specular_color``: Colour of the highlight; `"object"`: `color`, as metal has it. Default:
         1.0.
@@ -181,7 +181,7 @@ class Material(Keys):
         *,
         model: Literal["phong", "lambert", "blinn-phong", "blinn-fast", "cook-torrance", "ggx", "oren-nayar", "ward"] | None = None,
         color: _Color | Texture | dict[str, Any] | None = None,
-        vertex_colors: Literal["replace", "multiply"] | None = None,
+        vertex_colors: Literal["replace", "multiply", "ignore"] | None = None,
         ambient_color: _Color | Texture | dict[str, Any] | None = None,
         specular_color: _Color | Texture | dict[str, Any] | None = None,
         k_a: float | Texture | dict[str, Any] | None = None,

@@ -13,10 +13,9 @@ use crate::diagnostic::Diagnostic;
 use crate::fog::{Fog, FogDistance, FogKind};
 use crate::format::ExportOptions;
 use crate::light::{Light, LightKind};
-use crate::material::{Material, Model};
+use crate::material::{Material, Model, VertexColors};
 use crate::outline::Outline;
 use crate::scene::{Background, Scene};
-use crate::shape::Shape;
 use crate::texture::Param;
 use crate::wording::words;
 
@@ -246,17 +245,6 @@ impl Scene {
         for material in &mut self.materials {
             dress(material, recipe);
         }
-        if recipe.color.is_some() {
-            let in_groups = self.groups.iter_mut().flat_map(|group| &mut group.objects);
-            for object in self.objects.iter_mut().chain(in_groups) {
-                match &mut object.shape {
-                    Shape::Mesh(mesh) => mesh.colors = Vec::new().into(),
-                    Shape::Points(points) => points.colors = Vec::new().into(),
-                    Shape::Cylinders(cylinders) => cylinders.colors = Vec::new().into(),
-                    _ => {}
-                }
-            }
-        }
     }
 
     /// Fog that begins after this share of the model's depth, and has its strength at the far end; `None`: there
@@ -321,13 +309,16 @@ fn dress(material: &mut Material, recipe: &Recipe) {
     material.viewer = plain.viewer;
     if let Some(color) = recipe.color {
         material.color = Param::Constant(color);
+        material.vertex_colors = VertexColors::Ignore;
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Points;
     use crate::scene::Object;
+    use crate::shape::Shape;
 
     fn ball() -> Scene {
         let ball = Shape::Sphere { center: DVec3::ZERO, radius: 1.0 };
@@ -362,6 +353,21 @@ mod tests {
                 (twice.outline, twice.ambient_occlusion)
             );
         }
+    }
+
+    #[test]
+    fn a_look_of_one_colour_keeps_the_colours_of_points_and_draws_its_own() {
+        let points = || Points {
+            spheres: vec![[0.0, 0.0, 0.0, 1.0]].into(),
+            colors: vec![Rgb::BLACK].into(),
+            ..Points::default()
+        };
+        let mut scene = ball();
+        scene.objects.push(points().into());
+        scene.put_on(NamedLook::Clay);
+        let Shape::Points(kept) = &scene.objects[1].shape else { panic!("points") };
+        assert_eq!(**kept, points());
+        assert!(scene.materials.iter().all(|m| m.vertex_colors == VertexColors::Ignore));
     }
 
     #[test]

@@ -25,7 +25,7 @@
 //! |---|---|---|---|
 //! | `model` | `phong`, `lambert`, `blinn-phong`, `blinn-fast`, `cook-torrance`, `ggx`, `oren-nayar` or `ward` | `"phong"` | The lobe. |
 //! | `color` | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name; or `{ texture = .. }` | `0.8` | Diffuse colour. |
-//! | `vertex_colors` | `replace` or `multiply` | `"replace"` | What colours of vertices and points do with `color`, be it a texture or not: take its place, or be multiplied by it. |
+//! | `vertex_colors` | `replace`, `multiply` or `ignore` | `"replace"` | What colours of vertices and points do with `color`, be it a texture or not: take its place, be multiplied by it, or nothing. |
 //! | `ambient_color` | a colour: a number, `[r, g, b]`, "#rrggbb" or a CSS name; or `{ texture = .. }` | `color` | Ambient colour. |
 //! | `specular_color` (phong, blinn-phong, blinn-fast, cook-torrance, ggx, ward) | a colour (a number, `[r, g, b]`, "#rrggbb", a CSS name) or "object"; or `{ texture = .. }` | `1` | Colour of the highlight; `"object"`: `color`, as metal has it. |
 //! | `k_a` | a number 0 or above; or `{ texture = .. }` | `0.1` | Weight of the ambient term. |
@@ -362,7 +362,7 @@ words!(Tint { "light" = Light, "object" = Object, "metallic" = Metallic });
 
 words!(AmbientRule { "once" = Once, "per-light" = PerLight, "both" = Both });
 
-words!(VertexColors { "replace" = Replace, "multiply" = Multiply });
+words!(VertexColors { "replace" = Replace, "multiply" = Multiply, "ignore" = Ignore });
 
 words!(OpacityMode { "plain" = Plain, "angle" = Angle, "mask" = Mask });
 
@@ -515,6 +515,8 @@ pub enum VertexColors {
     Replace,
     /// It is multiplied by them.
     Multiply,
+    /// Nothing.
+    Ignore,
 }
 
 /// How the share of a surface that is there depends on the angle it is seen at.

@@ -111,7 +111,7 @@ fn colours_that_multiply_their_materials_are_the_same_in_gltf_and_worked_in_else
     };
     let (gltf, ..) = again(scene.clone(), Format::Gltf, "b.glb");
     assert_eq!(seen(&gltf), (colors.to_vec(), VertexColors::Multiply));
-    let (obj, _, mapped) = again(scene, Format::Obj, "b.obj");
+    let (obj, _, mapped) = again(scene.clone(), Format::Obj, "b.obj");
     assert!(mapped.contains("times the `color` of their material"), "{mapped}");
     let (worked_in, how) = seen(&obj);
     assert_eq!(how, VertexColors::Replace);
@@ -120,6 +120,12 @@ fn colours_that_multiply_their_materials_are_the_same_in_gltf_and_worked_in_else
         let near = color.to_array().into_iter().zip(want).all(|(a, b)| (a - b).abs() < 1e-6);
         assert!(near, "{color:?}, not {want:?}");
     }
+    scene.materials.iter_mut().for_each(|m| m.vertex_colors = VertexColors::Ignore);
+    let (gltf, ..) = again(scene.clone(), Format::Gltf, "b.glb");
+    assert_eq!(seen(&gltf).0, [Rgb::WHITE; 3]);
+    let (obj, ..) = again(scene, Format::Obj, "b.obj");
+    let written = seen(&obj).0;
+    assert!(written.iter().take(3).all(|color| (color.r - 0.8).abs() < 1e-6), "{written:?}");
 }
 
 #[test]

@@ -41,7 +41,7 @@ pub(crate) static MATERIAL: Table = Table {
             Kind::Word(VertexColors::WORDS),
             Default::Word("replace"),
             "What colours of vertices and points do with `color`, be it a texture or not: take its \
-             place, or be multiplied by it.",
+             place, be multiplied by it, or nothing.",
         )
         .of(field!(Material.vertex_colors)),
         Key::new("ambient_color", Kind::Color, Default::Said("`color`"), "Ambient colour.")

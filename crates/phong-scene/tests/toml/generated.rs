@@ -400,7 +400,11 @@ impl Make {
             name: if number == 0 { "default".into() } else { format!("{} {number}", self.name()) },
             model,
             color: self.color(),
-            vertex_colors: self.one(&[VertexColors::Replace, VertexColors::Multiply]),
+            vertex_colors: self.one(&[
+                VertexColors::Replace,
+                VertexColors::Multiply,
+                VertexColors::Ignore,
+            ]),
             ambient_color: if self.flag() { None } else { Some(self.color()) },
             specular_color: match self.below(3) {
                 0 if glossy => None,

@@ -99,7 +99,7 @@ impl View {
         written: impl FnOnce() -> Rgb,
     ) -> Rgb {
         match (own, self.materials[material as usize].vertex_colors) {
-            (None, _) => written(),
+            (None, _) | (_, VertexColors::Ignore) => written(),
             (Some(own), VertexColors::Replace) => own,
             (Some(own), VertexColors::Multiply) => written() * own,
         }

@@ -6,8 +6,8 @@ use phong::film::LayerKind;
 use phong_bvh::Ray;
 use phong_scene::{Limits, Memory, Object, Scene, Shape, VertexColors, read};
 
-use super::drawn;
 use super::images::png;
+use super::{drawn, picture};
 
 /// A sheet with texture coordinates, the same without and standing as an instance, and points, all of many colours
 /// and cut open.
@@ -80,6 +80,9 @@ fn what_is_multiplied_is_the_materials_colour_times_that_of_vertices_and_points(
         count += u32::from(is_brought && got != own);
     }
     assert!(count > 500, "{count} channels were multiplied");
+    let mut ignored = scene.clone();
+    ignored.materials.iter_mut().for_each(|m| m.vertex_colors = VertexColors::Ignore);
+    assert_eq!(picture(&ignored), picture(&bare(&scene)));
 }
 
 #[test]

@@ -354,9 +354,14 @@ impl<'s> Writer<'s> {
     /// Colours, by which a reader multiplies the material's.
     fn colors(&mut self, colors: &[Rgb], material: u32) -> usize {
         let of = self.scene.materials.get(material as usize);
-        let replaced = of.filter(|m| m.vertex_colors == VertexColors::Replace);
+        let how = of.map_or(VertexColors::Multiply, |m| m.vertex_colors);
+        let replaced = of.filter(|_| how == VertexColors::Replace);
         let base = replaced.map_or(Rgb::WHITE, |m| base_color(&m.at(|_| Rgb::grey(0.5))));
-        let share = |c: f32, base: f32| if base > 0.0 { c / base } else { c };
+        let share = |c: f32, base: f32| match how {
+            VertexColors::Ignore => 1.0,
+            _ if base > 0.0 => c / base,
+            _ => c,
+        };
         let all = colors
             .iter()
             .flat_map(|c| [share(c.r, base.r), share(c.g, base.g), share(c.b, base.b)]);
