@@ -100,7 +100,8 @@ pub(super) fn read(
         lost = maps.base.is_none() && glossy.get("diffuseTexture").is_some();
         image(&glossy, "specularGlossinessTexture");
     }
-    if colored && !says_metal && maps.base.is_none() && maps.facets.is_none() {
+    let is_unlit = at.extension("KHR_materials_unlit").is_some();
+    if is_unlit || colored && !says_metal && maps.base.is_none() && maps.facets.is_none() {
         metallic = 0.0;
     }
     let [r, g, b, alpha] = base.map(|c| if c < 0.0 { 0.0 } else { c });
@@ -135,7 +136,7 @@ pub(super) fn read(
     if !glow.is_black() {
         (material.k_e, material.emission_color) = (1.0.into(), Some(glow.into()));
     }
-    if at.extension("KHR_materials_unlit").is_some() {
+    if is_unlit {
         // The base colour as it is, whatever the light.
         material.color = Rgb::from([r, g, b].map(|c| c as f32)).into();
         material.ambient_color = None;

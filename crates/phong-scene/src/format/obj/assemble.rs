@@ -15,7 +15,7 @@ use crate::format::text::{Cursor, Findings, Piece, TOLD, whole};
 use crate::format::triangles::{cut, tidy};
 use crate::fragment::Fragment;
 use crate::limits::Limits;
-use crate::material::Material;
+use crate::material::{Material, VertexColors};
 use crate::mesh::{FLAT, Mesh, NO_INDEX, Points, Shared, collapse_faces};
 use crate::scene::Object;
 use crate::shape::Shape;
@@ -171,7 +171,10 @@ impl Assembly {
         }
         self.mesh.origin = context.origin;
         self.mend_colors(context);
-        let materials = self.assign_materials(libraries);
+        let mut materials = self.assign_materials(libraries);
+        if !self.mesh.colors.is_empty() {
+            self.prefer_images(&mut materials, context);
+        }
         let unplaced = self.mesh.take_unplaced();
         let points = self.take_points(unplaced.as_deref(), input.radius, context);
         let mesh = self.triangulate(unplaced.as_deref(), context);
@@ -458,6 +461,21 @@ impl Assembly {
         }
         self.mesh.face_materials = faces.into();
         materials
+    }
+
+    /// Where an image gives the colour, those of the vertices are not drawn: scans have both, and both say the same.
+    fn prefer_images(&mut self, materials: &mut [Material], context: &Context) {
+        let colors = &self.mesh.colors;
+        let is_imaged = |material: &&mut Material| material.color.texture().is_some();
+        let mut count = 0;
+        for material in materials.iter_mut().filter(is_imaged) {
+            material.vertex_colors = VertexColors::Ignore;
+            count += 1;
+        }
+        if count > 0 && colors.windows(2).any(|pair| pair[0] != pair[1]) {
+            let tell = || "colours of vertices are not drawn where there is a texture".to_owned();
+            self.findings.warning("colours under a texture", || whole(&context.file), tell);
+        }
     }
 
     fn material(&mut self, name: u32, libraries: &mut Libraries<'_>) -> Material {

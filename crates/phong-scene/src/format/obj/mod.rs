@@ -8,7 +8,7 @@
 //! |---|---|
 //! | `v x y z` | a position; what stands far from the origin is kept relative to [`Mesh::origin`](crate::Mesh::origin) |
 //! | `v x y z w` | the same: polygons do not use the weight |
-//! | `v x y z r g b` | a position with a colour, which is sRGB; beside such, a position without one is grey; if all are whole numbers up to 255 and one is at least 2, they are bytes |
+//! | `v x y z r g b` | a position with a colour, which is sRGB; beside such, a position without one is grey; if all are whole numbers up to 255 and one is at least 2, they are bytes. Not drawn under a `map_Kd`, with a warning |
 //! | `vt u v`, `vn x y z` | a texture coordinate, a normal; `vt` may lack v, and more is ignored |
 //! | `f a b c …` | a polygon of corners `v`, `v/vt`, `v//vn`, `v/vt/vn`; negative indices count back from the last; concave polygons are cut by clipping ears |
 //! | `s number`, `s off` | in a file without normals: faces of one group are smooth among themselves, those of none are flat; without any `s`, smooth where faces meet under 60° |
