@@ -2,7 +2,8 @@
 """Parts a module of WebAssembly in two: `python3 .ci/split.py MODULE REST`.
 
 MODULE keeps what every scene needs. What few do is moved to REST: letters and their drawing, models of other programs,
-images, cuts, occlusion, files that are written, grades. REST is fetched when one of its functions is called for the first time.
+images, cuts, occlusion, outlines, files that are written, grades. REST is fetched when one of its functions is called for
+the first time.
 No function is changed, so the bits are the same. Binaryen's `wasm-split` does it; this says which functions go.
 """
 
@@ -25,7 +26,7 @@ SELDOM = re.compile(
     r"\b(rustybuzz|unicode_\w+|ttf_parser|tiny_skia\w*|zune_\w+|bevy_mikktspace"
     r"|fdeflate|miniz_oxide|flate2|png::(adam7|decoder|encoder|filter)"
     r"|phong_lab::(furniture|draw|grade|figures|tell::html)"
-    r"|phong::(view::clip|integrator::openness|part::settings)"
+    r"|phong::(view::clip|integrator::openness|part::settings|finish::(outline|cel|patch))"
     r"|phong_scene::(molecule|texels::(decoded|file|jpeg|png|radiance))"
     r"|phong_scene::format::(gltf|tachyon|ply|obj|off|nff|stl|cif|gro|pdb|xyz|lammps|atoms|dcd|mtl|frames)"
     r"|phong::(image::(exr|jpeg|picture|png::write|write)|part::(join|tone|Part|write)|geometry::tangents))\b"

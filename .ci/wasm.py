@@ -30,7 +30,7 @@ ROOT = Path(__file__).resolve().parent.parent
 SCENES = sorted((ROOT / "scenes").glob("*.toml"))
 SETS = ["--set", "image.size=[320, 180]", "--set", "image.samples=4"]
 LARGEST = 1_170_000  # bytes of the first part of the module with vectors, gzipped: what is loaded before anything is seen
-LARGEST_REST = 800_000  # bytes of its rest, gzipped
+LARGEST_REST = 810_000  # bytes of its rest, gzipped
 POLICY = (
     "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' blob: data:; "
     "connect-src 'self'; worker-src 'self'; base-uri 'self'; form-action 'none'; frame-ancestors 'none'"
