@@ -6,7 +6,7 @@ use std::time::Instant;
 use phong::aov::Aov;
 use phong::film::{Film, Window};
 use phong::image::Encoding;
-use phong::part::{Settings, furniture_of};
+use phong::part::Settings;
 use phong::render::{Cancel, Event, Progress, RenderOptions, render as render_film};
 use phong::terms::{Term, TermSet};
 use phong::view::ViewError;
@@ -345,16 +345,13 @@ pub(crate) fn _explain(
     let pixel = [u32::try_from(x), u32::try_from(y)];
     let [Ok(x), Ok(y)] = pixel else { return Err(outside()) };
     let work = move |cancel: &Cancel| {
-        use phong_lab::furniture::over_pixel;
+        use phong_lab::furniture::expose;
         use phong_lab::tell::{Telling, json, latex, text};
         let Asked { snapshot, options, image, max_bytes, .. } = asked;
         let ready = snapshot.prepare(image, max_bytes)?;
         let told = phong::explain::explain(&ready.view, &options, [x, y]);
         let told = told.map(|mut told| {
-            told.expose(&ready.scene, &ready.view, &options, &|_| {}, cancel);
-            if let Some(furniture) = furniture_of(&ready.scene) {
-                told.furniture = over_pixel(&furniture, &ready.view, &options, [x, y], cancel);
-            }
+            expose(&mut told, &ready.scene, &ready.view, &options, &|_| {}, cancel);
             let telling = Telling::default();
             (json(&told).to_string(), text(&told, &telling), latex(&told, &telling))
         });

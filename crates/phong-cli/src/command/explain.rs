@@ -7,10 +7,9 @@ use phong::explain::{Explanation, explain, exposed_by};
 use phong::film::{LayerKind, Window};
 use phong::finish::{Finishing, finish};
 use phong::image::{self, Content, Encoding, Format};
-use phong::part::furniture_of;
 use phong::render::{Cancel, Event, RenderOptions, render};
 use phong::view::View;
-use phong_lab::furniture::over_pixel;
+use phong_lab::furniture;
 use phong_lab::tell::html::{MAX_PIXELS, page};
 use phong_lab::tell::{self, Telling};
 use phong_scene::Scene;
@@ -154,10 +153,7 @@ fn expose(
         }
     };
     let cancelled = interrupt::heeding(|cancel| {
-        told.expose(scene, view, options, &listen, cancel);
-        if let Some(furniture) = furniture_of(scene) {
-            told.furniture = over_pixel(&furniture, view, options, told.pixel, cancel);
-        }
+        furniture::expose(told, scene, view, options, &listen, cancel);
         cancel.is_cancelled()
     });
     meter.finish();

@@ -13,10 +13,11 @@ mod svg;
 mod text;
 
 use phong::aov::Aov;
+use phong::explain::Explanation;
 use phong::film::{Film, LayerKind, Window};
 use phong::finish::{Finished, Finishing, Patch};
 use phong::part::{Settings, furniture_of};
-use phong::render::{Cancel, RenderOptions, render};
+use phong::render::{Cancel, Event, RenderOptions, render};
 use phong::terms::TermSet;
 use phong::view::View;
 use phong_scene::{Diagnostic, Furniture, Hidden, Scene};
@@ -79,6 +80,21 @@ pub fn over_pixel(
     let all = raster::patches(&groups(&Font::new(), &seen, size), size);
     let cut = all.iter().filter_map(|patch| patch.cut(Window::pixel([x, y]), [x, y]));
     cut.filter(|patch| patch.pixels.iter().any(|pixel| pixel[3] > 0)).collect()
+}
+
+/// Finds out how an explained pixel's light becomes what a PNG of the scene's picture shows
+/// ([`Explanation::expose`]), and what of the furniture lies over it.
+pub fn expose(
+    told: &mut Explanation,
+    scene: &Scene,
+    view: &View,
+    options: &RenderOptions,
+    listen: &(dyn Fn(Event<'_>) + Sync),
+    cancel: &Cancel,
+) {
+    told.expose(scene, view, options, listen, cancel);
+    let over = |figure: Scene| over_pixel(&figure, view, options, told.pixel, cancel);
+    told.furniture = furniture_of(scene).map(over).unwrap_or_default();
 }
 
 /// The settings of a film's finished picture as a film of its own, whose furniture is still to be drawn: by

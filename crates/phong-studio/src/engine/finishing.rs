@@ -68,9 +68,7 @@ pub(super) fn whole(
             let colors = if finishing.tone == Tone::default() {
                 Cow::Borrowed(colors)
             } else {
-                let mut toned = colors.to_vec();
-                finished.tone().apply(&mut toned, alphas);
-                Cow::Owned(toned)
+                Cow::Owned(finished.tone().toned(colors, alphas))
             };
             for (color, alpha) in colors.as_chunks::<3>().0.iter().zip(alphas) {
                 color.iter().chain([alpha]).for_each(|v| bytes.extend(v.to_le_bytes()));

@@ -240,11 +240,7 @@ impl Painting {
             });
             let colors = sum.as_deref().unwrap_or(colors);
             let colors = match &tone {
-                Some(tone) => {
-                    let mut toned = colors.to_vec();
-                    tone.apply(&mut toned, alphas);
-                    Cow::Owned(toned)
-                }
+                Some(tone) => Cow::Owned(tone.toned(colors, alphas)),
                 None => Cow::Borrowed(colors),
             };
             let frame = TileFrame {

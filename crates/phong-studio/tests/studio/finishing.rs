@@ -3,7 +3,7 @@
 use phong::film::Film;
 use phong::finish::finish;
 use phong::image::{Content, Encoding, Format, write};
-use phong::part::{Settings, furniture_of};
+use phong::part::Settings;
 use phong::render::{Cancel, RenderOptions, render};
 use phong::scene::{Limits, Memory, Scene, read};
 use phong::view::View;
@@ -141,16 +141,11 @@ fn assert_finished_and_told(text: &str) {
     let finished = furniture::finish(&film, &settings);
     assert_eq!(seen(&talk.page), bits(&finished.into_film()));
     let options = options.with_samples(1).unwrap();
-    let figure = furniture_of(&scene);
     let mut changed = 0;
     for mut talk in [talk, Talk::sharing(text, 1, 2)] {
         for pixel in [[10, 8], [16, 12], [22, 9], [16, 1], [3, 2]] {
             let mut told = phong::explain::explain(&view, &options, pixel).unwrap();
-            told.expose(&scene, &view, &options, &|_| {}, &Cancel::new());
-            if let Some(figure) = &figure {
-                told.furniture =
-                    furniture::over_pixel(figure, &view, &options, pixel, &Cancel::new());
-            }
+            furniture::expose(&mut told, &scene, &view, &options, &|_| {}, &Cancel::new());
             changed += u32::from(told.cel.is_some() || !told.furniture.is_empty());
             talk.ask(&json!({ "do": "explain", "id": 1, "pixel": pixel }));
             assert_eq!(

@@ -216,9 +216,8 @@ impl Finished<'_> {
         if self.lined.is_none() && self.patches.is_empty() && self.tone.only_gain().is_some() {
             return None;
         }
-        let mut drawn = self.lined.clone().unwrap_or_else(|| values(&self.film));
-        let [picture, alpha] = &mut drawn;
-        self.tone.apply(picture, alpha);
+        let [picture, alpha] = self.lined.clone().unwrap_or_else(|| values(&self.film));
+        let mut drawn = [self.tone.toned(&picture, &alpha), alpha];
         for patch in &self.patches {
             patch.over_linear(self.film.window, &mut drawn);
         }

@@ -102,11 +102,13 @@ impl ToneMap {
     }
 
     /// What becomes of a picture: three values a pixel, premultiplied with its alpha. Not yet clamped.
-    pub fn apply(&self, picture: &mut [f32], alpha: &[f32]) {
-        for (pixel, &alpha) in picture.as_chunks_mut::<3>().0.iter_mut().zip(alpha) {
-            let straight = pixel.map(|v| if alpha > 0.0 { v / alpha } else { 0.0 });
-            *pixel = (self.steps(straight.into()).last() * alpha).to_array();
-        }
+    pub fn toned(&self, picture: &[f32], alpha: &[f32]) -> Vec<f32> {
+        let pixels = picture.as_chunks::<3>().0.iter().zip(alpha);
+        let toned = pixels.flat_map(|(color, &alpha)| {
+            let straight = color.map(|v| if alpha > 0.0 { v / alpha } else { 0.0 });
+            (self.steps(straight.into()).last() * alpha).to_array()
+        });
+        toned.collect()
     }
 
     /// What becomes of a pixel's light, whose alpha is divided out.
